@@ -94,7 +94,7 @@ def main() -> None:
     parser.add_argument("--known", action="store_true", help="ask of no further test what it executes")
     parser.add_argument("--share", default="1/1", help="judge the first third of them with 1/3; all are shown")
     parser.add_argument("--seconds", type=float, default=40.0, help="so long the tests of a mutant may take")
-    parser.add_argument("--again", action="store_true", help="judge anew what survived a former call")
+    parser.add_argument("--again", action="store_true", help="judge again what survived a former call")
     options = parser.parse_args()
     options.folder.mkdir(exist_ok=True, parents=True)
     for name in _LOADED.split():

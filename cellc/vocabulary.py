@@ -36,9 +36,9 @@ class Feature(Enum):
     HARDWARE_NODES = "every hardware component has a node"
     DESCRIPTION_TOPIC = "the controller manager takes the robot description from a topic, not from a parameter"
     LIMITED_COMMANDS = "the controller manager can enforce the joint limits of the description"
-    LIMITED_BY_DEFAULT = "it does so unless it is told otherwise"
+    LIMITED_BY_DEFAULT = "it does so by default"
     PREEMPTED_GOALS = "a trajectory controller calls a replaced goal preempted, not canceled"
-    TRAJECTORIES_END_AT_REST = "a trajectory must end with zero velocity unless the controller is told otherwise"
+    TRAJECTORIES_END_AT_REST = "a trajectory must end with zero velocity by default"
     SCALED_STATE = "JointTrajectoryControllerState has the speed scaling factor in place of desired and actual"
     PLUGIN_LISTS = "MoveIt takes planning plugins and their adapters as lists"
     EXIT_ENDS_LAUNCH = 'launch XML knows `on_exit="shutdown"`'

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-_CALLED = '''"""Notes which test executes a statement; stands in a copy of the sources alone."""
+_CALLED = '''"""Notes which test executes a statement; only in a copy of the sources."""
 import os
 
 seen = bytearray({count})

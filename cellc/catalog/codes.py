@@ -157,7 +157,7 @@ _XML = (
     _page(
         "xml-too-deep",
         f"elements are nested deeper than {DEFAULTS.xml_depth} levels",
-        "A robot description nests five or six levels; deeper files exhaust the stack of whoever reads them.",
+        "A robot description nests five or six levels; deeper files exhaust the stack of the parser.",
         "check that the file is a robot description",
     ),
     _page(
@@ -177,8 +177,7 @@ _URDF = (
     _page(
         "urdf-bad-number",
         "a number is malformed, not finite, or the count of numbers is wrong",
-        "Parsers of robot descriptions read `nan`, `1,5` or a missing third number in different ways, some "
-        "silently as zero.",
+        "Parsers of robot descriptions read `nan`, `1,5` or a missing third number differently, some silently as zero.",
         "write finite numbers with a decimal point, in m, kg and rad",
     ),
     _page(
@@ -223,8 +222,8 @@ _XACRO = (
     _page(
         "xacro-failed",
         "xacro cannot expand the description",
-        "What xacro says stands in the message: an unknown macro, a missing parameter, an expression that fails.",
-        "mend the line that is marked",
+        "The message quotes xacro: an unknown macro, a missing parameter, an expression that fails.",
+        "fix the marked line",
     ),
     _page(
         "xacro-file-not-found",
@@ -234,7 +233,7 @@ _XACRO = (
     ),
     _page(
         "xacro-missing-argument",
-        "a description asks for an argument that nobody gave",
+        "a description needs an argument that has no value",
         "It has no default, so the description cannot be expanded. To be given it needs no `<xacro:arg>`.",
         "give the argument a value, or a default in `<xacro:arg>`",
     ),
@@ -294,7 +293,7 @@ _XACRO = (
         "whose pattern matches no file, and where the description itself calls `xacro.warning`. The expansion goes on, "
         "and so does every tool behind it: what was meant may be missing from the robot, or come from the other "
         "definition.",
-        "mend what the message names",
+        "fix what the message names",
         Severity.WARNING,
     ),
 )
@@ -303,7 +302,7 @@ _CATALOGUE = (
         "catalogue-entry-invalid",
         "a `device.yaml`, or the file of its family, is not what the catalog expects",
         "Everything derived from the device rests on it: joints, interfaces, versions, limits.",
-        "mend the value that is marked; CONTRIBUTING.md walks through a device",
+        "fix the marked value; CONTRIBUTING.md shows how to describe a device",
     ),
 )
 

@@ -98,7 +98,7 @@ class SafetyFacts(CatalogModel):
         states: States of the device's own safety controller.
         told: Topics that say in which state the device is.
         modes: Operating modes of the device, by the vendor's names.
-        recovery: Ways out of the states that stop the device.
+        recovery: Recovery from the states that stop the device.
         ending: What people do at the device when nothing is claimed any more, before its driver ends.
         ended: What people do at the device after its driver has ended.
         watchdog: What the device does when commands stop, and after how long, such as ``20 lost packets stop the arm``.

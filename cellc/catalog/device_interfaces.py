@@ -19,7 +19,7 @@ from cellc.catalog.catalog_model import (
     Text,
     Token,
 )
-from cellc.catalog.effects import EffectFacts, StartFacts, ToldFacts
+from cellc.catalog.effects import EffectFacts, NeedStatusFacts, StartFacts
 from cellc.catalog.programs import InnerNodeFacts
 from cellc.pins import same_version
 from cellc.spec.quantity import Frequency, PositiveDuration
@@ -94,7 +94,7 @@ class CommandFacts(CatalogModel):
 
 
 class CommandModes(CatalogModel):
-    """Ways of commanding a device of which its plugin takes one at a time.
+    """Command modes of a device of which its plugin takes one at a time.
 
     Attributes:
         names: Interfaces of joints, such as ``position``, and names of gpios without prefix that a controller may
@@ -124,7 +124,7 @@ class HardwareFacts(CatalogModel):
         told: Topics that say whether a need holds, such as ``program_running``.
         command_timeout: Longest silence of the controller manager before the device ends what it does.
         nodes: Nodes that the plugin makes in the process of the controller manager.
-        modes: Ways of commanding that exclude each other.
+        modes: Command modes that exclude each other.
         fixed_joint_names: Whether the plugin has the joint names in its code, so that it ignores those of the
             description.
         source: Package with its version, or line of code.
@@ -138,7 +138,7 @@ class HardwareFacts(CatalogModel):
     commands: dict[BehaviourName, CommandFacts] = Field(default_factory=dict)
     effects: dict[MomentName, EffectFacts] = Field(default_factory=dict)
     start: StartFacts | None = None
-    told: dict[NeedName, ToldFacts] = Field(default_factory=dict)
+    told: dict[NeedName, NeedStatusFacts] = Field(default_factory=dict)
     command_timeout: PositiveDuration | None = None
     nodes: tuple[InnerNodeFacts, ...] = ()
     modes: CommandModes | None = None

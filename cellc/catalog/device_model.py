@@ -88,7 +88,7 @@ class KinematicsFacts(CatalogModel):
 
 
 class PackageFacts(CatalogModel):
-    """ROS package or library names as in the version tuple; absent where there is none.
+    """ROS package or library names as in the version tuple; absent without one.
 
     Attributes:
         driver: ROS package of the driver, such as ``my_arm_driver``; its version is pinned as ``driver`` in the spec.

@@ -58,7 +58,7 @@ class EffectFacts(CatalogModel):
         return told.get(distro, Unmet.UNKNOWN) if isinstance(told, dict) else told
 
 
-class ToldFacts(CatalogModel):
+class NeedStatusFacts(CatalogModel):
     """Where the cell hears whether a need holds: a topic that a controller of this device publishes.
 
     Attributes:

@@ -31,7 +31,7 @@ class ProgramFacts(CatalogModel):
     """The program on the robot through which set points pass.
 
     Attributes:
-        ways: Ways in which it starts; the first counts if the spec says nothing.
+        ways: Start modes; the first is used if the spec names none.
         source: Document or line of code from which this was read.
     """
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 FIX = click.option(
     "--fix",
     is_flag=True,
-    help="Mend what has one safe answer in the files: misspelt keys and units, the modeline.",
+    help="Fix what has one safe answer in the files: misspelled keys and units, the modeline.",
 )
 # A mended key can show a misspelt one below it; no spec is nested deeper.
 _PASSES = 16
@@ -64,7 +64,7 @@ def check(
     """
     wanted = read_selection(select, ignore)
     files = cell_files(files)
-    with progress("mending") as update:
+    with progress("fixing") as update:
         for file in files if fix else ():
             update(file)
             fix_file(file)

@@ -30,7 +30,7 @@ _COMMANDS = {
     "lsp": "Answer an editor: the language server of cells and devices.",
     "mock": "Execute the rehearsals of a generated folder.",
     "schema": "Print or write the JSON schemas.",
-    "show": "Show a resolved value and where it came from.",
+    "show": "Show a resolved value and its source.",
     "upgrade": "Tell what another distribution of ROS 2 would change.",
     "view": "Write one HTML page of a cell: 3D, rehearsals, findings.",
     "watch": "Check cells, and build them, whenever a file is saved.",

@@ -34,7 +34,7 @@ _HEAD_BYTES = 200
     shell_complete=complete_rehearsal,
     help="Play back only this one; may be given several times.",
 )
-@click.option("--against", metavar="OTHER", help="Draw where things stood in this spec, folder or git revision too.")
+@click.option("--against", metavar="OTHER", help="Also draw the poses of this spec, folder or git revision.")
 @click.option("--seed", default=0, show_default=True, help="Seed of planning and of seeded faults.")
 @limit_option
 def view(folder: str, output: Path | None, names: tuple[str, ...], against: str | None, seed: int) -> None:

@@ -158,7 +158,7 @@ class BringUpStep(ContractModel):
     host: str = Field(description="Computer that takes it; empty where the cell names none.")
     proof: tuple[Proof, ...] = Field(description="What must show before it.")
     request: Request | None = Field(None, description="What is asked for; null where only the proof counts.")
-    effect: tuple[Proof, ...] = Field((), description="What must show after it; looked at once the proof holds, too.")
+    effect: tuple[Proof, ...] = Field((), description="What must show after it; checked when the proof holds, too.")
     deadline_s: float = Field(description="Time until the proof, and again until the effect.", gt=0.0)
 
 

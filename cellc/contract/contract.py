@@ -48,7 +48,7 @@ class ContractCalibration(ContractModel):
     """A measurement that transforms rest on."""
 
     revision: Count = Field(description="Counts up with every measurement.")
-    owner: str = Field(description="Who answers for it.")
+    owner: str = Field(description="Person or role responsible for it.")
 
 
 class ContractClock(ContractModel):
@@ -100,7 +100,7 @@ class ContractEndpoint(ContractModel):
     node: str = Field(description="Name of the node, controller or device, which no other end has.")
     full_name: str = Field(description="Fully qualified name of the node in the ROS graph.")
     targets: tuple[Literal["mock", "real"], ...] = Field(
-        ("mock", "real"), description="Targets on which it stands there."
+        ("mock", "real"), description="Targets on which it is present."
     )
     qos: ContractQos = Field(description="Its profile.")
 
@@ -124,7 +124,7 @@ class ContractInterface(ContractModel):
     frame: str | None = Field(None, description="Frame of the payload.")
     unit: str | None = Field(None, description="Unit of the payload.")
     time_source: str | None = Field(None, description="Clock of the stamps.")
-    owner: str | None = Field(None, description="Who answers for it.")
+    owner: str | None = Field(None, description="Person or role responsible for it.")
     wants: str | None = Field(None, description="What the consumer needs: newest or every_sample.")
     rate_hz: Rate | None = Field(None, description="Publishing rate.")
     max_age_s: Seconds | None = Field(None, description="Oldest sample that may be used.")
@@ -132,9 +132,9 @@ class ContractInterface(ContractModel):
     on_stale: str | None = Field(None, description="What happens on an older sample.")
     timeout_s: PositiveSeconds | None = Field(None, description="Bound of a response or a whole goal.")
     on_timeout: str | None = Field(None, description="What the client does then.")
-    on_error: str | None = Field(None, description="How an error is told.")
+    on_error: str | None = Field(None, description="How an error is reported.")
     cancel_within_s: Seconds | None = Field(None, description="Bound from cancel to hold.")
-    simulated: ContractNetwork | None = Field(None, description="How the mock carries it; null for at once.")
+    simulated: ContractNetwork | None = Field(None, description="How the mock carries it; null for no delay.")
 
 
 class ContractController(ContractModel):
@@ -194,7 +194,7 @@ class ContractGripper(ContractModel):
     closed: Coordinate = Field(description="Position when closed on nothing.")
     max_effort: Magnitude = Field(description="Largest effort, N or Nm.")
     max_velocity: PositiveMagnitude | None = Field(
-        None, description="Speed of the joint as the jaws move, rad/s or m/s; null where nobody tells."
+        None, description="Speed of the joint as the jaws move, rad/s or m/s; null where it is not stated."
     )
 
 
@@ -230,7 +230,7 @@ class ContractEffect(ContractModel):
     """What one moment in the life of a real device does in the world, as far as the mock plays it."""
 
     motion: Motion = Field(Motion.NONE, description="What moves.")
-    lock: ManagerLock = Field(ManagerLock.NONE, description="For how long its controller manager stands still.")
+    lock: ManagerLock = Field(ManagerLock.NONE, description="For how long its controller manager is blocked.")
     needs: dict[Need, Unmet] = Field({}, description="What must hold before it, and what happens otherwise.")
     largest_step: PositiveMagnitude | None = Field(
         None, description="Distance of a set point that is still followed, rad or m; null without bound."
@@ -283,7 +283,7 @@ class ContractAdapter(ContractModel):
     command_period_s: Period = Field(description="Time from one command to the next.", gt=0.0)
     command_timeout_s: PositiveSeconds = Field(description="Watchdog: silence after which it stops.", gt=0.0)
     stop_time_s: PositiveSeconds = Field(description="Longest time from a hold to standstill.", gt=0.0)
-    goal_time_s: Seconds = Field(description="Time past the end of a trajectory within which it stands still.", gt=0.0)
+    goal_time_s: Seconds = Field(description="Time past the end of a trajectory until standstill.", gt=0.0)
     path_tolerance: PositiveMagnitude = Field(
         description="Distance from the command that ends a goal, rad or m.", gt=0.0
     )
@@ -303,8 +303,8 @@ class ContractJointLimits(ContractModel):
 class ContractSimulatedJoint(ContractModel):
     """A joint that lags, saturates or is measured with noise; rad and rad/s, or m and m/s."""
 
-    lag_s: Seconds = Field(0.0, description="Time constant of a first-order lag; 0 is none.")
-    noise: Magnitude = Field(0.0, description="Largest error of the measured position; 0 is none.")
+    lag_s: Seconds = Field(0.0, description="Time constant of a first-order lag; 0 for no lag.")
+    noise: Magnitude = Field(0.0, description="Largest error of the measured position; 0 for no error.")
     max_velocity: PositiveMagnitude | None = Field(
         None, description="Speed at which it saturates; null where it does not."
     )
@@ -381,7 +381,7 @@ class Contract(ContractModel):
     clock_of: dict[str, str] = Field(
         default_factory=dict, description="Clock of each node, controller and device that makes or ages stamps."
     )
-    plugin_behaviours: dict[str, Behaviour] = Field(description="Behaviour of each controller plugin.")
+    plugin_behaviours: dict[str, Behaviour] = Field(description="Behavior of each controller plugin.")
     devices: dict[str, ContractDevice] = Field(description="Devices by name.")
     simulated_joints: dict[str, ContractSimulatedJoint] = Field(
         default_factory=dict, description="What the mock adds to joints, by joint."

@@ -38,7 +38,7 @@ class FleetRow(ContractModel):
     source: str = Field(description="Spec or generated folder, as it was named.")
     versions: dict[str, str] = Field(description="Parts of the tuple by which rows differ, and `ros`.")
     passed: bool = Field(description="Whether everything is as it must be.")
-    problem: str = Field("", description="Why nothing came of it; empty where something did.")
+    problem: str = Field("", description="Why there is no result; empty where there is one.")
     findings: tuple[ReviewFinding, ...] | None = Field(
         None, description="Of the check, options applied; null for a generated folder, which is not checked again."
     )

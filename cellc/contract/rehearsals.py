@@ -17,7 +17,7 @@ class StepEntry(ContractModel):
     )
     target: str = Field(description="Pose, goal, frame, device, service, or who acknowledges.")
     command: Literal["open", "close", "together"] | None = Field(
-        None, description="What the gripper does; `together` where the groups of a pose move at once."
+        None, description="What the gripper does; `together` where the groups of a pose move simultaneously."
     )
     state: str | None = Field(None, description="State that a switched device is set to, or that its sensors tell.")
     duration_s: Seconds | None = Field(None, description="How long a wait lasts.")
@@ -53,7 +53,7 @@ class FaultEntry(ContractModel):
     delay_s: Seconds | None = Field(None, description="How late samples arrive.")
     jump_s: Offset | None = Field(None, description="How far a clock jumps; negative is back.")
     displacement: Coordinate | None = Field(
-        None, description="How far a joint stands beside its command, or is jogged, rad or m."
+        None, description="Offset of a joint from its command, or how far it is jogged, rad or m."
     )
     velocity: PositiveMagnitude | None = Field(None, description="Speed that a joint does not exceed, rad/s or m/s.")
     factor: Share | None = Field(None, description="Speed scaling, 0 to 1.")

@@ -28,7 +28,7 @@ class ReviewChange(ContractModel):
     subjects: tuple[str, ...] = Field(description="Frame, joint, controller, interface or whatever changed.")
     quantity: str = Field(description="What of it changed.")
     before: str | None = Field(None, description="Value before; null where there was none.")
-    after: str | None = Field(None, description="Value after; null where there is none.")
+    after: str | None = Field(None, description="Value after; null where it is removed.")
     delta: str = Field("", description="The difference where it has a size: mm, degrees or percent.")
     grade: Grade = Field(description="How it is taken.")
     breaking: bool = Field(False, description="A consumer outside of the cell breaks.")
@@ -57,11 +57,11 @@ class ReviewRehearsal(ContractModel):
 
 
 class ReviewGate(ContractModel):
-    """A gate that must be passed again."""
+    """A gate that must be repeated."""
 
     code: GateCode = Field(description="Gate or layer.")
     title: str = Field(description="Its title.")
-    evidence: str = Field(description="File of evidence that counts no longer.")
+    evidence: str = Field(description="File of evidence that is no longer valid.")
     because: tuple[ReviewArea, ...] = Field(description="Areas whose changes it is the first to look at.")
 
 
@@ -72,10 +72,10 @@ class Review(ContractModel):
     before: ReviewSide = Field(description="The state before.")
     after: ReviewSide = Field(description="The state after.")
     changes: tuple[ReviewChange, ...] = Field(description="By grade, the worst first, then by area.")
-    new_findings: tuple[ReviewFinding, ...] = Field((), description="Findings of the check that came.")
-    gone_findings: tuple[ReviewFinding, ...] = Field((), description="Findings of the check that went.")
+    new_findings: tuple[ReviewFinding, ...] = Field((), description="New findings of the check.")
+    gone_findings: tuple[ReviewFinding, ...] = Field((), description="Findings of the check that are resolved.")
     rehearsals: tuple[ReviewRehearsal, ...] = Field((), description="Outcomes, where rehearsals were asked for.")
-    gates: tuple[ReviewGate, ...] = Field((), description="Gates to pass again.")
+    gates: tuple[ReviewGate, ...] = Field((), description="Gates to repeat.")
     files: tuple[str, ...] = Field((), description="Generated files that differ.")
     notes: tuple[str, ...] = Field((), description="What is odd about a side, such as a file edited by hand.")
 

@@ -28,7 +28,7 @@ class UpgradeParameter(ContractModel):
     """A declared parameter that one of the distributions lacks or declares otherwise."""
 
     nodes: tuple[str, ...] = Field(description="Controllers and managers that declare it.")
-    parameter: str = Field(description="Its name; `<joint>` stands for the name of a joint.")
+    parameter: str = Field(description="Its name; `<joint>` is the name of a joint.")
     change: Literal["appears", "vanishes", "changes"] = Field(description="What becomes of it.")
     what: str = Field("", description="What of its declaration changes.")
     before: str | None = Field(None, description="Default before, or what of the declaration changes; null for none.")
@@ -42,7 +42,7 @@ class UpgradeInterface(ContractModel):
 
     nodes: tuple[str, ...] = Field(description="Full names of the nodes.")
     right: Literal["publish", "subscribe", "reply", "request", "execute", "call"] = Field(description="Their part.")
-    name: str = Field(description="Name at the graph; `~/` stands for the node's own.")
+    name: str = Field(description="Name at the graph; `~/` is the node's own.")
     change: Literal["gained", "lost"] = Field(description="What becomes of it.")
 
 
@@ -61,7 +61,7 @@ class Upgrade(ContractModel):
         None, description="What changes in the package; null where the check refuses the new one."
     )
     errors: tuple[ReviewFinding, ...] = Field((), description="Why the check refuses it.")
-    gates: tuple[ReviewGate, ...] = Field((), description="Gates to pass again.")
+    gates: tuple[ReviewGate, ...] = Field((), description="Gates to repeat.")
     questions: tuple[str, ...] = Field((), description="Everything that is left to people.")
 
     def asks(self) -> bool:

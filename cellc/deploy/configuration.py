@@ -156,7 +156,7 @@ def _safety(cell: Cell) -> Iterator[OpenQuestion]:
 def _effects(cell: Cell) -> Iterator[OpenQuestion]:
     for device in cell.devices:
         if device.unknown_effects:
-            yield OpenQuestion(f"motion of {device.name} as it comes up", (*device.path, "model"))
+            yield OpenQuestion(f"motion of {device.name} at its start", (*device.path, "model"))
 
 
 def header_of(cell: Cell) -> Header:

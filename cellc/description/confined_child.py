@@ -93,4 +93,4 @@ def confine_this_process(cpu_seconds: int, memory_bytes: int, file_bytes: int) -
 def _refuse_leaving(event: str, _: tuple[object, ...]) -> None:
     """Refuse that Python code of the child talks to the network or starts a program."""
     if event.startswith(("socket.", "subprocess.", "os.exec", "os.posix_spawn", "os.spawn", "os.system", "os.fork")):
-        raise PermissionError(f"`{event}` is refused to a child that reads files of strangers")
+        raise PermissionError(f"`{event}` is refused to a child that reads untrusted files")

@@ -161,7 +161,7 @@ def expand_xacro(
     start = Span(file.as_posix(), 1, 1, 1, 1)
     if purse is not None:
         if not purse.left_s:
-            return _ended("the expansion is not begun: others of the spec took their time", start, "-together")
+            return _ended("the expansion was not started: others of the spec used the time", start, "-together")
         request["seconds"] = min(limits().xacro_seconds, math.ceil(purse.left_s))
     try:
         answer = ask_child(__name__, json.dumps(request).encode(), wall_seconds)

@@ -178,7 +178,7 @@ def _device(cell: Cell, device: Device) -> tuple[str, ...]:
     connection = device.connection
     address = _NOT_STATED if connection is None else connection.address or connection.port or _NOT_STATED
     mass, center = (cell.text(*device.path, "payload", key) for key in ("mass", "center_of_mass"))
-    load = "" if device.payload is None else f"{mass}, centre of mass {center}"
+    load = "" if device.payload is None else f"{mass}, center of mass {center}"
     return (
         device.name,
         address,

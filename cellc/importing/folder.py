@@ -28,11 +28,11 @@ from cellc.store.swap import discard, is_alive, make_folder, make_staging, other
 
 LOCK = "import.lock.json"
 _DEVICE = "device.yaml"
-_TOUCHING = "UNKNOWN: they touch where every joint is at its home, and nobody has said that they may"
+_TOUCHING = "UNKNOWN: they touch where every joint is at its home, and nothing states that they may"
 _NOT_DRIVEN = "UNKNOWN: its description states none for some joints, and no controller commands those"
 _EXCUSES = {
-    "impossible-inertia": "as its description has it; no motion is planned with it, and nobody weighed the links",
-    "mimic-of-nothing": "UNKNOWN: the joint to follow is not in its description; it stands at its home by itself",
+    "impossible-inertia": "as in its description; no motion is planned with it, and the links were not weighed",
+    "mimic-of-nothing": "UNKNOWN: the joint to follow is not in its description; it stays at its home by itself",
     "missing-joint-limits": _NOT_DRIVEN,
     "missing-velocity-limit": _NOT_DRIVEN,
 }

@@ -63,9 +63,9 @@ class _Reader:
         if isinstance(root, Collection) and not root.flow:
             root.below += rest
         elif any(rest):
-            raise UnusualError("comments follow what stands in braces")
+            raise UnusualError("comments follow a value in braces")
         if self._comments:
-            raise UnusualError("a comment stands where none belongs")
+            raise UnusualError("a comment is where it cannot be")
         return written
 
     def _head(self, start: yaml.DocumentStartEvent, line: int) -> list[str]:
@@ -74,7 +74,7 @@ class _Reader:
             return self._own_lines(line)
         mark = _start(start)[0]
         if mark == line or self._lines[mark].strip() != "---":
-            raise UnusualError("a value or a comment stands behind the mark of a document")
+            raise UnusualError("a value or a comment is behind the mark of a document")
         above, self._last = self._own_lines(mark), mark
         return [*above, "---", *self._own_lines(line)]
 

@@ -111,7 +111,7 @@ motion:
 """,
     "unknown-rehearsal": """
 rehearsals:
-  cancelled: {use: pick_and_plce}  # expect at use
+  repeated: {use: pick_and_plce}  # expect at use
 """,
     "unknown-signal": """
 devices:

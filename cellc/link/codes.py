@@ -15,7 +15,8 @@ def _unknown(code: str, thing: str, where: str, otherwise: str) -> CodePage:
     return _page(
         code,
         f"a reference names {'an' if thing[0] in 'aeiou' else 'a'} {thing} that does not exist",
-        f"Names are references: {where}. A misspelt one is found here, with the nearest names that exist. {otherwise}.",
+        f"Names are references: {where}. A misspelled one is found here, with the "
+        f"nearest names that exist. {otherwise}.",
         f"name an existing {thing}, or declare it",
     )
 
@@ -25,7 +26,7 @@ CODES: tuple[CodePage, ...] = (
         "unknown-calibration",
         "calibration",
         "a measured transform names an entry of `calibrations`",
-        "Otherwise the transform would rest on a measurement whose date, residual and owner nobody can look up",
+        "Otherwise the transform would rest on a measurement without date, residual and owner",
     ),
     _unknown(
         "unknown-clock",
@@ -91,13 +92,13 @@ CODES: tuple[CodePage, ...] = (
         "unknown-nic",
         "network card",
         "a connection names a card of its host",
-        "Otherwise nobody would know over which card the device is reached, and what else that card carries",
+        "Otherwise it would be unknown which card reaches the device, and which other traffic that card carries",
     ),
     _unknown(
         "unknown-node",
         "node",
         "interfaces, frames and clients name nodes, devices or controllers",
-        "ROS itself would say nothing: a subscriber waits for ever for a publisher that nobody is",
+        "ROS itself does not report it: a subscriber waits forever for a publisher that does not exist",
     ),
     _unknown(
         "unknown-planner",
@@ -123,20 +124,20 @@ CODES: tuple[CodePage, ...] = (
         "state",
         "the states of a switched device stand in its `device.yaml`; a step that senses one needs wired sensors that "
         "tell it from the others",
-        "Otherwise the step would set nothing, or wait for ever",
+        "Otherwise the step would set nothing, or wait forever",
     ),
     _page(
         "ambiguous-node",
         "a reference fits several controllers",
-        "Two controller managers may have controllers of one name, each in its namespace. Which of them publishes or "
-        "serves is then told by its full name alone.",
+        "Two controller managers may have controllers of one name, each in its namespace. Only the full name "
+        "then says which of them publishes or serves.",
         "write the full name, with the namespace of its manager",
     ),
     _page(
         "controller-not-in-distro",
         "the pinned distribution has no plugin for this kind of controller",
         "Controllers come and go between distributions: the generic gripper controller is gone from Kilted, parallel "
-        "grippers came with Jazzy. The controller manager would refuse to load an unknown type.",
+        "grippers are new in Jazzy. The controller manager would refuse to load an unknown type.",
         "choose a kind that the pinned distribution has",
     ),
     _page(
@@ -149,14 +150,14 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "hand-eye-differs",
         "a transform of the spec is not the one that its calibration's file has",
-        "A new file and an old number, or a slip in either: two truths about where a camera stands, of which the arm "
+        "A new file and an old number, or a slip in either: two poses of one camera, of which the arm "
         "follows one. What a spec rounds off, 0.1 mm and 0.05 deg, is no difference.",
         "write neither `xyz` nor `rpy`, so that the file counts",
     ),
     _page(
         "hand-eye-of-other-frames",
         "a hand-eye calibration tells of other frames than those that rest on it",
-        "The tool writes the pose of a camera in the hand, or in the base for one that stands beside the robot. Taken "
+        "The tool writes the pose of a camera in the hand, or in the base for one beside the robot. Taken "
         "the other way round, or for a frame that a joint parts from it, every goal is wrong by as much as the arm "
         "is turned. Names of a tool may be TF's or `device/link`; others are stated as `parent` and `child`.",
         "name the file of this camera, or state `parent` and `child` of the calibration",
@@ -165,15 +166,15 @@ CODES: tuple[CodePage, ...] = (
         "invalid-hand-eye",
         "a hand-eye calibration is not what a tool writes",
         "Read are the files of easy_handeye2, launch files of MoveIt's calibration, and a mapping in YAML or JSON "
-        "with a 4x4 `matrix`, or `xyz` in metres with a quaternion as `xyzw`, `wxyz` or `rotation: {x, y, z, w}`. A "
-        "list that does not say which of its four is w, millimetres, or a matrix that mirrors would place the camera "
+        "with a 4x4 `matrix`, or `xyz` in meters with a quaternion as `xyzw`, `wxyz` or `rotation: {x, y, z, w}`. A "
+        "list that does not say which of its four is w, millimeters, or a matrix that mirrors would place the camera "
         "somewhere else.",
         "export the calibration again, or write what is missing",
     ),
     _page(
         "invalid-kinematics",
         "a calibration of a robot's kinematics is not what its vendor's tool writes",
-        "A robot differs from its type by up to centimetres at the tool. The file that the vendor's tool reads off it "
+        "A robot differs from its type by up to centimeters at the tool. The file that the vendor's tool reads off it "
         "gives each joint's place in m and rad, and a hash that the driver compares; a figure that is missing, or "
         "written by hand, would put the tool somewhere else.",
         "read it off the robot again, and name the file as it was written",
@@ -187,7 +188,7 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "not-a-chain",
-        "the tip of a planning group does not hang on its base",
+        "the tip of a planning group is not below its base",
         "A group is the chain of joints between two links. Where the tip is not below the base there is no chain, and "
         "MoveIt would drop the group with a line in its log.",
         "name a tip whose parents lead to the base link",
@@ -213,16 +214,16 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "confidence-of-nothing",
-        "a rehearsal says how sure a verdict must be, and asks for none",
-        "A sweep gives a verdict on `success`. Without it a confidence changes nothing, and whoever wrote it waits for "
-        "a verdict that never comes.",
+        "a rehearsal states a confidence, and asks for no verdict",
+        "A sweep gives a verdict on `success`. Without it a confidence changes nothing, and the verdict "
+        "that its author expects is never given.",
         "write `success` beside it, or delete it",
     ),
     _page(
         "repeatability-of-nothing",
         "a repeatability is stated of a device that no group moves",
-        "A sweep draws where the tip of a group stands when it has arrived. Of a camera or a gripper nothing is drawn, "
-        "and the figure would be believed to count.",
+        "A sweep draws the arrival position of a group's tip. For a camera or a gripper nothing is drawn, "
+        "and the figure would have no effect.",
         "name a device whose joints a group moves, or delete it",
     ),
     _page(

@@ -198,7 +198,7 @@ def _unknown(name: str | None, read: _Read, names: FrameNames, document: SourceD
 
 def _elsewhere(placed: _Placed, read: _Read, ends: list[str]) -> Diagnostic:
     message = (
-        f"`{ends[1]}` in `{ends[0]}` does not tell where `{placed.child}` stands in `{placed.parent}`: "
+        f"`{ends[1]}` in `{ends[0]}` does not give the pose of `{placed.child}` in `{placed.parent}`: "
         "one of the two must be rigid with each"
     )
     help_ = f"name the calibration of these frames, or state `parent` and `child` of `{read.name}`"
@@ -207,9 +207,9 @@ def _elsewhere(placed: _Placed, read: _Read, ends: list[str]) -> Diagnostic:
 
 def _other_mounting(placed: _Placed, said: HandEyeFile, *, standing: bool) -> Diagnostic:
     calibrated = "in the hand" if said.in_hand else "beside the robot"
-    there = "stands still" if standing else "is moved by the robot"
+    there = "is stationary" if standing else "is moved by the robot"
     message = f"the calibration is of a camera {calibrated}, and `{placed.parent}` {there}"
-    help_ = "name the file of this camera, or mend the mount"
+    help_ = "name the file of this camera, or correct the mount"
     return Diagnostic(_FRAMES, Severity.ERROR, message, said.place, placed.path, help_)
 
 

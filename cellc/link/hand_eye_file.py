@@ -136,8 +136,8 @@ def _figure(content: SourceDocument, at: YamlPath) -> float:
     if not content.has(at):
         _fail(content.locate(at), f"`{name}` is missing")
     if math.isnan(value):
-        bounds = f"a number of metres between -{_LARGEST_M:g} and {_LARGEST_M:g}, or of a rotation"
-        _fail(content.locate(at), f"`{name}` must be {bounds}, got `{text}`", "write metres, and a plain number")
+        bounds = f"a number of meters between -{_LARGEST_M:g} and {_LARGEST_M:g}, or of a rotation"
+        _fail(content.locate(at), f"`{name}` must be {bounds}, got `{text}`", "write meters, and a plain number")
     return value
 
 
@@ -202,7 +202,7 @@ def _of_launch(file: SideFile) -> HandEyeFile:
     for (name, place), (value, _) in pairwise(found):
         if name.startswith("--"):
             if name in options:
-                _fail(place, f"`{name}` stands twice: a file has one transform")
+                _fail(place, f"`{name}` is given twice; a file has one transform")
             options[name] = (value, place)
     start = Span(file.name, 1, 1, 1, 1)
 
@@ -211,7 +211,7 @@ def _of_launch(file: SideFile) -> HandEyeFile:
             text, place = options.get(name, ("0", start))
             value = number(text, _LARGEST_M)
             if math.isnan(value):
-                _fail(place, f"`{name}` must be a number of metres or of a rotation, got `{text}`")
+                _fail(place, f"`{name}` must be a number of meters or of a rotation, got `{text}`")
             yield value
 
     x, y, z = figures("--x", "--y", "--z")

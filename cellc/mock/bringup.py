@@ -239,7 +239,8 @@ def claim(plant: Plant, plan: PlanTaker) -> Waiting[StageEvidence]:
     for device, server in plant.control.adapters.items() if not problems else ():
         server.adapter.activate()
         client = plant.contract.adapters[device].client
-        facts.append(f"the adapter of `{device}` is {server.adapter.phase.value}, for `{client or 'nobody'}` alone")
+        permitted = f"`{client}` alone" if client else "no client"
+        facts.append(f"the adapter of `{device}` is {server.adapter.phase.value}, for {permitted}")
     if not problems:
         seen, missing = yield from plan.take(BringUpPhase.MOVE)
         facts, problems = [*facts, *seen], [*missing]
@@ -254,6 +255,10 @@ def _claims(manager: ControllerManager) -> dict[str, str]:
     }
 
 
+def _owner(claims: dict[str, str], interface: str) -> str:
+    return f"`{claims[interface]}`" if interface in claims else "no controller"
+
+
 def _differences(entry: ContractManager, claims: dict[str, str]) -> list[str]:
     expected = {
         interface: name
@@ -262,8 +267,7 @@ def _differences(entry: ContractManager, claims: dict[str, str]) -> list[str]:
         for interface in controller.command_interfaces
     }
     return [
-        f"`{interface}` is claimed by `{claims.get(interface, 'nobody')}`, "
-        f"the contract says `{expected.get(interface, 'nobody')}`"
+        f"`{interface}` must be claimed by {_owner(expected, interface)}, got {_owner(claims, interface)}"
         for interface in sorted({*expected, *claims})
         if claims.get(interface) != expected.get(interface)
     ]

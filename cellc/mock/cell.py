@@ -270,7 +270,7 @@ class MockCell:
             if (links := [link for link in model.unseen if model.links.stands(link) is stand])
         )
         if named := "; ".join(told):
-            yield f"nobody looks whether these links touch anything, their meshes are not there: {named}"
+            yield f"these links are not checked for collision, because their meshes are missing: {named}"
 
     def entry(self, rehearsal: str) -> RehearsalEntry:
         """Return a rehearsal of the folder.

@@ -47,7 +47,7 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "bad-artifact-path",
         "a generated file would have an unusable path",
-        "A generated file stands inside the generated folder, under a name that every file system can hold; two names "
+        "A generated file is inside the generated folder, under a name that every file system can hold; two names "
         "that differ only in case are one file on some of them.",
         "rename the part of the cell that the file is named after",
     ),
@@ -60,7 +60,7 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "output-blocked",
-        "a folder stands in the place of a file, or a file in the place of a folder",
+        "a folder is where a file must be, or a file where a folder must be",
         "Replacing a folder by a file, or the other way round, would delete things that cellc did not make.",
         "move it away",
     ),
@@ -79,14 +79,14 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "output-symlink",
-        "a symbolic link stands inside the generated folder or in its place",
+        "a symbolic link is inside the generated folder or in its place",
         "Writing through a link changes files outside the folder that is under review.",
         "replace the link by a folder, or name the folder that it leads to",
     ),
     _page(
         "output-unwritable",
         "the operating system refused to write",
-        "Permissions, a full disk or a lost network share; the reason of the system stands in the message. Every file "
+        "Permissions, a full disk or a lost network share; the message has the system's reason. Every file "
         "that was already replaced has been put back.",
         "make the folder writable and free space, then build again",
     ),

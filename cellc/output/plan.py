@@ -99,7 +99,7 @@ def check_places(artifacts: Sequence[NewFile], folder: Path) -> Iterator[Diagnos
         yield finding("output-symlink", f"`{linked.as_posix()}` is a symbolic link", linked)
         return
     if folder.exists() and not folder.is_dir():
-        yield finding("output-blocked", f"`{folder.as_posix()}` is no folder", folder)
+        yield finding("output-blocked", f"`{folder.as_posix()}` is not a folder", folder)
         return
     folders = {parent for one in artifacts for parent in Path(one.path).parents if parent != Path()}
     files = {Path(one.path) for one in artifacts}
@@ -143,7 +143,7 @@ def _files_as_folders(seen: dict[str, str], folder: Path) -> Iterator[Diagnostic
     for key, path in seen.items():
         parent = next((seen[str(p)] for p in PurePosixPath(key).parents if str(p) in seen), None)
         if parent is not None:
-            yield finding("bad-artifact-path", f"`{path}` needs a folder where the file `{parent}` stands", folder)
+            yield finding("bad-artifact-path", f"`{path}` needs a folder where there is the file `{parent}`", folder)
 
 
 def unusable(path: str) -> str:

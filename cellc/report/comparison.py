@@ -65,7 +65,7 @@ def _moving(cell: Cell) -> tuple[Device, ...]:
 def _start(cell: Cell) -> Iterator[str]:
     for device in _moving(cell):
         state = (
-            "" if device.hardware is None or "real" not in device.hardware.targets else f", comes up {device.comes_up}"
+            "" if device.hardware is None or "real" not in device.hardware.targets else f", starts {device.comes_up}"
         )
         yield f"{device.name}: {real_driver(device)}{state}"
         if device.program is not None:
@@ -75,7 +75,7 @@ def _start(cell: Cell) -> Iterator[str]:
             if effect.motion is not Motion.NONE or effect.authority is CommandAuthority.TAKEN:
                 yield f"{device.name}: {moment.value}: {_effect(effect)}"
         if device.unknown_effects:
-            yield f"{device.name}: nobody says what {' and '.join(device.unknown_effects)} does"
+            yield f"{device.name}: not stated what {' and '.join(device.unknown_effects)} does"
 
 
 def _effect(effect: Effect) -> str:
@@ -136,7 +136,7 @@ _MOTION = (
     ("timing", _timing, "rate, jitter and missed cycles, as measured"),
     ("safety", _safety, "a procedure for enabling, stop and recovery, and who signed it"),
     ("versions", _versions, "the same tuple on every machine"),
-    ("what the mock cannot prove", _mock_limit, "a list of physics and safety that nobody has tested"),
+    ("what the mock cannot prove", _mock_limit, "a list of untested physics and safety"),
 )
 """Question, answer, and what is evidence of it on every robot."""
 
@@ -159,7 +159,7 @@ def _records(cell: Cell) -> Iterator[str]:
     clocks = sorted({host.clock.domain for host in cell.hosts.values()})
     yield f"clocks {', '.join(clocks) or _NOT_STATED}; {len(cell.recording.attempt_fields)} fields of every attempt"
     for device in _outside(cell):
-        yield f"{device.name}: what its own loop sees is in no bag; its library logs it, or nobody does"
+        yield f"{device.name}: what its own loop sees is in no bag; only its library can log it"
     yield f"owner {cell.owners.responsibilities.logging}"
 
 
@@ -167,11 +167,11 @@ def _ownership(cell: Cell) -> Iterator[str]:
     for controller in _commanding(cell):
         claims = len(controller.claims("real"))
         counted = f"{claims} command interface{'s' if claims != 1 else ''}"
-        yield f"{controller.label}: claims {counted}, told by {controller.client or 'nobody'}"
+        yield f"{controller.label}: claims {counted}, commanded by {controller.client or 'no client'}"
     for device in _driven(cell):
         yield f"{device.name}: no controller claims it, {real_driver(device)} takes goals"
     for adapted in cell.adapters:
-        yield f"{adapted.device}: {adapted.action} of its adapter, told by {adapted.client or 'nobody'}"
+        yield f"{adapted.device}: {adapted.action} of its adapter, commanded by {adapted.client or 'no client'}"
     yield f"owner {cell.owners.responsibilities.command}"
 
 

@@ -214,11 +214,11 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta]) -> Change:
     fit = fits(thing.parts, path)
     names = () if fit is None else fit.subject
     shown_leaf = next((one for one in inner if one.path == (*path, thing.shown)), None)
-    value = "there" if shown_leaf is None else shown(shown_leaf.after if came else shown_leaf.before, "")
+    value = "present" if shown_leaf is None else shown(shown_leaf.after if came else shown_leaf.before, "")
     return Change(
         thing.area,
         " ".join(names),
-        f"{thing.noun} {'came' if came else 'went'}",
+        f"{thing.noun} {'added' if came else 'removed'}",
         None if came else value,
         value if came else None,
         thing.came if came else thing.went,
@@ -298,8 +298,8 @@ def _effects(before: Facts, after: Facts) -> Iterator[Change]:
             ReviewArea.MOTION, one.subject, one.quantity, *sides, Grade.REVIEW, difference(one.before, one.after, "")
         )
     for subject, missed in offers_less(before.contract, after.contract):
-        why = "subscribers outside of the cell that ask for what was offered hear it no more"
-        yield Change(ReviewArea.QOS, subject, "offer", "as asked", missed, Grade.REVIEW, breaking=True, why=why)
+        why = "subscribers outside the cell that request the old offer no longer connect"
+        yield Change(ReviewArea.QOS, subject, "offered QoS", "compatible", missed, Grade.REVIEW, breaking=True, why=why)
     for edge in edge_changes(before.contract, after.contract):
         taken = Grade.SAFE if edge.connects else Grade.DANGEROUS
         why = "" if edge.connects else "samples no longer arrive" if edge.before else "no sample arrives"
@@ -315,9 +315,9 @@ def _of_lines(left: LinesLeft) -> Change:
     return Change(
         area,
         left.file,
-        f"file {left.whole}" if left.whole else f"{told} that no other change explains",
-        told if left.whole == "went" else _some(left.before),
-        told if left.whole == "came" else _some(left.after),
+        f"file {left.whole}" if left.whole else f"{told} (not classified)",
+        told if left.whole == "removed" else _some(left.before),
+        told if left.whole == "added" else _some(left.after),
         Grade.REVIEW,
     )
 

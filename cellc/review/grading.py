@@ -107,6 +107,6 @@ def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
     if old is None or new is None:
         return Verdict(Grade.DANGEROUS, f"calibration `{name}` is not declared", ReviewArea.CALIBRATION)
     if new.revision > old.revision:
-        return Verdict(Grade.REVIEW, f"calibration `{name}` went from revision {old.revision} to {new.revision}")
+        return Verdict(Grade.REVIEW, f"calibration `{name}` changed from revision {old.revision} to {new.revision}")
     why = f"calibration `{name}` measured it, and has no new revision after {old.revision}"
     return Verdict(Grade.DANGEROUS, why, ReviewArea.CALIBRATION)

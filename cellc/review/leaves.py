@@ -77,11 +77,15 @@ def _pose(value: Mapping[str, Json]) -> Pose | None:
     return Pose((x, y, z), (qx, qy, qz, qw))
 
 
+_KINDS = {"alone": "only"}
+"""Kinds of proofs whose word in the file does not read as a sentence: ``only nodes /a, /b``."""
+
+
 def said(entry: Json) -> str:
     """Return an entry of a list in words: its values, and the keys of those that are no text."""
     if isinstance(entry, dict):
         return " ".join(
-            said(inner) if isinstance(inner, str) else f"{key} {said(inner)}"
+            _KINDS.get(inner, inner) if isinstance(inner, str) else f"{key} {said(inner)}"
             for key, inner in entry.items()
             if inner not in (None, "")
         )

@@ -63,7 +63,7 @@ class LinesLeft:
     file: str
     before: tuple[str, ...]
     after: tuple[str, ...]
-    whole: Literal["", "came", "went"] = ""
+    whole: Literal["", "added", "removed"] = ""
 
 
 def lines_left(
@@ -77,7 +77,9 @@ def lines_left(
 def _left(file: str, before: Sequence[str], after: Sequence[str], known: Known) -> LinesLeft:
     if not before or not after:
         none = LinesLeft(file, (), ())
-        return none if before == after else LinesLeft(file, tuple(before), tuple(after), "went" if before else "came")
+        return (
+            none if before == after else LinesLeft(file, tuple(before), tuple(after), "removed" if before else "added")
+        )
     if Counter(before) == Counter(after):
         return LinesLeft(file, (), ())
     old, new = _by_words(before), _by_words(after)

@@ -70,16 +70,20 @@ def _row(change: ReviewChange) -> str:
     what = f"{as_code(subjects_of(change))} {as_code(change.quantity)}"
     what += "<br>**breaks consumers**" if change.breaking else ""
     what += f"<br>{as_code(change.why)}" if change.why else ""
-    approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {as_code(change.owner or 'nobody')}"
+    approval = (
+        ""
+        if change.grade is Grade.SAFE
+        else f"{change.approval}: {as_code(change.owner) if change.owner else 'no owner'}"
+    )
     cells = (change.area, what, _value(change.before), _value(change.after), _value(change.delta), approval)
     return f"| {' | '.join(cells)} |"
 
 
 def _tail(review: Review) -> Iterator[str]:
-    yield from folded("Findings that came", map(_finding, review.new_findings))
-    yield from folded("Findings that went", map(_finding, review.gone_findings))
+    yield from folded("New findings", map(_finding, review.new_findings))
+    yield from folded("Resolved findings", map(_finding, review.gone_findings))
     yield from folded("Rehearsals", (as_code(outcomes(one)) for one in review.rehearsals))
-    yield from folded("Gates to pass again", (as_code(gate_line(gate)) for gate in review.gates))
+    yield from folded("Gates to repeat", (as_code(gate_line(gate)) for gate in review.gates))
     yield from folded("Notes", map(as_code, review.notes))
 
 

@@ -128,7 +128,7 @@ def _edits(cell: Cell, pins: Sequence[tuple[Pin, str]], texts: Mapping[str, str]
         if text == (pin.text if anchor is None else becomes.get(anchor, pin.text)) or taken.get(place) == text:
             continue
         if span.line != span.end_line:
-            raise UpgradeError(f"{span}: `{pin.part}` stands over several lines; write it in one")
+            raise UpgradeError(f"{span}: `{pin.part}` spans several lines; write it in one")
         if taken.setdefault(place, text) != text:
             raise UpgradeError(f"{span}: one text pins several parts, which become different ones; write each out")
         said = f"`{pin.part}` of `{pin.holder}`: `{pin.text}` becomes `{text}`"

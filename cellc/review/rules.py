@@ -28,7 +28,7 @@ class Rule(Enum):
     LESS = "dangerous where it shrank or vanished, else safe"
     LOOSER = "dangerous where it grew or vanished, else review"
     FEWER = "dangerous where it shrank or vanished, else review"
-    BACK = "dangerous where it went back, else review"
+    BACK = "dangerous where it is lower, else review"
     NAMED = "dangerous where it became UNKNOWN or vanished, else review"
     MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
     PLACED = "dangerous where the calibration that measured it has no new revision, else review"
@@ -105,34 +105,52 @@ THINGS: Sequence[Thing] = (
         _D,
         _D,
         breaking=True,
-        why="another answers",
+        why="another server answers",
     ),
-    Thing("interface {interface} clients {node}", _A.CONTROL, "client", _D, _R, why="one more may ask for motion"),
+    Thing(
+        "interface {interface} clients {node}", _A.CONTROL, "client", _D, _R, why="another client may request motion"
+    ),
     Thing("controller {controller}", _A.CONTROL, "controller", _R, _D, shown="plugin"),
     Thing("manager {manager} switches {switch}", _A.CONTROL, "controller switch", _R, _R),
     Thing("manager {manager}", _A.CONTROL, "controller manager", _R, _D),
     Thing("contract clocks {clock}", _A.TIME, "clock", _R, _R),
     Thing("contract devices {device}", _A.DEVICES, "device", _R, _R, shown="model"),
     Thing("contract adapters {device}", _A.CONTROL, "adapter", _R, _D),
-    Thing("contract joint_limits {joint}", _A.LIMITS, "limits", _R, _D, why="nothing bounds the joint any more"),
+    Thing("contract joint_limits {joint}", _A.LIMITS, "limits", _R, _D, why="the joint has no limits any more"),
     Thing("contract groups {group}", _A.MOTION, "planning group", _R, _R),
     Thing("contract poses {pose}", _A.MOTION, "named pose", _S, _R),
     Thing("contract goals {goal}", _A.MOTION, "goal", _S, _R),
-    Thing("rehearsals {rehearsal}", _A.REHEARSALS, "rehearsal", _S, _R, shown="expect", why="it is shown no more"),
-    Thing("step real {step}", _A.START_ORDER, "step on the real target", _D, _D, shown="phase"),
-    Thing("step mock {step}", _A.START_ORDER, "step on the mock", _R, _R, shown="phase", follows=True),
+    Thing(
+        "rehearsals {rehearsal}",
+        _A.REHEARSALS,
+        "rehearsal",
+        _S,
+        _R,
+        shown="expect",
+        why="this behavior is no longer rehearsed",
+    ),
+    Thing("step real {step}", _A.START_ORDER, "hardware startup step", _D, _D, shown="phase"),
+    Thing("step mock {step}", _A.START_ORDER, "mock startup step", _R, _R, shown="phase", follows=True),
     Thing("watch {watch}", _A.SAFETY, "watch that deactivates controllers", _S, _D),
-    Thing("check payload {device}", _A.PAYLOAD, "payload that a person tells the robot", _R, _D),
-    Thing("check tcp {device}", _A.PAYLOAD, "TCP that a person tells the robot", _R, _D),
-    Thing("check load {device}", _A.PAYLOAD, "load that a person tells the robot", _R, _D),
+    Thing("check payload {device}", _A.PAYLOAD, "payload to set in the robot", _R, _D),
+    Thing("check tcp {device}", _A.PAYLOAD, "TCP to set in the robot", _R, _D),
+    Thing("check load {device}", _A.PAYLOAD, "load to set in the robot", _R, _D),
     Thing("check joint_impedance {device}", _A.SAFETY, "impedance of the joints", _R, _D),
     Thing("check tool_impedance {device}", _A.SAFETY, "impedance at the tool", _R, _D),
     Thing("check tool_voltage {device}", _A.SAFETY, "voltage of the tool connector", _D, _R),
     Thing("check thresholds {device}", _A.SAFETY, "collision thresholds of the robot", _R, _D),
     Thing("area {area}", _A.SAFETY, "shared area", _R, _D, why="arms may meet in it"),
-    Thing("excused blocker {finding}", _A.GATES, "excuse of a blocker", _D, _S, why="nothing asks for it any more"),
+    Thing("excused blocker {finding}", _A.GATES, "excuse of a blocker", _D, _S, why="the finding no longer blocks"),
     Thing("excused {_} {finding}", _A.GATES, "excuse of a finding", _R, _S),
-    Thing("real shapes {link}", _A.MODEL, "collision shapes", _R, _D, why="nothing is planned round it", follows=True),
+    Thing(
+        "real shapes {link}",
+        _A.MODEL,
+        "collision shapes",
+        _R,
+        _D,
+        why="planning no longer avoids the link",
+        follows=True,
+    ),
     Thing("real inertia {link}", _A.MODEL, "mass and inertia", _R, _R, follows=True),
     Thing("real joint {joint}", _A.MODEL, "joint", _R, _R, shown="type"),
     Thing("real hardware {component}", _A.CONTROL, "hardware component", _R, _D, shown="plugin"),
@@ -143,13 +161,13 @@ THINGS: Sequence[Thing] = (
     Thing(
         "file config/uncertainty.json quantities {quantity}",
         _A.REHEARSALS,
-        "quantity that sweeps draw",
+        "sweep quantity",
         _R,
         _R,
         shown="source",
     ),
     Thing("file {file}", _A.CONTROL, "parameter file", _R, _R, follows=True),
-    Thing("contract clock_of {node}", _A.TIME, "clock of its stamps", _R, _R, follows=True),
+    Thing("contract clock_of {node}", _A.TIME, "stamp clock", _R, _R, follows=True),
 )
 """A thing that came is told once; where rows of both tables fit, the thing that came or went counts."""
 

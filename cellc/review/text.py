@@ -26,14 +26,14 @@ def render_review(review: Review) -> Iterator[Line]:
         for change in changes:
             yield from _change(change)
     yield from findings_told("new findings", review.new_findings)
-    yield from findings_told("findings that went", review.gone_findings)
+    yield from findings_told("resolved findings", review.gone_findings)
     if review.rehearsals:
         yield ""
         yield "rehearsals"
         yield from (f"  {outcomes(one)}" for one in review.rehearsals)
     if review.gates:
         yield ""
-        yield "to be passed again, for their evidence counts no longer"
+        yield "gates to repeat (their evidence is no longer valid)"
         yield from (f"  {gate_line(gate)}" for gate in review.gates)
 
 
@@ -41,14 +41,14 @@ def summed_up(review: Review) -> str:
     """Return one line: how many changes of each grade."""
     if not review.changes:
         differing = len(review.files)
-        text = f"; {differing} files differ in order or spelling alone" if differing else ""
+        text = f"; {differing} files differ only in order or spelling" if differing else ""
         return f"{review.after.name}: no change{text}"
     counts = ((sum(change.grade is grade for change in review.changes), grade) for grade in reversed(Grade))
     told = ", ".join(f"{number} {grade}" for number, grade in counts if number)
     breaking = sum(change.breaking for change in review.changes)
-    more = f"; {breaking} break{'s' if breaking == 1 else ''} consumers outside of the cell" if breaking else ""
+    more = f"; {breaking} break{'s' if breaking == 1 else ''} consumers outside the cell" if breaking else ""
     number = len(review.changes)
-    return f"{review.after.name}: {number} change{'s' if number != 1 else ''}: {told}{more}"
+    return f"{review.after.name}: {number} change{'s' if number != 1 else ''} ({told}){more}"
 
 
 def subjects_of(change: ReviewChange) -> str:
@@ -72,14 +72,14 @@ def outcomes(rehearsal: ReviewRehearsal) -> str:
 
 
 def gate_line(gate: ReviewGate) -> str:
-    """Return a gate with the evidence that it leaves anew."""
-    because = f" (looks at {', '.join(gate.because)})" if gate.because else ""
+    """Return a gate with the evidence to record again."""
+    because = f" (because of {', '.join(gate.because)})" if gate.because else ""
     return f"{gate.code} {gate.title}: {gate.evidence}{because}"
 
 
 def approved_by(change: ReviewChange) -> str:
     """Return whose approval a change needs; empty for one that is safe."""
-    return "" if change.grade is Grade.SAFE else f"approval {change.approval}: {change.owner or 'nobody'}"
+    return "" if change.grade is Grade.SAFE else f"approval {change.approval}: {change.owner or 'no owner'}"
 
 
 def _change(change: ReviewChange) -> Iterator[Line]:

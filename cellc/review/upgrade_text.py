@@ -30,7 +30,7 @@ def render_upgrade(upgrade: Upgrade) -> Iterator[Line]:
         yield ""
         yield from render_review(upgrade.review)
     else:
-        yield from _section("to be passed again, for their evidence counts no longer", map(gate_line, upgrade.gates))
+        yield from _section("gates to repeat (their evidence is no longer valid)", map(gate_line, upgrade.gates))
 
 
 def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
@@ -48,7 +48,7 @@ def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
     head += folded("Declared parameters", (as_code(parameters_told(one)) for one in _alike(upgrade.parameters)))
     head += folded("Names at the ROS graph", (as_code(interface_told(one)) for one in upgrade.interfaces))
     if upgrade.review is None:
-        return "\n".join((*head, *folded("Gates to pass again", (as_code(gate_line(one)) for one in upgrade.gates))))
+        return "\n".join((*head, *folded("Gates to repeat", (as_code(gate_line(one)) for one in upgrade.gates))))
     own = "\n".join(head) + "\n"
     return own + render_markdown(upgrade.review, longest - len(own))
 

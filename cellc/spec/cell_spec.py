@@ -93,7 +93,7 @@ class CellSpec(SpecModel):
     )
     owners: OwnersSpec = Field(
         default_factory=OwnersSpec,
-        description="Who answers for what.",
+        description="Who is responsible for what.",
         examples=[{"approvals": {"graph": "integration"}}],
     )
     safety: SafetySpec = Field(
@@ -109,7 +109,7 @@ class CellSpec(SpecModel):
     )
     uncertainty: UncertaintySpec | None = Field(
         None,
-        description="What a sweep draws and judges; without it, or regions, there is none.",
+        description="What a sweep draws and judges; no sweep without it or regions.",
         examples=[{"tolerances": {"pick": "5 mm"}}],
     )
     regions: dict[Name, RegionSpec] = Field(

@@ -82,7 +82,7 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "empty-value",
         "a key or a dash has no value",
-        "An empty value cannot be told from one that was forgotten; it would stand for a default that nobody chose.",
+        "An empty value looks like a forgotten one, and would mean a default that was never chosen.",
         "write a value, `UNKNOWN` where a version is not known, or delete the key",
     ),
     _page(
@@ -109,7 +109,7 @@ CODES: tuple[CodePage, ...] = (
         "missing-unit",
         "a quantity is a bare number",
         "Degrees read as radians and millimeters read as meters move a robot by a factor of 57 or 1000. The unit "
-        "stands in the text, so that the reviewer and the compiler read the same value.",
+        "is part of the text, so that the reviewer and the compiler read the same value.",
         "write the unit after the number",
     ),
     _page(
@@ -140,8 +140,8 @@ CODES: tuple[CodePage, ...] = (
     _page(
         "unknown-key",
         "the language has no such key in this place",
-        "A misspelt key that is silently ignored leaves its default in force: a limit that everybody can see in "
-        "the file and that does not act.",
+        "A misspelled key that is silently ignored leaves its default in force: a limit that is visible in "
+        "the file and has no effect.",
         "correct the spelling, move the key to where it belongs, or delete it",
     ),
     _page(

@@ -108,7 +108,7 @@ class KinematicsSpec(SpecModel):
         ..., description="What the tool wrote, beside this file or below.", examples=["arm_kinematics.yaml"]
     )
     measured: Pin = Field("UNKNOWN", description="Date on which it was read, YYYY-MM-DD.", examples=["2026-07-01"])
-    owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["robot"])
+    owner: Text = Field("UNKNOWN", description="Person or role responsible for it.", examples=["robot"])
 
 
 class AdapterSpec(SpecModel):
@@ -127,7 +127,9 @@ class AdapterSpec(SpecModel):
         None, description="Longest time from a hold to standstill.", examples=["100 ms"]
     )
     goal_time: TimeShift | None = Field(
-        None, description="Time past the end of a trajectory within which the device stands still.", examples=["0.5 s"]
+        None,
+        description="Time past the end of a trajectory within which the device must be at standstill.",
+        examples=["0.5 s"],
     )
     path_tolerance: JointPosition | None = Field(
         None, description="Largest distance of a joint from its command.", examples=["0.05 rad"]
@@ -151,7 +153,7 @@ class SwitchingSpec(SpecModel):
         None, description="State at power-up; the one with every output off if absent.", examples=["open"]
     )
     time: Duration | None = Field(
-        None, description="Time from the output to the end of the way; at once if absent.", examples=["150 ms"]
+        None, description="Time from the output to the end of travel; none if absent.", examples=["150 ms"]
     )
     within: PositiveDuration | None = Field(
         None, description="How long its client waits for the sensors; 1 s if absent.", examples=["500 ms"]
@@ -167,7 +169,7 @@ EVERY_JOINT = "*"
 
 
 class SimulatedJointSpec(SpecModel):
-    """How a joint of the mock differs from one that is where it was commanded at once."""
+    """How a joint of the mock differs from one that follows its command without delay."""
 
     lag: TimeShift | None = Field(None, description="Time constant of a first-order lag.", examples=["20 ms"])
     noise: JointPosition | None = Field(
@@ -179,7 +181,7 @@ class SimulatedJointSpec(SpecModel):
 
 
 class DeviceSpec(SpecModel):
-    """One device: a catalog entry, where it is mounted, and the exact thing that stands there."""
+    """One device: a catalog entry, where it is mounted, and the exact hardware."""
 
     model: Text = Field(
         ...,
@@ -239,12 +241,12 @@ class DeviceSpec(SpecModel):
     )
     initial_state: Literal["unconfigured", "inactive", "active"] | None = Field(
         None,
-        description="State in which its hardware component comes up; as its vendor has it if absent.",
+        description="State in which its hardware component starts; the vendor's default if absent.",
         examples=["inactive"],
     )
     payload: PayloadSpec | None = Field(
         None,
-        description="Load told to the arm, tool included.",
+        description="Load set in the arm, tool included.",
         examples=[{"mass": "0.93 kg", "center_of_mass": "0 0 58 mm"}],
     )
     switching: SwitchingSpec | None = Field(

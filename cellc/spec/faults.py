@@ -18,7 +18,7 @@ class PhaseSpec(SpecModel):
 
 
 class EventSpec(SpecModel):
-    """A moment in a rehearsal that is told by how far a step has come."""
+    """A moment in a rehearsal, defined by the progress of a step."""
 
     step: int = Field(..., description="Number of the step, counted from 1.", examples=[3], ge=1, le=MOST)
     when: Literal["started", "accepted", "moving"] = Field(
@@ -144,7 +144,7 @@ class SlowFault(FaultFields):
 
 
 class DisplaceFault(FaultFields):
-    """A joint stands beside its command, as after a push or a slipped gear."""
+    """A joint is offset from its command, as after a push or a slipped gear."""
 
     displace: FrameReference = Field(..., description="Joint, as `device/joint`.", examples=["arm/elbow_joint"])
     by: JointPosition = Field(..., description="How far.", examples=["0.3 rad"])
@@ -164,7 +164,7 @@ class SkipCyclesFault(FaultFields):
 
 
 class WrongPayloadFault(FaultFields):
-    """An arm carries another load than it was told: it stops itself as soon as it moves, again and again."""
+    """An arm carries another load than the one set in it: it stops itself whenever it moves."""
 
     wrong_payload: Name = Field(..., description="Arm.", examples=["arm"])
 

@@ -17,7 +17,7 @@ class CalibrationSpec(SpecModel):
     method: Text = Field("UNKNOWN", description="How it was measured.", examples=["charuco"])
     samples: int | None = Field(None, description="Number of observations.", examples=[40], ge=1, le=MOST)
     residual: Length | None = Field(None, description="Residual of the fit.", examples=["0.8 mm"])
-    owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["perception"])
+    owner: Text = Field("UNKNOWN", description="Person or role responsible for it.", examples=["perception"])
     from_: Text | None = Field(
         None,
         alias="from",
@@ -72,13 +72,13 @@ class BoxSpec(SpecModel):
     """A box that planning must avoid; it becomes a link of the URDF."""
 
     parent: FrameReference = Field(..., description="Frame that the box is fixed to.", examples=["world"])
-    xyz: Position | None = Field(None, description="Centre of the box in the parent.", examples=["0 0 780 mm"])
+    xyz: Position | None = Field(None, description="Center of the box in the parent.", examples=["0 0 780 mm"])
     rpy: RollPitchYaw | None = Field(
         None, description="Fixed-axis roll, pitch, yaw in the parent.", examples=["0 0 0 deg"]
     )
     box: Position = Field(..., description="Full edge lengths along x, y, z.", examples=["1200 800 40 mm"])
     kind: Literal["fixture", "obstacle"] = Field(
-        "fixture", description="A fixture belongs to the process, an obstacle stands in the way.", examples=["fixture"]
+        "fixture", description="A fixture belongs to the process, an obstacle is in the way.", examples=["fixture"]
     )
 
 
@@ -86,7 +86,7 @@ class AreaSpec(SpecModel):
     """A volume that several arms may stand in, one at a time unless it is released to more."""
 
     parent: FrameReference = Field(..., description="Frame that the volume is fixed to.", examples=["world"])
-    xyz: Position | None = Field(None, description="Centre of the volume in the parent.", examples=["0 500 200 mm"])
+    xyz: Position | None = Field(None, description="Center of the volume in the parent.", examples=["0 500 200 mm"])
     rpy: RollPitchYaw | None = Field(
         None, description="Fixed-axis roll, pitch, yaw in the parent.", examples=["0 0 0 deg"]
     )
@@ -95,5 +95,5 @@ class AreaSpec(SpecModel):
         ..., description="Who lets one arm in at a time on the real cell.", examples=["safety_plc"]
     )
     released: Text | None = Field(
-        None, description="Why several may stand in it at once, and who says so.", examples=["hand-over at 50 mm/s"]
+        None, description="Why several may be in it together, and who approved it.", examples=["hand-over at 50 mm/s"]
     )

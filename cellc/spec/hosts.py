@@ -20,7 +20,7 @@ class RollbackSpec(SpecModel):
 
 
 class VersionsSpec(SpecModel):
-    """The pinned tuple. UNKNOWN is a legal answer; it blocks the real target and stands in the audit."""
+    """The pinned tuple. UNKNOWN is a legal answer; it blocks the real target and is listed in the audit."""
 
     os: Pin = Field("UNKNOWN", description="Operating system and release.", examples=["ubuntu 24.04"])
     kernel: Pin = Field(
@@ -75,7 +75,7 @@ class HostSpec(SpecModel):
     )
     clock: ClockSpec = Field(
         default_factory=ClockSpec,
-        description="Clock domain and synchronisation.",
+        description="Clock domain and synchronization.",
         examples=[{"domain": "ros", "synchronised_by": "chrony", "max_offset": "1 ms"}],
     )
     nics: dict[Name, NicSpec] = Field(

@@ -29,7 +29,7 @@ class NodeSpec(SpecModel):
     namespace: Namespace = Field("", description="Namespace of the node.", examples=["/left"])
     lifecycle: bool = Field(False, description="Is a managed node.", examples=[True])
     host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
-    owner: Text = Field("UNKNOWN", description="Who answers for it.", examples=["perception"])
+    owner: Text = Field("UNKNOWN", description="Person or role responsible for it.", examples=["perception"])
     language: Literal["cpp", "python", "UNKNOWN"] = Field(
         "UNKNOWN", description="What it is written in.", examples=["cpp"]
     )
@@ -86,7 +86,9 @@ class InterfaceFields(SpecModel):
         None, description="Clock of the stamps.", examples=["ros"]
     )
     owner: Text | None = Field(
-        None, description="Who answers for it; the owner of its source if absent.", examples=["perception"]
+        None,
+        description="Person or role responsible for it; the owner of its source if absent.",
+        examples=["perception"],
     )
 
 
@@ -119,7 +121,7 @@ class TopicSpec(InterfaceFields):
     transport: Duration | None = Field(None, description="Budget from publishing to use.", examples=["10 ms"])
     on_stale: OnStale | None = Field(None, description="What happens on an older sample.", examples=["reject_goal"])
     simulated: SimulatedNetworkSpec | None = Field(
-        None, description="How the mock carries it; at once and without loss if absent.", examples=[{"latency": "2 ms"}]
+        None, description="How the mock carries it; without delay and loss if absent.", examples=[{"latency": "2 ms"}]
     )
 
 
@@ -133,7 +135,7 @@ class ServiceSpec(InterfaceFields):
     client: Endpoints = Field(..., description="Nodes that ask.", examples=["task"])
     timeout: Duration | None = Field(None, description="Bound of the response time.", examples=["1 s"])
     on_timeout: OnTimeout | None = Field(None, description="What the client does then.", examples=["error"])
-    on_error: Text | None = Field(None, description="How an error is told.", examples=["response.success false"])
+    on_error: Text | None = Field(None, description="How an error is reported.", examples=["response.success false"])
 
 
 class ActionSpec(InterfaceFields):

@@ -26,7 +26,7 @@ are bold. Each example is legal on its own; together they make no cell.
 - **Quantities** carry their unit: `500 Hz`, `0 0 162 mm`, `50 %`. A bare number is an error. The tables name the units.
 - **Names** begin with a letter and hold letters, digits and `_`.
 - **Frames** are `world`, a frame of the cell, or a link of a device: `arm/tool0`.
-- **UNKNOWN** is a value of every text: it blocks the real target and stands in the audit.
+- **UNKNOWN** is a value of every text: it blocks the real target and is listed in the audit.
 - **`include`** takes the path of a file, or a list of paths, whose sections are merged into this one.
 """
 _WORDS = {

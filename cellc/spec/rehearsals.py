@@ -15,7 +15,7 @@ class MoveStep(SpecModel):
 
     move: Name = Field(..., description="Named pose or goal.", examples=["home"])
     together: bool = Field(
-        False, description="The groups of the pose move at once; one after another if false.", examples=[True]
+        False, description="The groups of the pose move together; one after another if false.", examples=[True]
     )
 
 
@@ -47,7 +47,7 @@ class SenseStep(SpecModel):
 
 
 class CallStep(SpecModel):
-    """Ask a service and wait for its answer; the mock stands in for whoever offers it."""
+    """Ask a service and wait for its answer; the mock answers in place of its server."""
 
     call: Text = Field(..., description="Service interface of the cell.", examples=["/conveyor/start"])
 

@@ -1,4 +1,4 @@
-"""What the robot's own controller is told, and who starts its program."""
+"""What is set in the robot's own controller, and who starts its program."""
 
 from typing import Literal
 
@@ -33,11 +33,11 @@ class LoadSpec(SpecModel):
 
 
 class PayloadSpec(SpecModel):
-    """Load that the robot controller is told it carries."""
+    """Load set in the robot controller."""
 
     mass: Mass = Field(..., description="Mass at the flange, tool included.", examples=["0.93 kg"])
     center_of_mass: Position = Field(
-        ..., description="Centre of mass in the frame where tools mount.", examples=["0 0 58 mm"]
+        ..., description="Center of mass in the frame where tools mount.", examples=["0 0 58 mm"]
     )
     inertia: Inertia | None = Field(
         None,

@@ -85,9 +85,7 @@ class RecoverySpec(SpecModel):
         "discard_goal", description="What becomes of an old goal after a reconnect.", examples=["discard_goal"]
     )
     owner: Text = Field("UNKNOWN", description="Who owns the procedure.", examples=["safety"])
-    observer: Text = Field(
-        "UNKNOWN", description="Who stands at the stop during supervised motion.", examples=["operator"]
-    )
+    observer: Text = Field("UNKNOWN", description="Who is at the stop during supervised motion.", examples=["operator"])
 
 
 class SafetySpec(SpecModel):

@@ -114,4 +114,4 @@ def _not_drawn(subject: Subject, shown: Container[YamlPath]) -> Iterator[tuple[s
 
 
 def _unplaced(subject: Subject) -> str:
-    return "it needs what is not drawn" if subject.folder is None else "nothing says where it stands on the mock"
+    return "it needs what is not drawn" if subject.folder is None else "no pose on the mock is stated"

@@ -37,11 +37,11 @@ _LAYERS = (
     ("names", "names", True),
     ("goals", "goals", True),
     ("cones", "fields of view", False),
-    ("before", "where it stood before", True),
+    ("before", "its pose before", True),
 )
 _LOOKS = ("around", "front", "side", "above")
 _CAPTIONS = {
-    "graph/cell.svg": ("sides", "From two sides", "Where everything stands, from two sides"),
+    "graph/cell.svg": ("sides", "From two sides", "The cell from two sides"),
     "graph/nodes.svg": ("graph", "Who talks to whom", "The graph of nodes, controllers and devices"),
     "graph/responsibility.svg": ("arrows", "What each arrow promises", "Every arrow of the cell with its owner"),
 }
@@ -227,7 +227,7 @@ def _stage(scene: Scene, *, compared: bool) -> Element:
     )
     choice = tag("select", aria_label="rehearsal")
     player = tag(
-        "div", choice, tag("button", "Play", type="button"), time, tag("p", class_="told"), class_="player", hidden=""
+        "div", choice, tag("button", "Play", type="button"), time, tag("p", class_="status"), class_="player", hidden=""
     )
     return tag("div", drawing, controls, player, id="stage")
 

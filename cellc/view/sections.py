@@ -94,7 +94,7 @@ def changes_section(review: Review) -> Element:
         )
         for one in review.changes
     ]
-    told = f"{review.before.name} → {review.after.name}. Gates to pass again: "
+    told = f"{review.before.name} → {review.after.name}. Gates to repeat: "
     gates = ", ".join(gate.code.value for gate in review.gates) or "none"
     return section("changes", "What changed", tag("p", told, gates, class_="hint"), cards(names, rows))
 
@@ -140,7 +140,7 @@ def _interface(name: str, one: ContractInterface) -> tuple[Child, ...]:
 
 def _ends(ends: Iterable[ContractEndpoint], with_qos: bool) -> Element:
     shown = [tag("div", end.node, *([tag("small", _qos(end))] if with_qos else ())) for end in ends]
-    return tag("div", *shown) if shown else tag("div", "nobody")
+    return tag("div", *shown) if shown else tag("div", "none")
 
 
 def _qos(end: ContractEndpoint) -> str:

@@ -1,6 +1,6 @@
 """Writes docs/review.md: how `cellc diff` grades changes, from the tables that it grades by.
 
-`python -m tests.docs.review` writes it again after a row came, went or changed.
+`python -m tests.docs.review` writes it again after a row was added, removed or changed.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from tests.cells import ROOT
 PAGE = ROOT / "docs" / "review.md"
 _HEAD = """# Review
 
-`cellc diff` tells what changed from one state of a cell to another, and what that means: fact by fact, with figures
-in mm, degrees and percent. Comments, order and the spelling of units are no change.
+`cellc diff` shows what changed from one state of a cell to another, and what that means: fact by fact, with figures
+in mm, degrees and percent. Comments, order and the spelling of units are not changes.
 
 <!-- exit 1: acceleration -->
 <!-- exit 1: velocity -->
@@ -34,42 +34,45 @@ cellc diff main:generated/ur5e_pick generated/ur5e_pick
 cellc diff generated/ur5e_pick cells/ur5e_pick/cell.yaml
 ```
 
-A side is a spec, a generated folder, or either of them in a git revision. Of a revision the folder of the spec is
-taken, with what it includes and its devices; links are not followed, and git is read, never changed. A spec with
-errors is not compared: `cellc check` tells them.
+A side is a spec, a generated folder, or either of them in a git revision. From a revision, cellc takes the folder of
+the spec, its includes and its devices; it follows no links, and reads git but never changes it. A spec with errors is
+not compared: `cellc check` lists them.
 
-It ends with 0 where nothing changed, with 1 where something did, with 2 where a side cannot be read. `--breaking`
-ends with 1 only where a consumer outside of the cell breaks. `--rehearse` runs the rehearsals of both sides on the
-mock and compares how they end. `--format markdown` is a comment for a pull request of at most 65,000 characters,
+The exit code is 0 where nothing changed, 1 where something did, 2 where a side cannot be read, and 70 where cellc
+itself failed. With `--breaking` it is 1 only where a consumer outside the cell breaks. `--rehearse` runs the rehearsals
+of both sides on the mock and compares how they end. `--format markdown` writes a comment for a pull request of at most
+65,000 characters,
 `--format json` the object of `review.schema.json` (`cellc schema review`).
 
 ## Another distribution
 
-`cellc upgrade cells/ur5e_pick/cell.yaml --ros kilted` tells what a distribution of ROS 2 would change, an older one
-too: each pin with what the matrix says of it and since when; parameters that appear, vanish or change their default,
-and whether the cell states them; names at the ROS graph that nodes gain and lose; the package, compiled in memory and
-compared as above; and the gates to pass again. A pin that no matrix knows for the distribution becomes UNKNOWN, with a
-question. Where the check refuses the cell there, its errors are told, and no package is compared. `--write` puts the
-new pins into the spec and what it includes, and touches nothing else. It ends with 0 where nothing would change, with
-1 where something would, with 2 where the spec cannot be read or edited.
+`cellc upgrade cells/ur5e_pick/cell.yaml --ros kilted` shows what another distribution of ROS 2, newer or older, would
+change: each pin with its entry in the compatibility matrix and its date; parameters that appear, vanish or change
+their default, and whether the cell sets them; names that nodes add to the ROS graph or remove from it; the package,
+compiled in memory and compared as above; and the gates to repeat. A pin that no matrix knows for the distribution
+becomes UNKNOWN, with a question. Where the cell has errors there, they are listed, and no package is compared.
+`--write` puts the new pins into the spec and its includes, and touches nothing else. The exit code is 0 where nothing
+would change, 1 where something would, and 2 where the spec cannot be read or edited.
 
 ## Grades
 
 | grade | meaning |
 |---|---|
-| safe | nothing moves faster, further or with less watching than before, and no consumer loses anything |
+| safe | nothing moves faster, further or with less monitoring than before, and no consumer loses anything |
 | review | the owner of the approval area reads it |
-| dangerous | something may move otherwise than people at the cell expect, or a protection is weaker than it was |
+| dangerous | something may move in a way that people at the cell do not expect, or a protection is weaker than it was |
 
-What no row below fits is `review`: nothing is passed over. A line of a generated file that no told change explains
-is told with its file. A zero is no bound: ros2_control checks no tolerance and no time that is zero.
+A change that fits no row below is graded `review`, so that nothing is missed. A line of a generated file that no
+listed change explains is listed with its file. Zero is not a bound:
+ros2_control skips the check of a tolerance or time of zero.
 
-A transform that was measured does not change without another measurement: a frame with a calibration whose pose
-changed is dangerous where the calibration has no new revision. How far tips move in each named pose and goals in
-the root frame follows by forward kinematics, with dynamic frames where the mock puts them.
+A measured transform changes only with a new measurement: a changed pose of a calibrated frame is dangerous unless
+the calibration has a new revision. How far tips move in each named pose, and goals in the root frame, is computed by
+forward kinematics, with dynamic frames at their pose on the mock.
 
-A finding that a comment in the spec excuses did not go: the excuse is told. Where two cells are not the same and no
-file shows in what, each value is told by its name in the linked cell; of two folders alone that much is said.
+A finding that a comment in the spec excuses is not resolved: the excuse is listed. Where two cells differ and no file
+shows how, each value is listed by its name in the linked cell; for two generated folders only the difference itself is
+reported.
 """
 
 
@@ -82,9 +85,9 @@ def _areas() -> Iterator[str]:
     yield ""
     yield "## Areas"
     yield ""
-    yield "The owner is that of the approval area in `owners.approvals` before the change, with a new one beside them:"
-    yield "nobody chooses who approves their own change. Gates and layers rest on those before them: from the first one"
-    yield "on, the evidence counts no longer."
+    yield "The owner is that of the approval area in `owners.approvals` before the change, with a new one beside them;"
+    yield "a change cannot choose its own approver. Gates and layers rest on those before them, so that"
+    yield "the evidence from the first one on is no longer valid."
     yield ""
     yield "| area | approval | gate | layer |"
     yield "|---|---|---|---|"

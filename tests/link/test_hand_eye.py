@@ -125,11 +125,11 @@ def test_a_camera_stands_where_the_tool_has_measured_it(file: str, text: str, tm
     ("text", "more", "code", "told"),
     [
         (EASY.format(kind="eye_on_base").replace("arm_base", "arn_base"), "", "other-frames", "arn_base_link"),
-        (EASY.format(kind="eye_on_base"), "", "other-frames", "does not tell where `camera_bottom_screw_frame`"),
+        (EASY.format(kind="eye_on_base"), "", "other-frames", "does not give the pose of `camera_bottom_screw_frame`"),
         (EASY.format(kind="in_hand"), "", "invalid", "must be `eye_in_hand` or `eye_on_base`"),
         (EASY.format(kind="eye_in_hand").replace("w: 1.0", "w: 0.5"), "", "invalid", "length 1, got 0.5"),
         (EASY.format(kind="eye_in_hand").replace("0.0175", "17.5"), "", "differs", "17.5"),
-        (EASY.format(kind="eye_in_hand").replace("0.0175", "175"), "", "invalid", "must be a number of metres"),
+        (EASY.format(kind="eye_in_hand").replace("0.0175", "175"), "", "invalid", "must be a number of meters"),
         (LAUNCH.replace("IN-HAND", "TO-HAND"), "", "other-frames", "is moved by the robot"),
         (LAUNCH.replace('"--frame-id"', '"--frame"'), "", "invalid", "`--frame-id`"),
         (PLAIN.replace("wxyz", "quaternion"), "", "invalid", "whether w is first or last"),

@@ -52,7 +52,7 @@ def _kind(kind: Kind) -> str:
 def _then(edit: Edit) -> str:
     if edit.runs:
         stuck = f" with `{edit.stuck}` stuck" if edit.stuck else ""
-        return f"executed: `{edit.runs}`{stuck} differs, and ends as {edit.outcome}"
+        return f"executed: `{edit.runs}`{stuck} differs, and ends as `{edit.outcome}`"
     if edit.ends:
         return "ends the run: it differs from what is executed"
     return f"runs, and says what no run shows: {edit.not_shown}"

@@ -63,7 +63,7 @@ def test_claim_that_differs_from_the_contract_is_a_problem(folder: Path) -> None
     contract.write_text(text[:at] + '"arm_wrist_4_joint/position"' + text[at + len(wanted) :])
     result = load(folder, edited=True).run("pick_and_place")
     assert result.outcome == "bringup_failure"
-    assert "`arm_wrist_4_joint/position` is claimed by `nobody`" in problems(result)
+    assert "`arm_wrist_4_joint/position` must be claimed by `arm_trajectory`, got no controller" in problems(result)
 
 
 NEVER: list[tuple[str, dict[str, Any], str]] = [

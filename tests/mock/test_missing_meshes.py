@@ -62,7 +62,7 @@ def test_mock_moves_and_names_once_what_nobody_sees_those_first_that_move(built:
     (note,) = built.cell.notes
     assert note.endswith("1 that move, `arm_hand`; 1 that stand, `arm_base`")
     out = run("mock", str(built.folder), "--rehearsal", "wave").out
-    assert out.count("nobody looks") == 1
+    assert out.count("these links are not checked for collision") == 1
     assert json.loads(run("mock", str(built.folder), "--rehearsal", "wave", "--json").out)["notes"] == [note]
 
 

@@ -54,4 +54,4 @@ def test_motions_that_would_meet_are_refused_with_the_time(cell: MockCell) -> No
     assert planner.meeting(clear, positions) is None
     refused = planner.meeting(meeting, positions)
     assert refused is not None
-    assert "groups that move at once touch" in refused.detail
+    assert "groups that move together touch" in refused.detail

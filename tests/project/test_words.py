@@ -11,44 +11,17 @@ import pytest
 
 from tests.project.words import BANNED, banned, files, folder_of, inner, printed, suggestion
 
-PRINTED = {
-    "CONTRIBUTING.md": 14,
-    "README.md": 11,
-    "SECURITY.md": 13,
-    "action.yml": 1,
-    "benchmarks": 6,
-    "cellc": 2,
-    "cellc/adapter": 1,
-    "cellc/catalog": 68,
-    "cellc/cli": 4,
-    "cellc/contract": 20,
-    "cellc/deploy": 1,
-    "cellc/description": 2,
-    "cellc/diagnose": 1,
-    "cellc/importing": 3,
-    "cellc/layout": 3,
-    "cellc/link": 19,
-    "cellc/mock": 21,
-    "cellc/output": 5,
-    "cellc/report": 6,
-    "cellc/review": 12,
-    "cellc/rules": 1,
-    "cellc/spec": 25,
-    "cellc/view": 30,
-    "cells": 7,
-    "docs": 134,
-    "pyproject.toml": 3,
-}
+PRINTED: dict[str, int] = {}
 """Banned words in printed texts by folder: messages, pages, generated packages. A folder without a row has none."""
 
-INNER = {
+INNER: dict[str, int] = {
     "benchmarks": 39,
     "cellc": 56,
     "cellc/adapter": 14,
     "cellc/browse": 8,
-    "cellc/catalog": 54,
+    "cellc/catalog": 48,
     "cellc/cell": 66,
-    "cellc/cli": 74,
+    "cellc/cli": 73,
     "cellc/compute": 26,
     "cellc/contract": 16,
     "cellc/deploy": 72,
@@ -68,11 +41,11 @@ INNER = {
     "cellc/output": 12,
     "cellc/planning": 48,
     "cellc/report": 23,
-    "cellc/review": 127,
-    "cellc/rules": 76,
+    "cellc/review": 123,
+    "cellc/rules": 62,
     "cellc/source": 12,
-    "cellc/spec": 36,
-    "cellc/store": 27,
+    "cellc/spec": 26,
+    "cellc/store": 24,
     "cellc/verify": 5,
     "cellc/view": 56,
 }

@@ -67,18 +67,27 @@ BANNED = {
 """Pattern → what to write instead. Keys, codes and values that a user types stay: only texts are searched."""
 
 _PATTERN = re.compile("|".join(rf"\b(?:{one})\b" for one in BANNED))
-_CODE = re.compile(r"```.*?```|``[^`]+``|`[^`\n]*`|\[[^\]]*\]\([^)]*\)|<[^>\n]*>", re.DOTALL)
+_CODE = re.compile(
+    r"```.*?```|``[^`]+``|`[^`\n]*`|\[[^\]]*\]\([^)]*\)|<[^>\n]*>|^## [a-z-]+ \(", re.DOTALL | re.MULTILINE
+)
 _QUOTED = re.compile(r"\"[^\s\"]*\"|'[^\s']*'")
-_YAML_KEY = re.compile(r"^[ -]*[\w./~-]+:(?: +[\w./~-]+$)?", re.MULTILINE)
+_YAML_KEY = re.compile(r"^[ -]*[\w./~-]+:(?: +[\w./~-]+$)?|[{,] *\w+:", re.MULTILINE)
 _SEAM = re.compile(r"_|(?<=[a-z])(?=[A-Z])")
 _COMMENT = re.compile(r"(?:^ *|  )# (.*)$", re.MULTILINE)
+_QUOTES = re.compile(
+    r"^ *(?:logged|said|not|image): *\[.*$"
+    r"|current goal cancelled during deactivate transition|^cancelled due to$"
+    r"|\bexpect: *cancelled\b|^controller \{controller\} behaviour$",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""What users and programs of others write, and keys and values of a spec: their spelling is not ours."""
 _IN_KEYS = {"behaviour", "behaviours", "cancelled"}
 """Words of keys and of values in files that users have written: an attribute is called like its key."""
 
 
 def banned(text: str) -> list[str]:
     """Return the banned words of a text outside of code, each as often as it is there."""
-    return _PATTERN.findall(_CODE.sub(" ", text.replace("None", "null").lower()))
+    return _PATTERN.findall(_CODE.sub(" ", _QUOTES.sub(" ", text).replace("None", "null").lower()))
 
 
 def suggestion(word: str) -> str:
@@ -103,9 +112,9 @@ def folder_of(file: Path) -> str:
 
 def printed(file: Path) -> list[str]:
     """Return the texts of a file that are printed for people: messages, prose, comments of what is generated."""
-    text = _read(file)
+    text = _QUOTES.sub(" ", _read(file))
     if file.suffix == ".py":
-        return _of_module(text)[0]
+        return _of_module(_read(file))[0]
     if text.startswith("#!/usr/bin/env python3"):
         return [each for texts in _of_module(text) for each in texts]
     if file.suffix in (".yaml", ".yml", ".repos"):

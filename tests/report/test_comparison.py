@@ -47,7 +47,7 @@ def test_rates_and_silences_are_those_of_the_vendors() -> None:
 
 def test_what_a_node_moves_past_the_controllers_is_claimed_by_none() -> None:
     _, franka = _row(_compared(), "command ownership").answers
-    assert "arm_trajectory: claims 7 command interfaces, told by move_group" in franka
+    assert "arm_trajectory: claims 7 command interfaces, commanded by move_group" in franka
     assert any(text.startswith("hand: no controller claims it") for text in franka)
 
 

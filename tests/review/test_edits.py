@@ -21,7 +21,7 @@ ARM += "arm_wrist_3_joint"
 OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", "))
 LOOKED_AT = "in arm_tool0"
 # The bring-up asks a node of a lifecycle, and what is asked must be there once.
-ALONE = "alone nodes /robot_state_publisher, /controller_manager"
+ALONE = "only nodes /robot_state_publisher, /controller_manager"
 STATES = "controller /controller_manager joint_states active"
 STOPPED = "topic /arm_io/robot_program_running std_msgs/msg/Bool data value False"
 LESS_ALONE = f"lost {ALONE}, /perception; new {ALONE}"
@@ -76,20 +76,20 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
         [
             "dangerous safety | cell | path of the stop | hardwired -> safety_bus",
             "dangerous safety | cell | recovery observer | operator -> guard",
-            "dangerous safety | arm | voltage of the tool connector came | None -> there",
+            "dangerous safety | arm | voltage of the tool connector added | None -> present",
             "dangerous calibration | tcp | pose in its parent | xyz 0 0 162 mm, rpy 0 0 0 deg -> "
             "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
             "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",
-            f"dangerous payload | arm | TCP that the robot is told | {_tcp('173.00', '1.5708', '90.00')} -> "
+            f"dangerous payload | arm | TCP set in the robot | {_tcp('173.00', '1.5708', '90.00')} -> "
             f"{_tcp('174.00', '1.5708', '90.00')}",
-            "dangerous payload | arm | payload that the robot is told | 1.0 kg, tool included, "
+            "dangerous payload | arm | payload set in the robot | 1.0 kg, tool included, "
             f"center of mass 0 0 58 mm {LOOKED_AT} -> 1.5 kg, tool included, "
             f"center of mass 0 0 58 mm {LOOKED_AT}",
             "dangerous rehearsals | cancelled | bound of the outcome | 200 ms -> 400 ms | +100 %",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",
             "review interfaces | /move_action | timeout | 20 s -> 10 s | -50 %",
-            "review rehearsals | stale_camera | rehearsal went | stale_state -> None",
+            "review rehearsals | stale_camera | rehearsal removed | stale_state -> None",
             "review owners | limits | owner | controls -> robot",
             "review figures | recovery_time_s | target figure | 120 s -> 180 s | +50 %",
             "safe documents | cell | summary | UR5e with a Robotiq 2F-85 picks parts from fixture A under a wrist "
@@ -110,7 +110,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
         ),
         [
             "dangerous calibration | hand_eye | revision | 4 -> 3",
-            f"dangerous payload | arm | TCP that the robot is told | {_tcp('173.00', '1.5708', '90.00')} -> "
+            f"dangerous payload | arm | TCP set in the robot | {_tcp('173.00', '1.5708', '90.00')} -> "
             f"{_tcp('173.00', '1.5882', '91.00')}",
             "dangerous interfaces | /move_action | frame of the payload | world -> arm_base_link | breaks",
             "dangerous time | /object_pose | oldest sample that may be used | 200 ms -> 300 ms | +50 %",
@@ -131,9 +131,9 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review interfaces | /camera/color/image_raw | rate | 30 Hz -> 15 Hz | -50 %",
             "review QoS | /object_pose subscribers task | quality of service reliability | reliable -> best_effort",
             "review devices | camera | device camera.rate_hz | 30 Hz -> 15 Hz | -50 %",
-            "review start order | launch/goal.launch.xml | 1 line that no other change explains | "
+            "review start order | launch/goal.launch.xml | 1 line (not classified) | "
             f"{_first_goal(0.08726646259971647, 2.5)} -> {_first_goal(0.17453292519943295, 3.0)}",
-            "review gates | gates/promotion.md | 1 line that no other change explains | "
+            "review gates | gates/promotion.md | 1 line (not classified) | "
             f"{_far_end('0.0873')} -> {_far_end('0.1745')}",
         ],
     ),
@@ -177,9 +177,9 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous control | arm_trajectory | plugin | ur_controllers/ScaledJointTrajectoryController -> "
             "joint_trajectory_controller/JointTrajectoryController",
             "dangerous time | control_pc | bound of its offset | 1 ms -> 2 ms | +100 %",
-            "dangerous versions | arm.driver | what the matrix says | OK: jazzy knows 3.8.0: rosdistro, as of 2026-08-"
+            "dangerous versions | arm.driver | compatibility matrix | OK: jazzy knows 3.8.0: rosdistro, as of 2026-08-"
             "22 -> UNKNOWN: jazzy knows 3.8.0: rosdistro, as of 2026-08-22",
-            "dangerous network | arm_hardware | where it is reached | 192.168.56.101 -> 192.168.56.102",
+            "dangerous network | arm_hardware | address | 192.168.56.101 -> 192.168.56.102",
             "review control | arm_trajectory | parameter constraints.stopped_velocity_tolerance | 0.2 -> 0.01 | -95 %",
             "review control | camera | parameter depth_module.exposure | 8000 -> 10000",
             "review control | camera | parameter rgb_camera.exposure | 80 -> 100",
@@ -190,7 +190,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review time | camera | exposure | 8 ms -> 10 ms | +25 %",
             "review versions | arm.driver | pinned version | ur_robot_driver 3.8.0 -> ur_robot_driver 3.7.0",
             "review versions | arm.firmware | pinned version | polyscope 5.21.0 -> polyscope 5.22.0",
-            "review network | middleware/control_pc.fastdds.xml | 14 lines that no other change explains | "
+            "review network | middleware/control_pc.fastdds.xml | 14 lines (not classified) | "
             "<maxInitialPeersRange>99</maxInitialPeersRange> / <builtin> / <metatrafficUnicastLocatorList> / and 11 "
             "more -> <address>10.10.0.10</address>",
             "review network | cell | network discovery | localhost -> multicast",
@@ -213,17 +213,17 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             ("pick: {frame: object,", "pick: {frame: fixture_A,"),
         ),
         [
-            "dangerous control | /arm_trajectory/follow_joint_trajectory task | client came | None -> there",
-            "dangerous control | arm_trajectory | node that may command it | move_group -> task",
+            "dangerous control | /arm_trajectory/follow_joint_trajectory task | client added | None -> present",
+            "dangerous control | arm_trajectory | permitted client | move_group -> task",
             "dangerous motion | pick | frame | object -> fixture_A",
-            "dangerous start order | activate_perception, configure_perception | step on the real target went | "
+            "dangerous start order | activate_perception, configure_perception | hardware startup step removed | "
             "start -> None",
-            f"dangerous start order | activate_gripper | what must show before it | {ALONE}, /perception, {STOPPED} -> "
+            f"dangerous start order | activate_gripper | precondition | {ALONE}, /perception, {STOPPED} -> "
             f"{ALONE}, {STOPPED} | {LESS_ALONE}",
-            "dangerous start order | claim_control | what must show before it | 10 entries -> 9 entries | "
-            f"lost {ALONE}, /perception, lifecycle /perception active; new {ALONE}",
-            f"dangerous start order | compare_versions | what must show before it | {ALONE}, /perception -> {ALONE}",
-            "dangerous start order | move | what must show before it | "
+            "dangerous start order | claim_control | precondition | 10 entries -> 9 entries | "
+            f"lost lifecycle /perception active, {ALONE}, /perception; new {ALONE}",
+            f"dangerous start order | compare_versions | precondition | {ALONE}, /perception -> {ALONE}",
+            "dangerous start order | move | precondition | "
             f"{ALONE}, /perception, "
             "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
             "active, "
@@ -232,26 +232,25 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
             "active, "
             "action /move_action, action /arm_trajectory/follow_joint_trajectory, action /gripper_action/gripper_cmd | "
-            f"lost {ALONE}, /perception, lifecycle /perception active; "
+            f"lost lifecycle /perception active, {ALONE}, /perception; "
             f"new action /arm_trajectory/follow_joint_trajectory, {ALONE}",
-            "dangerous start order | observe_control | what must show before it | 9 entries -> 9 entries | "
-            f"{LESS_ALONE}",
-            f"dangerous start order | observe_control_again | what must show before it | {ALONE}, /perception, "
+            f"dangerous start order | observe_control | precondition | 9 entries -> 9 entries | {LESS_ALONE}",
+            f"dangerous start order | observe_control_again | precondition | {ALONE}, /perception, "
             f"{STATES} -> {ALONE}, {STATES} | {LESS_ALONE}",
-            "review control | /arm_trajectory/follow_joint_trajectory move_group | client went | there -> None",
-            "review control | /watcher | node came | None -> cell_tasks",
+            "review control | /arm_trajectory/follow_joint_trajectory move_group | client removed | present -> None",
+            "review control | /watcher | node added | None -> cell_tasks",
             # A controller with another client than MoveIt is no longer its to command.
-            "review control | arm_trajectory | what MoveIt knows of the controller: joints | arm_shoulder_pan_joint, "
+            "review control | arm_trajectory | parameter in MoveIt's controller list: joints | arm_shoulder_pan_joint, "
             "arm_shoulder_lift_joint, arm_elbow_joint, arm_wrist_1_joint, arm_wrist_2_joint, arm_wrist_3_joint -> None",
-            "review control | arm_trajectory | what MoveIt knows of the controller: type | "
+            "review control | arm_trajectory | parameter in MoveIt's controller list: type | "
             "FollowJointTrajectory -> None",
             "review motion | pick | place in the root frame | xyz 450 -150 860 mm, rpy 180 0 0 deg -> "
             "xyz 450 100 860 mm, rpy 180 0 0 deg | moves 250 mm",
-            "review interfaces | /part_pose | interface came | None -> geometry_msgs/msg/PoseStamped",
-            "review interfaces | /object_pose | interface went | geometry_msgs/msg/PoseStamped -> None | breaks",
-            "review interfaces | /joint_states move_group, /tf move_group, /tf_static move_group | subscriber went | "
-            "there -> None",
-            "review network | security/policy.xml | 5 lines that no other change explains | "
+            "review interfaces | /part_pose | interface added | None -> geometry_msgs/msg/PoseStamped",
+            "review interfaces | /object_pose | interface removed | geometry_msgs/msg/PoseStamped -> None | breaks",
+            "review interfaces | /joint_states move_group, /tf move_group, /tf_static move_group | subscriber "
+            "removed | present -> None",
+            "review network | security/policy.xml | 5 lines (not classified) | "
             "<service>~/change_state</service> / <service>~/get_available_states</service> / "
             "<service>~/get_available_transitions</service> / and 2 more -> None",
         ],
@@ -283,18 +282,18 @@ def test_another_claim_another_type_and_one_gate_more_are_told(repository: Repos
     found = changes_of(main, package_of(repository, repository.commit(edited(*edits))))
     gripper, software = "parallel_gripper_action_controller/GripperActionController", "ur_controllers/URConfiguration"
     assert [one for one in found if one.split()[1] in ("control", "interfaces", "QoS", "gates", "safety")] == [
-        f"dangerous control | arm_software | controller went | {software}Controller -> None",
-        f"dangerous control | gripper_action | controller went | {gripper} -> None",
-        "dangerous control | gripper_robotiq_85_left_knuckle_joint/position | who claims it | "
+        f"dangerous control | arm_software | controller removed | {software}Controller -> None",
+        f"dangerous control | gripper_action | controller removed | {gripper} -> None",
+        "dangerous control | gripper_robotiq_85_left_knuckle_joint/position | controller that claims it | "
         "gripper_action -> fingers",
         "dangerous interfaces | /object_pose | type | geometry_msgs/msg/PoseStamped -> "
         "geometry_msgs/msg/PoseWithCovarianceStamped | breaks",
-        f"review control | fingers | controller came | None -> {gripper}",
-        "review interfaces | /fingers/gripper_cmd | interface came | "
+        f"review control | fingers | controller added | None -> {gripper}",
+        "review interfaces | /fingers/gripper_cmd | interface added | "
         "None -> control_msgs/action/ParallelGripperCommand",
-        "review interfaces | /arm_software/get_robot_software_version | interface went | "
+        "review interfaces | /arm_software/get_robot_software_version | interface removed | "
         "ur_msgs/srv/GetRobotSoftwareVersion -> None | breaks",
-        "review interfaces | /gripper_action/gripper_cmd | interface went | "
+        "review interfaces | /gripper_action/gripper_cmd | interface removed | "
         "control_msgs/action/ParallelGripperCommand -> None | breaks",
         "review QoS | /camera/color/image_raw subscribers perception | quality of service reliability | "
         "best_effort -> reliable",

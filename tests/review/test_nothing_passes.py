@@ -38,7 +38,7 @@ def test_an_area_that_arms_share_is_told_in_mm_and_is_a_matter_of_safety(tmp_pat
     smaller = AREA.replace("500 400 500 mm", "50 40 50 mm").replace("safety_plc", "nobody")
     assert _of_two_arms(tmp_path, smaller) == [
         "dangerous safety | over_nest | size of the shared area | 500 400 500 mm -> 50 40 50 mm",
-        "dangerous safety | over_nest | who lets one arm in | safety_plc -> nobody",
+        "dangerous safety | over_nest | who grants access | safety_plc -> nobody",
     ]
 
 
@@ -47,7 +47,7 @@ def test_an_area_that_went_is_a_matter_of_safety(repository: Repository, tmp_pat
     lines = [line for line in spec_text("dual_ur").splitlines() if not line.startswith(("areas:", "  over_nest:"))]
     commit = other.commit("\n".join(lines) + "\n", DUAL)
     with packages(*(Side(name, DUAL, name, other.folder) for name in ("main", commit))) as ((before, _), (after, _)):
-        assert changes_of(before, after) == ["dangerous safety | over_nest | shared area went | there -> None"]
+        assert changes_of(before, after) == ["dangerous safety | over_nest | shared area removed | present -> None"]
 
 
 def test_what_a_calibration_rests_on_is_told(repository: Repository, main: Package) -> None:
@@ -60,7 +60,7 @@ def test_what_a_calibration_rests_on_is_told(repository: Repository, main: Packa
     )
     assert found == [
         "dangerous calibration | fixture_A | reference points | 3 -> 1",
-        "review calibration | gripper | day of its mounting | None -> 2026-09-01",
+        "review calibration | gripper | date of mounting | None -> 2026-09-01",
     ]
 
 
@@ -70,11 +70,11 @@ def test_a_blocker_that_a_comment_silences_did_not_go(repository: Repository, ma
     after = package_of(repository, repository.commit(edited(silenced)))
     found = reviewed(main, after)
     assert [(str(one.grade), one.quantity, one.approval) for one in found.changes] == [
-        ("dangerous", "excuse of a blocker came", "safety")
+        ("dangerous", "excuse of a blocker added", "safety")
     ]
     assert "missing-rollback" not in {one.code for one in found.gone_findings}
     back = reviewed(after, main)
-    assert [(str(one.grade), one.quantity) for one in back.changes] == [("safe", "excuse of a blocker went")]
+    assert [(str(one.grade), one.quantity) for one in back.changes] == [("safe", "excuse of a blocker removed")]
     assert "missing-rollback" in {one.code for one in back.new_findings}
 
 
@@ -86,13 +86,13 @@ def test_who_approved_before_a_change_approves_it(repository: Repository, main: 
     found = reviewed(main, package_of(repository, repository.commit(text)))
     of_safety = {one.quantity: (str(one.grade), one.owner) for one in found.changes if one.area == "safety"}
     assert of_safety["states that need recovery"] == ("dangerous", "safety and integration")
-    assert of_safety["who approves changes of safety"] == ("dangerous", "safety and integration")
+    assert of_safety["approver of safety changes"] == ("dangerous", "safety and integration")
 
 
 def test_an_obstacle_that_planning_knows_no_more_is_dangerous(repository: Repository, main: Package) -> None:
     lines = "scene:\n  table: {parent: world, xyz: 350 0 780 mm, box: 900 1200 40 mm}\n"
     found = _changes(repository, main, (lines, ""))
-    assert "dangerous model | table | collision shapes went | there -> None" in found
+    assert "dangerous model | table | collision shapes removed | present -> None" in found
 
 
 def test_an_offer_that_shrinks_breaks_who_asked_for_it(main: Package) -> None:
@@ -103,15 +103,15 @@ def test_an_offer_that_shrinks_breaks_who_asked_for_it(main: Package) -> None:
             one["qos"]["reliability"] = "best_effort"
     weaker = facts_of({**main.files, "contract.json": json.dumps(contract)})
     broken = [one for one in changes_between(main.facts, weaker) if one.breaking]
-    assert [(one.subjects, one.quantity) for one in broken] == [(("/object_pose: perception",), "offer")]
+    assert [(one.subjects, one.quantity) for one in broken] == [(("/object_pose: perception",), "offered QoS")]
     assert not [one for one in changes_between(weaker, main.facts) if one.breaking]
 
 
 def test_a_rate_of_success_that_sinks_is_dangerous(repository: Repository, main: Package) -> None:
     found = _changes(repository, main, ("success: 99 %", "success: 50 %"), ("confidence: 95 %", "confidence: 99 %"))
     assert found == [
-        "dangerous rehearsals | pick_and_place | share of runs that must succeed | 0.99 -> 0.5 | -49.5 %",
-        "review rehearsals | pick_and_place | confidence of it | 0.95 -> 0.99 | +4.21 %",
+        "dangerous rehearsals | pick_and_place | required success rate | 0.99 -> 0.5 | -49.5 %",
+        "review rehearsals | pick_and_place | required confidence | 0.95 -> 0.99 | +4.21 %",
     ]
 
 
@@ -153,16 +153,16 @@ def test_a_calibration_of_another_name_is_told_in_a_few_lines(repository: Reposi
     found = changes_of(main, package_of(repository, repository.commit(text)))
     drawn = "uncertainty.calibrations.{}.rotation"
     assert found == [
-        "dangerous calibration | hand_eye | calibration went | 4 -> None",
-        "review calibration | wrist_eye | calibration came | None -> 4",
-        "review calibration | camera_bottom_screw_frame | calibration that measured it | hand_eye -> wrist_eye",
+        "dangerous calibration | hand_eye | calibration removed | 4 -> None",
+        "review calibration | wrist_eye | calibration added | None -> 4",
+        "review calibration | camera_bottom_screw_frame | calibration of the frame | hand_eye -> wrist_eye",
         *(
-            f"review rehearsals | {name} {first}, {name} {second}, {name} {third} | quantity that sweeps draw {told}"
+            f"review rehearsals | {name} {first}, {name} {second}, {name} {third} | sweep quantity {told}"
             for name, first, second, third, told in (
-                ("wrist_eye", "rx", "ry", "rz", f"came | None -> {drawn.format('wrist_eye')}"),
-                ("wrist_eye", "x", "y", "z", "came | None -> calibrations.wrist_eye.residual"),
-                ("hand_eye", "rx", "ry", "rz", f"went | {drawn.format('hand_eye')} -> None"),
-                ("hand_eye", "x", "y", "z", "went | calibrations.hand_eye.residual -> None"),
+                ("wrist_eye", "rx", "ry", "rz", f"added | None -> {drawn.format('wrist_eye')}"),
+                ("wrist_eye", "x", "y", "z", "added | None -> calibrations.wrist_eye.residual"),
+                ("hand_eye", "rx", "ry", "rz", f"removed | {drawn.format('hand_eye')} -> None"),
+                ("hand_eye", "x", "y", "z", "removed | calibrations.hand_eye.residual -> None"),
             )
         ),
     ]

@@ -9,7 +9,7 @@ from cellc.review.facts import facts_of
 from tests.cells import generated
 
 _LINES = {
-    "load that the robot is told": "- [ ] arm: Set the load beside the end effector of Desk: mass {}",
+    "load set in the robot": "- [ ] arm: Set the load beside the end effector of Desk: mass {}",
     "impedance of the joints": "- [ ] arm: Set the joint impedance to {}",
     "impedance at the tool": "- [ ] arm: Set the tool impedance to {}",
     "voltage of the tool connector": (

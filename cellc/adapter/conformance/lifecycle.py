@@ -168,7 +168,7 @@ LIFECYCLE_CASES = (
     ConformanceCase("the model states joints, bounds and times", _model),
     ConformanceCase("nothing is read or activated before it is connected", _unconnected),
     ConformanceCase("connecting moves nothing", _connected),
-    ConformanceCase("an active device holds for as long as nobody commands", _activated),
+    ConformanceCase("an active device holds for as long as it gets no command", _activated),
     ConformanceCase("a deactivated device is inactive and can be activated again", _deactivated),
     ConformanceCase("a disconnected device is gone for good", _disconnected),
     ConformanceCase("states are stamped when they are measured", _stamps),

@@ -148,7 +148,7 @@ class LiveView:
         shown = f"[{host}]" if ":" in host else host
         show(f"live at ws://{shown}:{self._server.port}: it begins when Foxglove opens that", to=Stream.ERR)
         if not _is_loopback(host):
-            show("note: whoever reaches this address can watch", to=Stream.ERR)
+            show("note: every host that reaches this address can watch", to=Stream.ERR)
 
     def _await_viewer(self) -> None:
         """Wait until somebody has subscribed to all that they want, each topic by itself."""

@@ -108,7 +108,7 @@ class Simulation:
         self._steps_at_once = 0 if reached_ns > self._last_ns else self._steps_at_once + 1
         self._last_ns = reached_ns
         if self._steps_at_once > _MAX_STEPS_AT_ONCE:
-            raise RuntimeError(f"the clock stands still at {reached_ns} ns")
+            raise RuntimeError(f"the clock does not advance at {reached_ns} ns")
 
     def _next_ns(self, process: Process) -> int:
         """Return the time up to which nothing can concern the control stack."""

@@ -38,7 +38,7 @@ def owners(evidence: GateEvidence) -> GateCheck:
                 bad += [f"{run.name}: {problem}" for problem in stage.problems]
                 good = good or [f"{run.name}: {fact}" for fact in stage.facts]
     text = "Each command interface is claimed by its one owner"
-    return judged(text, good, bad, "a run whose bring-up came to the claims")
+    return judged(text, good, bad, "a run whose bring-up reached the claims")
 
 
 def goal_trace(evidence: GateEvidence, controller: str) -> GateCheck:
@@ -157,7 +157,7 @@ def _bringup(evidence: GateEvidence) -> GateCheck:
         bad += [f"{run.name}: {stage.stage}: {problem}" for stage in stages for problem in stage.problems]
         if stages and all(stage.passed for stage in stages):
             good.append(f"{run.name}: {', '.join(stage.stage for stage in stages)} passed")
-    return judged("The cell comes up in stages", good, bad, "a run without faults")
+    return judged("The cell starts in stages", good, bad, "a run without faults")
 
 
 def _servers(evidence: GateEvidence) -> GateCheck:
@@ -166,8 +166,8 @@ def _servers(evidence: GateEvidence) -> GateCheck:
     bad: list[str] = []
     for name, interface in evidence.contract.interfaces.items():
         if interface.kind == "action":
-            servers = ", ".join(source.node for source in interface.sources) or "nobody"
-            clients = ", ".join(sink.node for sink in interface.sinks) or "nobody"
+            servers = ", ".join(source.node for source in interface.sources) or "no server"
+            clients = ", ".join(sink.node for sink in interface.sinks) or "no client"
             (good if len(interface.sources) == 1 else bad).append(f"{name}: {servers} for {clients}")
     return judged("Each action has one server and the declared clients", good, bad, "an action")
 

@@ -60,7 +60,7 @@ def _cancelled_goal(evidence: GateEvidence, name: str) -> GateCheck:
         for controller, facts in manager.controllers.items():
             if facts.action == name:
                 return cancel_trace(evidence, controller)
-    return unknown(f"A canceled goal of {name} is held", "its server, which the mock's task stands in for")
+    return unknown(f"A canceled goal of {name} is held", "its server, which the mock's task replaces")
 
 
 def _bounded(text: str, runs: list[JudgedRun], needed: str) -> GateCheck:

@@ -335,7 +335,7 @@ class MotionPlanner:
             moved = {name: value for motion in motions for name, value in _positions_at(motion, at_ns)}
             if scene.collides(self._model.robot.configuration(standing | moved)):
                 return PlanFailure(
-                    FailureReason.NO_PATH, f"groups that move at once touch {at_ns / 1e9:g} s on their way"
+                    FailureReason.NO_PATH, f"groups that move together touch {at_ns / 1e9:g} s on their way"
                 )
         return None
 

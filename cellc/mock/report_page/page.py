@@ -35,7 +35,7 @@ UNPROVEN = (
         "Motion of the real arm",
         "friction, backlash, stiffness and tracking of the drives; the state follows the command",
     ),
-    ("Payload", "mass, centre of mass and their effect on limits and stops"),
+    ("Payload", "mass, center of mass and their effect on limits and stops"),
     ("Stopping", "distance and time of a protective or an emergency stop, and the stop path itself"),
     ("Vendor controller", "its modes, its safety functions, its own limits and the semantics of speed scaling"),
     ("Timing of the host", "latency and jitter of network, kernel, executor and middleware under load"),
@@ -119,14 +119,14 @@ def key_figures(content: ReportContent) -> Element:
     title = tag("h2", "Key figures")
     runs = [run for run in content.runs if run.kpis]
     if not runs:
-        return tag("section", title, tag("p", "No cell came up, so that nothing was measured.", class_="hint"))
+        return tag("section", title, tag("p", "No cell was brought up, so that nothing was measured.", class_="hint"))
     figures = runs[0].kpis
     names = ("rehearsal", *(_NAMES[figure.name] for figure in figures))
     targets = (tag("td", "target", class_="aim"), *(tag("td", _target(figure), class_="aim") for figure in figures))
     table = cards(names, (targets, *(_figure_row(run) for run in runs)))
     hint = (
         "A target is for the cell in service. Where a rehearsal injects a fault, a missed target tells what the fault "
-        "did, and is set in brackets; the rehearsal itself is judged above. – is what a run never came to."
+        "did, and is set in brackets; the rehearsal itself is judged above. – is what a run never reached."
     )
     bases = [tag("div", tag("dt", _NAMES[figure.name]), tag("dd", figure.basis)) for figure in figures]
     measured = tag("details", tag("summary", "What was measured"), tag("dl", *bases, class_="pairs"))
@@ -210,7 +210,7 @@ def _gate(gate: GateResult, *, open_: bool) -> Element:
     verdict = tag("span", gate.verdict.value, class_=_CLASSES[gate.verdict])
     title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {told}")
     rows = tag("ul", *(_check(check) for check in gate.checks), class_="checks")
-    by = tag("code", gate.signature) if gate.signature else "nobody, since the folder was edited"
+    by = tag("code", gate.signature) if gate.signature else "not signed, because the folder was edited"
     signed = tag("p", f"State of the robot: {gate.state}. Signed by result: ", by, class_="hint")
     section = tag("details", title, rows, signed, class_="gate")
     if open_:

@@ -177,7 +177,7 @@ _Spans = tuple[tuple[str, int, int, bool], ...]
 def claims(trace: TraceResult, time: TimeAxis) -> Iterator[Element]:
     """Yield a lane for interfaces that were claimed alike, and the changes of controllers and hardware."""
     lanes = [_lane(interfaces, spans, time) for spans, interfaces in _alike(trace.claims).items()]
-    lanes = lanes or [tag("p", "nobody claimed a command interface", class_="hint")]
+    lanes = lanes or [tag("p", "no controller claimed a command interface", class_="hint")]
     yield tag("div", tag("h3", "Claims of command interfaces"), *lanes, axis(time), class_="lanes")
     if trace.changes:
         rows = [_change(change) for change in trace.changes]

@@ -26,7 +26,7 @@ def sweep_section(sweep: Sweep, contract: Contract) -> Element:
         tables.insert(0, cards((*names, "best to worst"), drawn))
     hint = (
         "95 % of the runs are as good as the figure below it, or better. A drawing ends at the bound, or at a run "
-        "beyond it. Clearance is what the planner knows: from an arm and what it carries to what stands around, where "
+        "beyond it. Clearance is what the planner knows: from an arm and what it carries to its surroundings, where "
         "the description has that. How a part slips or turns between the fingers is not simulated. The section of a "
         "run that missed its goal shows what the robot believed: that it succeeded."
     )

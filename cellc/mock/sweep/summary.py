@@ -73,10 +73,10 @@ def _unexplained(sweep: Sweep) -> str:
     if not sweep.uncertainty.quantities:
         return "nothing is drawn that could explain the failures"
     if len(sweep.failed) == len(sweep.runs):
-        return "every run failed, so that there is none to compare what was drawn with"
-    nothing = "nothing that is drawn stands out in the failures"
+        return "every run failed, so that no successful run is left for a comparison"
+    nothing = "no drawn quantity explains the failures"
     if len(sweep.runs) < sweep.asked:
-        return f"{nothing}; the verdict ended the sweep, which makes all {sweep.asked} runs where no `success` stands"
+        return f"{nothing}; the verdict ended the sweep early; without `success` it makes all {sweep.asked} runs"
     return f"{nothing}; more runs may tell more"
 
 

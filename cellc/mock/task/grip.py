@@ -44,7 +44,7 @@ def _require_arrival(state: CurrentState, facts: ContractGripper, expected: floa
     allowed = ARRIVAL_SHARE * abs(facts.closed - facts.open)
     position = state.positions.get(facts.joint, math.nan)
     if not abs(position - expected) <= allowed:  # an unknown position is no arrival either
-        text = f"joint {facts.joint} stands at {position:.4g}, {expected:.4g} expected within {allowed:.2g}"
+        text = f"joint {facts.joint} is at {position:.4g}, expected {expected:.4g} within {allowed:.2g}"
         raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, text)
 
 

@@ -36,7 +36,7 @@ def detect(context: TaskContext, attempt: Attempt, frame: str) -> Waiting[None]:
     inbox = context.node.observations.get(frame)
     entry = context.contract.frames.get(frame)
     if inbox is None or entry is None:
-        raise AttemptError(AttemptOutcome.TF_FAILURE, f"nobody observes frame {frame}")
+        raise AttemptError(AttemptOutcome.TF_FAILURE, f"no detector observes frame {frame}")
     attempt.goal_frame = frame
     period_ns = round(1e9 / (entry.rate_hz or DEFAULT_RATE_HZ))
     until_ns = context.now_ns + PATIENCE_PERIODS * period_ns

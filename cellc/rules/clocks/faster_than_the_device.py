@@ -1,7 +1,7 @@
 """A topic is promised faster than the device publishes it.
 
-The rate of a stream is set at the device, that of a broadcaster by its controller manager. A promise above it is met by
-nobody: ages and deadlines that were worked out from it reject samples that are as fresh as they can be.
+The rate of a stream is set at the device, that of a broadcaster by its controller manager. No node meets a promise
+above it: ages and deadlines that were worked out from it reject samples that are as fresh as they can be.
 
 Example that is reported:
 

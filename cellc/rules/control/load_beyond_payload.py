@@ -1,8 +1,8 @@
 """What a service tells the robot of its load does not fit the payload that it is part of.
 
-The payload is all that hangs on the robot, the load the part of it beside the tool. Told twice, or more than there is,
-the arm pushes up against gravity that is not there as soon as it is controlled by torque, and sees collisions that
-nobody had.
+The payload is everything mounted on the robot; the load is its part beside the tool. If it is set twice, or too high,
+the arm pushes up against gravity that is not there as soon as it is controlled by torque, and detects
+false collisions.
 
 Example that is reported:
 

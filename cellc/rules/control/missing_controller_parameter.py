@@ -1,6 +1,6 @@
 """A controller lacks a parameter that it demands.
 
-The parameter has no default: the controller throws as it is initialised, and the controller manager unloads it. What
+The parameter has no default: the controller throws when it is initialized, and the controller manager unloads it. What
 follows from the spec is written by cellc; what only the author can know is not.
 
 Example that is reported:

@@ -1,7 +1,7 @@
 """A path tolerance is so wide that it watches nothing.
 
-A value that was raised until the error went away lets the arm lag behind its command by a whole motion. A collision is
-then noticed at the end of the trajectory, if at all.
+A value that was raised until the error disappeared lets the arm lag behind its command by a whole motion. A collision
+is then noticed at the end of the trajectory, if at all.
 
 Example that is reported:
 

@@ -1,6 +1,6 @@
 """What a decision rests on is not in the recording.
 
-A grasp that went wrong is judged by what the camera saw. Where the spec lists the topics that are recorded beyond the
+A failed grasp is judged by what the camera saw. Where the spec lists the topics that are recorded beyond the
 motion path and leaves out the images or clouds, a bad detection cannot be distinguished from a bad calibration.
 
 Example that is reported:

@@ -1,7 +1,7 @@
 """A device hangs on a frame that a node publishes, and the robot description has no joint that moves so.
 
-The description is one tree of links whose joints are fixed or controlled; a frame that a node sends to /tf stands in
-none. robot_state_publisher, MoveIt and the controller manager refuse a description whose parent link is missing, and
+The description is one tree of links whose joints are fixed or controlled; a frame that a node sends to /tf is not
+in it. robot_state_publisher, MoveIt and the controller manager refuse a description whose parent link is missing, and
 goals of an arm on it would be planned as if its base were fixed.
 
 Example that is reported:

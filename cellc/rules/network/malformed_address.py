@@ -1,7 +1,7 @@
 """An address is not an IPv4 address.
 
 A name, a missing prefix length or a typing error: the card gets no address, or the driver waits for a device that
-nobody has.
+does not exist.
 
 Example that is reported:
 

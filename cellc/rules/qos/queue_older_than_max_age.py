@@ -1,7 +1,7 @@
 """A full queue holds samples that are too old to be used.
 
 A reader that is slower than its topic, or starts late, works on a full queue: each sample that it takes has waited for
-depth ÷ rate. Where that is above `max_age`, it rejects every one, fresh data arrives all the while, and the cell stands
+depth ÷ rate. Where that is above `max_age`, it rejects every one, fresh data arrives all the while, and the cell stops
 with `stale_state`. A detector passes the stamp of its image on, so that the age limit of its poses counts too. ROS 2
 warns of nothing: the profiles match, and no sample is lost. Where every sample counts, a deep queue is for bursts. It
 is reported only if what the reader makes of it has a lower rate, so that the queue stays full.

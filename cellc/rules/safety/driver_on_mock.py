@@ -1,6 +1,6 @@
 """A node that starts on the mock is a driver of real hardware.
 
-Nodes of the spec, and those of `device.yaml` with `provides: every_target`, start on the mock, and no gate stands
+Nodes of the spec, and those of `device.yaml` with `provides: every_target`, start on the mock, and no gate is
 before it. A program of a package that drives devices, or a controller manager with a description of its own, opens its
 connection there and needs no word of the cell for it. A statement under `mock_programs` or `mock_plugins` cannot excuse
 what the catalog knows to reach a device.

@@ -1,7 +1,7 @@
-"""Nobody says what a device does as it comes up.
+"""The effect of starting a device is not stated.
 
 A gripper or a stage may find its reference, close or open as its hardware component is activated, or as its driver
-starts. Where `device.yaml` states no effect of that moment the answer is not "nothing": the component comes up
+starts. Where `device.yaml` states no effect of that moment the answer is not "nothing": the component starts
 unconfigured, and a person activates it behind a gate of its own; a driver that starts cannot be held back like that.
 
 Example that is reported:
@@ -32,8 +32,8 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
-    """Yield devices of which nobody says what their activation, or the start of their driver, does."""
+    """Yield devices without a stated effect of their activation, or of the start of their driver."""
     for device in graph.cell.devices:
         for moment in device.unknown_effects:
-            message = f"nobody says what {moment} of `{device.name}` moves"
+            message = f"it is not stated what {moment} of `{device.name}` moves"
             yield found(graph, (*device.path, "model"), message)

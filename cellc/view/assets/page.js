@@ -89,13 +89,13 @@ class Drawing {
   floor(paper = false) {
     this.scene.remove(this.grid);
     const half = Math.max(1, Math.ceil(this.model.sphere.radius * 1.6));
-    const colour = paper ? "#d9dee4" : getComputedStyle(document.documentElement).getPropertyValue("--rule").trim();
-    this.grid = new THREE.GridHelper(half * 2, half * 4, colour, colour).rotateX(Math.PI / 2);
+    const color = paper ? "#d9dee4" : getComputedStyle(document.documentElement).getPropertyValue("--rule").trim();
+    this.grid = new THREE.GridHelper(half * 2, half * 4, color, color).rotateX(Math.PI / 2);
     this.scene.add(this.grid);
     this.request();
   }
 
-  // As near as all corners of what stands there are seen, and in the middle: the camera looks along `back`, so that
+  // As near as all corners of the cell are seen, and in the middle: the camera looks along `back`, so that
   // a corner is within the picture where its distance from the axis is at most slope times its distance from the camera.
   fit() {
     const { orbit, camera, model: { sphere } } = this;
@@ -141,7 +141,7 @@ class Drawing {
     this.labels.update(this.place.clientWidth, this.place.clientHeight);
   }
 
-  // On paper the cell is as wide as the page, which nobody is told before it is printed; browsers print what a canvas
+  // On paper the cell is as wide as the page, whose width is unknown before it is printed; browsers print what a canvas
   // of this kind showed before, so that its picture is copied to one of the other kind.
   print(paper) {
     this.place.classList.toggle("paper", paper);
@@ -154,13 +154,13 @@ class Drawing {
   }
 
   show(layers, named) {
-    const labelled = [];
+    const labeled = [];
     for (const [name, marks] of Object.entries(this.model.layers)) {
       for (const mark of marks) mark.visible = layers.has(name);
-      if (layers.has(name)) labelled.push(...marks);
+      if (layers.has(name)) labeled.push(...marks);
     }
     if (this.before) this.before.root.visible = layers.has("before");
-    this.labels.set(named ? labelled : []);
+    this.labels.set(named ? labeled : []);
     this.request();
   }
 
@@ -195,7 +195,7 @@ class Player {
     this.slider = place.querySelector("input");
     this.button = place.querySelector("button");
     this.marks = place.querySelector(".marks");
-    this.words = place.querySelector(".told");
+    this.words = place.querySelector(".status");
     this.choice = place.querySelector("select");
     data.runs.forEach((run, number) => make("option", run.name, this.choice, { value: number }));
     this.choice.addEventListener("change", () => this.choose(Number(this.choice.value)));
@@ -236,7 +236,7 @@ class Player {
     else this.tell();
   }
 
-  // Each under its mark, or a row lower where another name stands there.
+  // Each under its mark, or a row lower where another name is.
   nameFaults() {
     this.marks.replaceChildren();
     const wide = this.marks.clientWidth || 1, rows = [];
@@ -288,8 +288,8 @@ class Player {
     const parts = [`${this.time.toFixed(2)} s`];
     const now = moments.findLast((one) => one.from_s <= this.time);
     if (now) parts.push(`step ${moments.indexOf(now) + 1} of ${moments.length}, ${now.name}`);
-    const begun = faults.filter((one) => one.at_s <= this.time).map((one) => one.name);
-    if (begun.length) parts.push(`fault: ${begun.join(", ")}`);
+    const active = faults.filter((one) => one.at_s <= this.time).map((one) => one.name);
+    if (active.length) parts.push(`fault: ${active.join(", ")}`);
     if (this.time >= end - 0.01) parts.push(reason ? `${outcome}: ${reason}` : outcome);
     this.words.textContent = parts.join(" · ");
   }
@@ -326,14 +326,14 @@ function legend(drawing) {
   const place = stage.querySelector(".legend");
   const { devices, kinds } = data.scene;
   const alike = devices.length > 1 && new Set(kinds).size === 1;
-  const add = (colour, name, kind) => {
+  const add = (color, name, kind) => {
     const entry = make("span", "", place);
-    make("i", "", entry).style.background = `#${colour.getHexString()}`;
+    make("i", "", entry).style.background = `#${color.getHexString()}`;
     entry.append(name);
     if (kind) make("small", kind, entry);
   };
-  devices.forEach((name, number) => add(drawing.model.colours.get(name), name, alike ? "" : kinds[number]));
-  if (drawing.before) add(GHOST_COLOUR, "where it stood before");
+  devices.forEach((name, number) => add(drawing.model.colors.get(name), name, alike ? "" : kinds[number]));
+  if (drawing.before) add(GHOST_COLOR, "its pose before");
   if (alike) make("small", `all drawn as ${kinds[0]}`, place);
 }
 

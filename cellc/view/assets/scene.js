@@ -1,11 +1,11 @@
-// What stands in the page's data, as objects of three.js. Every pose is given; nothing is computed but where lines end.
+// The page's data as objects of three.js. Every pose is given; nothing is computed but where lines end.
 THREE.ColorManagement.legacyMode = false;
 const POSE = 7;
 const AXES = [[[1, 0, 0], "#d64545"], [[0, 1, 0], "#2f9e5b"], [[0, 0, 1], "#2f6fd6"]];
-const SCENE_COLOUR = "#a9b0b9";
-const GHOST_COLOUR = new THREE.Color("#d0762a");
+const SCENE_COLOR = "#a9b0b9";
+const GHOST_COLOR = new THREE.Color("#d0762a");
 
-function deviceColour(number) {
+function deviceColor(number) {
   return new THREE.Color().setHSL(((212 + number * 137.5) % 360) / 360, number ? 0.32 : 0.2, 0.55);
 }
 
@@ -37,7 +37,7 @@ class CellModel {
     this.root = new THREE.Group();
     this.groups = data.groups.map(() => new THREE.Group());
     this.root.add(...this.groups);
-    this.colours = new Map(data.devices.map((name, number) => [name, deviceColour(number)]));
+    this.colors = new Map(data.devices.map((name, number) => [name, deviceColor(number)]));
     this.bodies = [];
     this.postures = new Map(data.poses.map((pose) => [pose.name, pose.groups]));
     for (const shape of data.shapes) this.addShape(shape, ghost);
@@ -58,14 +58,14 @@ class CellModel {
   addShape(shape, ghost) {
     const meshed = shape.kind === "mesh";
     const geometry = meshed ? this.meshes[shape.size[0]] : makeGeometry[shape.kind](shape.size);
-    const colour = ghost ? GHOST_COLOUR : this.colours.get(shape.owner) || new THREE.Color(SCENE_COLOUR);
-    const look = { color: colour, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost };
+    const color = ghost ? GHOST_COLOR : this.colors.get(shape.owner) || new THREE.Color(SCENE_COLOR);
+    const look = { color, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost };
     const body = new THREE.Mesh(geometry, meshed
       ? new THREE.MeshPhongMaterial({ ...look, flatShading: true, specular: 0 })
       : new THREE.MeshLambertMaterial(look));
     if (!meshed) {
       body.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 30),
-        new THREE.LineBasicMaterial({ color: colour.clone().multiplyScalar(0.4), transparent: true, opacity: 0.6 })));
+        new THREE.LineBasicMaterial({ color: color.clone().multiplyScalar(0.4), transparent: true, opacity: 0.6 })));
     }
     body.userData.words = shape.owner ? `${shape.owner}: ${shape.link}` : shape.link;
     placeAt(body, shape.pose);
@@ -105,9 +105,9 @@ class CellModel {
   triad(one, scale) {
     const mark = new THREE.Group();
     const long = this.unit * scale;
-    for (const [axis, colour] of AXES) {
+    for (const [axis, color] of AXES) {
       const bar = new THREE.Mesh(new THREE.CylinderGeometry(long * 0.035, long * 0.035, long, 8).translate(0, long / 2, 0),
-        new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }));
+        new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true }));
       bar.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), new THREE.Vector3(...axis));
       bar.renderOrder = 2;
       mark.add(bar);
@@ -147,7 +147,7 @@ class CellModel {
     return mark;
   }
 
-  // Of what stood before, only what stands elsewhere now is shown.
+  // Of the poses before, only those that differ now are shown.
   hideSame(other) {
     const key = (body, number) => `${body.userData.words} ${number}`;
     const known = new Map(other.bodies.map((body, number) => [key(body, number - other.firstOf(body)), body]));
@@ -170,7 +170,7 @@ class CellModel {
   }
 }
 
-// Where every group stood at a time of a run: between two pictures along the straight line and the shorter arc.
+// Pose of every group at a time of a run: between two pictures along the straight line and the shorter arc.
 class Playback {
   constructor(run) {
     this.run = run;

@@ -115,13 +115,13 @@ def test_cancel_of_a_goal_that_moved_nothing_is_no_evidence(pick: MockCell, rehe
 
 def test_second_owner_fails_its_line(pick: MockCell, rehearsed: Runs) -> None:
     good = run(rehearsed, "pick_and_place")
-    problem = "`arm_elbow_joint/position` is claimed by `other`, the contract says `arm_trajectory`"
+    problem = "`arm_elbow_joint/position` must be claimed by `arm_trajectory`, got `other`"
     stages = tuple(
         replace(stage, problems=(problem,)) if stage.stage == "claim" else stage for stage in good.result.bringup
     )
     spoiled = replace(good, result=replace(good.result, bringup=stages))
     assert line(gate("G2", pick.folder, (spoiled,)), "claimed by its one owner").verdict is FAILED
-    assert line(gate("G2", pick.folder, (spoiled,)), "comes up in stages").verdict is FAILED
+    assert line(gate("G2", pick.folder, (spoiled,)), "starts in stages").verdict is FAILED
 
 
 def test_rehearsal_that_ends_otherwise_fails_the_mock_gate(pick: MockCell, rehearsed: Runs) -> None:

@@ -240,12 +240,12 @@ def test_more_runs_are_advised_only_where_they_would_be_made_and_would_tell(nest
         *_, last = count_lines(replace(twelve, runs=runs, asked=asked, uncertainty=uncertainty))
         return last.removesuffix(" (Monte Carlo filtering, Kolmogorov-Smirnov)")
 
-    nothing = "nothing that is drawn stands out in the failures; "
+    nothing = "no drawn quantity explains the failures; "
     assert told(passed=(1, 2, 3)) == nothing + "more runs may tell more"
     assert told(passed=(1, 2, 3), asked=99) == nothing + (
-        "the verdict ended the sweep, which makes all 99 runs where no `success` stands"
+        "the verdict ended the sweep early; without `success` it makes all 99 runs"
     )
-    assert told() == "every run failed, so that there is none to compare what was drawn with"
+    assert told() == "every run failed, so that no successful run is left for a comparison"
     assert told(passed=(1,), drawn=False) == "nothing is drawn that could explain the failures"
 
 
