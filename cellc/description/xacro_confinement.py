@@ -38,9 +38,11 @@ class Confinement:
         self._beside = tuple(beside)
         self.warnings: list[str] = []
         self.known_arguments: set[str] = set()
+        self.macros: dict[str, Span] = {}
         self.elements = 0
         self.failure: BaseException | None = None
         self.place: Span | None = None
+        self.called = ""
         self._touched: Any = None
         self._packages: dict[str, str] = {}
 
@@ -84,6 +86,10 @@ class Confinement:
             raise XacroRefusedError(found.code, found.message, found.help, found.span)
         dom = minidom.parseString(text)
         _set_places(dom.documentElement, parsed.value)
+        for macro in dom.getElementsByTagName("xacro:macro"):
+            place = place_of(macro)
+            if place is not None:
+                self.macros[macro.getAttribute("name").removeprefix("xacro:")] = place
         return dom
 
     def include_files(self, specification: str, symbols: Any) -> Iterator[str]:
@@ -227,6 +233,7 @@ class Confinement:
                 # The innermost call comes here first; outer ones see the same exception again.
                 if self.failure is not error:
                     self.failure = error
+                    self.called = str(node.tagName).removeprefix("xacro:")
                     inner = self._touched if getattr(self._touched, "parentNode", None) is node else node
                     self.place = place_of(inner) or place_of(node)
                 raise

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -24,8 +25,11 @@ from cellc.description.packages import package_path, use_packages
 from cellc.description.xacro_confinement import Confinement, place_of
 from cellc.description.xacro_expression import ExpressionError
 from cellc.description.xacro_files import XacroRefusedError
-from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
+from cellc.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean, nearest
 from cellc.limits import MIB, Purse, as_options, limits, option, raised, use
+
+_MISFIT = re.compile(r"Invalid parameter|Undefined parameters|Not enough blocks|Unused block")
+_UNKNOWN_MACRO = re.compile(r"unknown macro name: (?:xacro:)?(\S+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +123,26 @@ def _failure(error: Exception, confinement: Confinement, start: Span) -> Diagnos
             message = "the expansion does not end within the memory and depth that it may use"
             return Diagnostic("xacro-too-large", Severity.ERROR, message, place)
         cause = getattr(cause, "exc", None)
-    return Diagnostic("xacro-failed", Severity.ERROR, _one_line(str(error)) or type(error).__name__, place)
+    message = _one_line(str(error)) or type(error).__name__
+    return Diagnostic("xacro-failed", Severity.ERROR, message, place, help=_macro_help(message, confinement))
+
+
+def _macro_help(message: str, confinement: Confinement) -> str:
+    """Write the help for a call that does not fit its macro; empty where xacro says something else."""
+    unknown, misfit = _UNKNOWN_MACRO.search(message), _MISFIT.match(message)
+    called = unknown[1] if unknown else confinement.called
+    defined = confinement.macros.get(called)
+    place = "" if defined is None else f"line {defined.line} of `{defined.file.rpartition('/')[2]}`"
+    if misfit:
+        told = f"compare with `params` of macro `{called}`, {place}, or take a release whose files fit each other"
+        return told if place else ""
+    if unknown is None:
+        return ""
+    if place:
+        return f"move its definition, {place}, above this call: xacro reads in order"
+    if nearest(called, confinement.macros):
+        return did_you_mean(called, confinement.macros, "macros")
+    return "include the file that defines it above this call"
 
 
 def _one_line(text: str) -> str:

@@ -18,7 +18,7 @@ from cellc.description.packages import lies_under, package_path, repository_of
 from cellc.description.xacro_expression import evaluate
 from cellc.description.xacro_names import known_names
 from cellc.description.yaml_values import TooManyValuesError, load_values
-from cellc.diagnostics import Span
+from cellc.diagnostics import Span, did_you_mean
 from cellc.limits import MIB, limits, option
 from cellc.store.regular_file import open_regular
 
@@ -99,13 +99,23 @@ class ConfinedFiles:
         self.checked(path)
         if not os.path.isfile(path):
             missing = FileNotFoundError(path)
-            raise XacroRefusedError("xacro-file-not-found", f"`{self.shown(path)}` is not a file", cause=missing)
+            message = f"`{self.shown(path)}` is not a file"
+            raise XacroRefusedError("xacro-file-not-found", message, self._instead_of(path), cause=missing)
         data = self._read_bytes(path)
         try:
             return data.decode("utf-8-sig")
         except UnicodeDecodeError as error:
             message = f"`{self.shown(path)}` is not UTF-8 text (byte {error.start})"
             raise XacroRefusedError("xacro-not-text", message, "save it as UTF-8") from None
+
+    def _instead_of(self, path: str) -> str:
+        """Write the help for a file that is not there: what its folder holds that looks like it."""
+        folder, name = os.path.split(path)
+        if not os.path.isdir(folder or "."):
+            return f"there is no folder `{self.shown(folder)}`"
+        names = os.listdir(folder or ".")
+        alike = [one for one in names if one.partition(".")[0] == name.partition(".")[0]]
+        return did_you_mean(name, alike or names, f"files in `{self.shown(folder)}`")
 
     def _read_bytes(self, path: str) -> bytes:
         remaining = limits().xml_bytes - self._bytes_read

@@ -124,6 +124,35 @@ def test_mistake_in_an_included_file_is_reported_there(tmp_path: Path) -> None:
     assert (found.code, found.span.file, found.span.line) == ("xml-not-well-formed", f"{tmp_path}/part.xacro", 4)
 
 
+def test_a_file_that_is_not_there_is_told_with_those_that_look_like_it(tmp_path: Path) -> None:
+    for name in ("arm_v2.urdf", "arm_v3.urdf.xacro", "readme.txt"):
+        _write(tmp_path, "", f"urdf/{name}")
+    found = _failure(_write(tmp_path, '<xacro:include filename="urdf/arm_v2.urdf.xacro"/>'))
+    assert (found.code, found.help) == ("xacro-file-not-found", "did you mean `arm_v2.urdf`?")
+    found = _failure(_write(tmp_path, '<xacro:include filename="xacro/arm.xacro"/>'))
+    assert found.help == f"there is no folder `{tmp_path.as_posix()}/xacro`"
+
+
+MACRO = '<xacro:macro name="finger"><a/></xacro:macro>'
+
+
+@pytest.mark.parametrize(
+    ("body", "advice"),
+    [
+        (f"<xacro:finger/>\n{MACRO}", "line 3 of `robot.urdf.xacro`"),
+        (f"{MACRO}\n<xacro:fingers/>", "did you mean `finger`?"),
+        (f"{MACRO}\n<xacro:thumb/>", "include the file that defines it"),
+        ("<xacro:thumb/>", "include the file that defines it"),
+        (f'{MACRO}\n<xacro:finger side="left"/>', "`params` of macro `finger`, line 2 of `robot.urdf.xacro`"),
+        ('<xacro:macro name="finger" params="side"/>\n<xacro:finger/>', "line 2 of"),
+    ],
+)
+def test_a_call_that_fits_no_macro_is_told_with_the_way_on(body: str, advice: str, tmp_path: Path) -> None:
+    found = _failure(_write(tmp_path, body))
+    assert found.code == "xacro-failed"
+    assert advice in found.help
+
+
 def test_malformed_joint_is_reported_where_it_was_written(tmp_path: Path) -> None:
     body = '<xacro:macro name="m">\n<joint name="j" type="rotary"/>\n</xacro:macro>\n<xacro:m/>'
     (found,) = read_description(_write(tmp_path, body), {}, tmp_path).diagnostics
