@@ -164,6 +164,14 @@ class Joint:
         return self.type == "prismatic"
 
 
+def as_number(text: str) -> float | None:
+    """Return the number that a parameter in ``<ros2_control>`` is, or None."""
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
 @dataclass(frozen=True, slots=True)
 class HardwareInterface:
     """A command or state interface in ``<ros2_control>``; initial value and bounds as written, empty where absent."""

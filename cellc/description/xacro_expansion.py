@@ -128,14 +128,14 @@ def _failure(error: Exception, confinement: Confinement, start: Span) -> Diagnos
 
 
 def _macro_help(message: str, confinement: Confinement) -> str:
-    """Write the help for a call that does not fit its macro; empty where xacro says something else."""
+    """Write the help for a call that does not fit its macro; empty for another message."""
     unknown, misfit = _UNKNOWN_MACRO.search(message), _MISFIT.match(message)
     called = unknown[1] if unknown else confinement.called
     defined = confinement.macros.get(called)
     place = "" if defined is None else f"line {defined.line} of `{defined.file.rpartition('/')[2]}`"
     if misfit:
-        told = f"compare with `params` of macro `{called}`, {place}, or take a release whose files fit each other"
-        return told if place else ""
+        advice = f"compare with `params` of macro `{called}`, {place}, or take a release whose files fit each other"
+        return advice if place else ""
     if unknown is None:
         return ""
     if place:

@@ -114,7 +114,7 @@ class ConfinedFiles:
         if not os.path.isdir(folder or "."):
             return f"there is no folder `{self.shown(folder)}`"
         names = os.listdir(folder or ".")
-        alike = [one for one in names if one.partition(".")[0] == name.partition(".")[0]]
+        alike = [file for file in names if file.partition(".")[0] == name.partition(".")[0]]
         return did_you_mean(name, alike or names, f"files in `{self.shown(folder)}`")
 
     def _read_bytes(self, path: str) -> bytes:

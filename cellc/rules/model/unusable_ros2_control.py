@@ -35,7 +35,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from cellc.cell.device import Device
-from cellc.description.model import Description, HardwareInterface, HardwarePart
+from cellc.description.model import Description, HardwareInterface, HardwarePart, as_number
 from cellc.diagnostics import Span, is_slip
 from cellc.rules.kit import CellGraph, Finding, Findings, Severity, rule
 
@@ -105,17 +105,8 @@ def _of_interfaces(part: HardwarePart) -> Told:
 
 
 def _wrong_bounds(interface: HardwareInterface) -> Iterator[str]:
-    written = {"min": interface.minimum, "max": interface.maximum, "initial_value": interface.initial_value}
-    figures = {key: _number(text) for key, text in written.items() if text}
-    for key in (key for key, figure in figures.items() if figure is None):
-        yield f"must have a number in `{key}`, got `{written[key][:40]}`"
-    least, most = figures.get("min"), figures.get("max")
+    if interface.initial_value and as_number(interface.initial_value) is None:
+        yield f"must have a number in `initial_value`, got `{interface.initial_value[:40]}`"
+    least, most = as_number(interface.minimum), as_number(interface.maximum)
     if least is not None and most is not None and least > most:
         yield f"must have `min` at most `max`, got {least:g} and {most:g}"
-
-
-def _number(text: str) -> float | None:
-    try:
-        return float(text)
-    except ValueError:
-        return None
