@@ -84,7 +84,7 @@ class Limits:
         60, "s", 36_000, "processor time of what poses and goals of one cell lead to, and of its pairs of links"
     )
     command_seconds: int = _row(
-        3600, "s", 360_000, "processor time of all specs of one call of `check` or `build`; no further one is started"
+        3600, "s", 360_000, "processor time of one spec or page, and of all of a call of `check`, `build` or `mock`"
     )
     folder_bytes: int = _row(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
     folder_total_bytes: int = _row(256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together")
@@ -98,7 +98,7 @@ class Limits:
     )
     mock_stop_cycles: int = _row(20_000, "cycles", 10_000_000, "update cycles that a stop of a trajectory takes")
     rehearsal_seconds: int = _row(
-        600, "s", 360_000, "processor time of the rehearsals of one generated folder, one after the other"
+        600, "s", 360_000, "processor time of a rehearsal, and of those of one generated folder, one after the other"
     )
     campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
     sweep_runs: int = _row(1_000_000, "runs", 100_000_000, "runs of a sweep, each of which is kept with about 1 kB")

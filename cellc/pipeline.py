@@ -152,9 +152,10 @@ def _checked_model(path: Path, read: tuple[Diagnostic, ...], cell: Cell | None) 
     return _checked(path.as_posix(), {}, _sorted([*read, *ruled]))
 
 
-def not_started(file: str) -> Findings:
-    """Return the finding of a spec for which its command had no time left."""
-    message = f"all specs of one command must take at most {limits().command_seconds} s of processor time together"
+def out_of_time(file: str, *, alone: bool) -> Findings:
+    """Return the finding of a spec that took the time of its command, or for which others left none."""
+    who = "a spec alone" if alone else "all specs of one command together"
+    message = f"{who} must take at most {limits().command_seconds} s of processor time"
     cut = finding("command-too-long", message, Span(file, 1, 1, 1, 1), limit="command-seconds")
     return Findings(file, {}, (cut,))
 

@@ -13,15 +13,18 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
+from typing import TypeVar
 
 # SIGHUP: the terminal was closed. SIGXCPU: the limit of processor time, told once a second from then on (Linux).
 # Not SIGPIPE, which Python ignores: writing to a closed pipe raises BrokenPipeError instead.
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU")
 STOPPING = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
 
+_Result = TypeVar("_Result")
 CLOSED_PIPE = 128 + 13
 """Exit code where nobody reads the output any more: that of a process that SIGPIPE ends."""
 
@@ -119,6 +122,43 @@ def held() -> Iterator[None]:
         raise KeyboardInterrupt
     if came:
         _watch.on_signal(came[0], None)
+
+
+class _OutOfTimeError(BaseException):
+    """The work used all the processor time that it may use; no ``Exception``, like `Stopped`."""
+
+
+def within(seconds: float, work: Callable[[], _Result]) -> _Result | None:
+    """Return what some work gives, or None where this process used so much processor time before it ended.
+
+    Children count by themselves, and 0 bounds nothing. Where there are no timers of processor time, as on Windows, and
+    on any thread but the main one, the work is not bounded. Inside other work that is bounded, its time runs on.
+    """
+    if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+        return work()
+    outer_s = signal.getitimer(signal.ITIMER_PROF)[0]
+    if not seconds or 0.0 < outer_s <= seconds:
+        return work()
+    end = _OutOfTimeError()
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise end
+
+    before, start_s = signal.signal(signal.SIGPROF, stop), time.process_time()
+    try:
+        # Again each second: code that catches everything would go on after the first.
+        signal.setitimer(signal.ITIMER_PROF, seconds, 1.0)
+        return work()
+    except _OutOfTimeError as raised:
+        if raised is not end:
+            raise
+        return None
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
+        if outer_s:
+            left_s = outer_s - (time.process_time() - start_s)
+            signal.setitimer(signal.ITIMER_PROF, max(left_s, 1e-3), 1.0)
 
 
 @contextmanager

@@ -24,6 +24,7 @@ from cellc.diagnostics.diagnostic import Findings
 from cellc.limits import Limits, children_seconds, limits, use
 from cellc.printing import progress, remark, time_left
 from cellc.rules.shared_domain import Presence, presence_of, shared_domains
+from cellc.signals import within
 from cellc.store.regular_file import open_regular
 
 if TYPE_CHECKING:
@@ -156,10 +157,10 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
         for number, task in enumerate(tasks):
             update(f"{number + 1} of {len(tasks)}, {task.file}{time_left(number, len(tasks), monotonic() - begun)}")
             if spent_s > limits().command_seconds:
-                from cellc.pipeline import not_started
+                from cellc.pipeline import out_of_time
 
                 computed.close()
-                yield CellResult(not_started(task.file))
+                yield CellResult(out_of_time(task.file, alone=False))
                 continue
             result = next(computed)
             spent_s += result.seconds
@@ -190,7 +191,11 @@ def _hire(fan: Fan, kind: Kind, tasks: int) -> Hire | None:
 def compute(kind: Kind, task: Task) -> CellResult:
     """Check a spec, or check and compile it, and tell how long that took."""
     begun = _processor_seconds()
-    result = _computed(kind, task)
+    result = within(limits().command_seconds, partial(_computed, kind, task))
+    if result is None:
+        from cellc.pipeline import out_of_time
+
+        result = CellResult(out_of_time(task.file, alone=True))
     return replace(result, seconds=_processor_seconds() - begun)
 
 

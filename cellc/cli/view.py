@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from cellc.cli.limit_option import limit_option
 from cellc.cli.words import complete_rehearsal
+from cellc.limits import limits, option
 from cellc.printing import refuse, show
+from cellc.signals import within
 from cellc.store.regular_file import open_regular
+
+if TYPE_CHECKING:
+    from cellc.view.content import Content
 
 _HEADS = (b"<!doctype html", b"<html")
 _OWN = (
@@ -53,22 +60,20 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     from cellc.report.text_report import summed_errors
     from cellc.review.sides import SideError
     from cellc.store.swap import replace_whole
-    from cellc.view.content import before_of, content_of
     from cellc.view.page import three_js, to_html
-    from cellc.view.subject import ViewError, read_subject
+    from cellc.view.subject import ViewError
 
     try:
         if output is not None and not output.absolute().parent.is_dir():
             raise ViewError(f"{output.as_posix()}: cannot be written: no such folder")
         if output is not None:
             _hold_replaceable(output)
-        subject = read_subject(Path(folder))
-        place = output or Path(subject.page_name)
-        if output is None:  # the cell chose the name, which may be that of somebody's page
-            _hold_replaceable(place, (_OWN,), "a page of this command")
-        content = content_of(subject, names, seed)
-        if against is not None and subject.folder is not None:
-            content = replace(content, before=before_of(against, folder))
+        drawn = within(limits().command_seconds, partial(_drawn, folder, output, names, against, seed))
+        if drawn is None:
+            most = f"must take at most {limits().command_seconds} s of processor time; {option('command-seconds')}"
+            raise ViewError(f"{folder}: {most}")
+        content, place = drawn
+        subject = content.subject
     except (ViewError, MockError, SideError) as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
@@ -87,6 +92,23 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     if subject.findings is not None and not subject.findings.ok:
         show(*summed_errors(subject.findings.diagnostics, subject.findings.file))
         raise click.exceptions.Exit(1)
+
+
+def _drawn(
+    folder: str, output: Path | None, names: tuple[str, ...], against: str | None, seed: int
+) -> tuple[Content, Path]:
+    """Return what the page shows, and where it goes."""
+    from cellc.view.content import before_of, content_of
+    from cellc.view.subject import read_subject
+
+    subject = read_subject(Path(folder))
+    place = output or Path(subject.page_name)
+    if output is None:  # the cell chose the name, which may be that of somebody's page
+        _hold_replaceable(place, (_OWN,), "a page of this command")
+    content = content_of(subject, names, seed)
+    if against is not None and subject.folder is not None:
+        content = replace(content, before=before_of(against, folder))
+    return content, place
 
 
 def _hold_replaceable(place: Path, heads: tuple[bytes, ...] = _HEADS, what: str = "an HTML page") -> None:

@@ -124,8 +124,8 @@ def link_controller(place: ControllerPlace, written: ControllerSpec, context: Co
         return Outcome(None, (_no_device(place, written, context),))
     joints = _joints(written, place.path, chosen, context)
     interfaces = _interfaces(joints.value or (), written, chosen)
-    named = {label for joint in interfaces.joints for label in context.labels.get(joint, ())}
-    driven = {label: joint for label, joint in context.joints.items() if label in named}
+    named = dict.fromkeys(label for joint in interfaces.joints for label in context.labels.get(joint, ()))
+    driven = {label: context.joints[label] for label in named if label in context.joints}
     tolerances = bind_tolerances(written, driven)
     controller = _controller(place, written, chosen, replace(interfaces, tolerances=tolerances), context)
     unknown = unknown_joints(written, driven, context.document, place.path)

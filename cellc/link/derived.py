@@ -5,8 +5,9 @@ TF and the description first, then the joint states of the cell, then what contr
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from cellc.catalog.controller_kind import ControllerService, ControllerTopic
 from cellc.catalog.load import kind_behind
@@ -25,7 +26,8 @@ from cellc.spec.cell_spec import CellSpec
 from cellc.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, Distro
 
 
-@dataclass(frozen=True, slots=True)
+# Without slots, so that what is asked for each controller is looked up once and kept.
+@dataclass(frozen=True)
 class Derivation:
     """The linked parts of a cell that bring interfaces along."""
 
@@ -38,6 +40,11 @@ class Derivation:
     ends: EndpointNames
     resolver: QosResolver
     servo: Servo | None = None
+
+    @cached_property
+    def joint_types(self) -> Mapping[str, str]:
+        """Return the type of each joint of the devices."""
+        return {joint.name: joint.type for device in self.devices for joint in device.joints}
 
     def end(self, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:
         """Return an end by its name in the spec or its full name; one that nothing has is reported elsewhere."""
@@ -231,8 +238,7 @@ def _action(
 
 def _goal_unit(source: Derivation, controller: Controller) -> str:
     """Return the units of a goal's figures: those of the joints, and time or force."""
-    types = {joint.name: joint.type for device in source.devices for joint in device.joints}
-    lengths = {types.get(joint) == "prismatic" for joint in controller.joints}
+    lengths = {source.joint_types.get(joint) == "prismatic" for joint in controller.joints}
     if controller.behaviour in TRAJECTORIES:
         return ", ".join([*(["rad"] if False in lengths else []), *(["m"] if True in lengths else []), "s"])
     return "m, N" if lengths == {True} else "rad, N m"

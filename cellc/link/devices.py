@@ -69,12 +69,14 @@ def link_devices(
         return Outcome(None, tuple(problems))
     devices: list[BoundDevice] = []
     shifts = port_shifts({name: (spec.devices[name], entry.model) for name, entry in entries.items()})
+    frames, carried = _mount_frames(spec, entries), _carried(spec)
     for name, written in spec.devices.items():
-        parent = _parent_frame(name, written, spec, document, entries)
+        parent = _parent_frame(name, written, document, frames)
         problems += parent.diagnostics
         # Mounted somewhere even so: what refers to its frames, its node and its joints is right.
         mount = parent.value or WORLD
         bound = _device(name, written, spec, document, entries[name], mount, distro, shifts[name])
+        bound = replace(bound, device=replace(bound.device, carries=tuple(carried.get(name, ()))))
         vendor = link_vendor_description(bound.facts, document, prefix_of(name, written), purse, packages)
         shaped = replace(
             bound.device,
@@ -138,17 +140,20 @@ def _connection_problems(
     return (unknown_name("unknown-nic", connection.nic, "network card", nics, document, (*path, "nic")),)
 
 
-def _parent_frame(
-    name: str, written: DeviceSpec, spec: CellSpec, document: SourceDocument, entries: Mapping[str, CatalogDevice]
-) -> Outcome[str]:
-    """Bind the parent of a mount; the frames of the spec are not linked yet, so their names are taken as they stand."""
+def _mount_frames(spec: CellSpec, entries: Mapping[str, CatalogDevice]) -> dict[str, str]:
+    """Return the frames that a mount may name; those of the spec are not linked yet, and are taken as written."""
+    known = {WORLD: WORLD} | {frame: frame for frame in (*spec.frames, *spec.scene)}
+    for name, entry in entries.items():
+        prefix = prefix_of(name, spec.devices[name])
+        known.update((f"{name}/{short}", prefix + link) for short, link in _frame_names(entry).items())
+    return known
+
+
+def _parent_frame(name: str, written: DeviceSpec, document: SourceDocument, known: Mapping[str, str]) -> Outcome[str]:
+    """Bind the parent of a mount."""
     if written.mount is None:
         return Outcome(WORLD)
     reference = written.mount.parent
-    known = {WORLD: WORLD} | {frame: frame for frame in (*spec.frames, *spec.scene)}
-    for other, entry in entries.items():
-        prefix = prefix_of(other, spec.devices[other])
-        known |= {f"{other}/{short}": prefix + link for short, link in _frame_names(entry).items()}
     if reference in known:
         return Outcome(known[reference])
     path = ("devices", name, "mount", "parent")
@@ -195,7 +200,6 @@ def _device(
         driver=device_driver(facts, known),
         host=home_host(spec) if written.connection is None else written.connection.host,
         tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
-        carries=_carried(name, spec),
     )
     device = with_statements(device, written, port_of(written, spec), document)
     device = with_catalog(device, facts, written, known, distro)
@@ -203,13 +207,14 @@ def _device(
     return BoundDevice(device, facts, known)
 
 
-def _carried(name: str, spec: CellSpec) -> tuple[str, ...]:
-    """Return the devices whose mount names a frame of this one, in the order of the spec."""
-    return tuple(
-        other
-        for other, written in spec.devices.items()
-        if written.mount is not None and written.mount.parent.partition("/")[0] == name and other != name
-    )
+def _carried(spec: CellSpec) -> dict[str, list[str]]:
+    """Return the devices whose mount names a frame of a device, in the order of the spec."""
+    found: dict[str, list[str]] = {}
+    for name, written in spec.devices.items():
+        carrier = "" if written.mount is None else written.mount.parent.partition("/")[0]
+        if carrier != name:
+            found.setdefault(carrier, []).append(name)
+    return found
 
 
 def _joints(

@@ -28,6 +28,7 @@ from cellc.mock.standing import StandingMemory, comes_up_alike
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
 from cellc.printing import stage
+from cellc.signals import within
 from cellc.vocabulary import AttemptOutcome
 
 Watch = Callable[[Plant], None]
@@ -60,13 +61,19 @@ class _Run:
             MockError: a fault names what the contract does not have.
         """
         try:
-            try:
-                result = self._executed(may_oversleep=self.standing is not None and not self.rehearsal.faults)
-            except OversleptError:
-                result = self._executed(may_oversleep=False)
+            result = within(limits().rehearsal_seconds, self._ended)
+            if result is None:
+                most = f"a rehearsal must take at most {limits().rehearsal_seconds} s of processor time"
+                raise LimitReachedError(most, "rehearsal-seconds")
         except LimitReachedError as error:
             result = _not_run(self.rehearsal, error)
         return replace(result, edited=self.folder.edited, unseen=self.memory.model.unseen)
+
+    def _ended(self) -> RehearsalResult:
+        try:
+            return self._executed(may_oversleep=self.standing is not None and not self.rehearsal.faults)
+        except OversleptError:
+            return self._executed(may_oversleep=False)
 
     def _executed(self, *, may_oversleep: bool) -> RehearsalResult:
         rehearsal = self.rehearsal

@@ -134,10 +134,10 @@ CODES: tuple[CodePage, ...] = (
     ),
     _page(
         "command-too-long",
-        "the specs before this one took all the time that one call may take",
-        "Each spec has bounds of its own, and they add up where one call has many: a job of CI would run until it "
-        "is ended from outside, with no word on which spec it was. The spec that is under way is finished; no further "
-        "one is started.",
+        "this spec, or the specs before it, took all the time that one call may take",
+        "Each part of a spec has bounds of its own, and they add up: a job of CI would run until it is ended from "
+        "outside, with no word on which spec it was. A spec that takes so much by itself is not finished. Where "
+        "several take it together, the one that is under way is finished, and no further one is started.",
         "check fewer specs in one call, and look for the one that takes long",
     ),
     _page(

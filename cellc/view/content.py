@@ -57,13 +57,13 @@ def content_of(subject: Subject, rehearsals: Sequence[str], seed: int) -> Conten
     if subject.folder is None:
         return Content(subject, scene, (), absent)
     # Planning libraries load where there is a package to run.
-    from cellc.mock.cell import cell_of
+    from cellc.mock.cell import cell_of, in_turn
     from cellc.view.playback import play
 
     cell = cell_of(subject.folder)
     runs = []
     with progress("view") as update:
-        for name in dict.fromkeys(rehearsals) or cell.rehearsals:
+        for name in in_turn(cell, dict.fromkeys(rehearsals) or cell.rehearsals):
             update(f"rehearsal {name}")
             runs.append(play(cell, name, skeleton, seed))
     return Content(subject, scene, tuple(runs), absent)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
 
 from cellc.pipeline import check, emit_cell
 
-_FIRST, _MOST = 14, 2.15
+_FIRST, _MANY, _MOST = 14, 250, 2.15
 
 
 def _cell(size: int) -> str:
@@ -41,10 +42,19 @@ def _cell(size: int) -> str:
     return json.dumps(spec)
 
 
-def _calls(size: int, folder: Path) -> int:
-    file = folder / f"{size}.yaml"
-    file.write_text(_cell(size), encoding="utf-8")
-    assert emit_cell(check(file)).value is not None  # and what is loaded and kept once is
+def _stands(size: int) -> str:
+    """Return the cell with a device without joints or controllers in the place of each arm."""
+    spec = json.loads(_cell(size))
+    for device in spec["devices"].values():
+        device["model"] = "pedestal"
+    spec["control"]["controllers"] = {"joint_states": {"type": "joint_state_broadcaster"}}
+    return json.dumps(spec)
+
+
+def _calls(text: str, folder: Path, work: Callable[[Path], object]) -> int:
+    file = folder / "cell.yaml"
+    file.write_text(text, encoding="utf-8")
+    assert work(file) is not None  # and what is loaded and kept once is
     counted = 0
 
     def count(frame: FrameType, event: str, _: object) -> None:
@@ -54,12 +64,20 @@ def _calls(size: int, folder: Path) -> int:
     before = sys.getprofile()
     sys.setprofile(count)
     try:
-        emit_cell(check(file))
+        work(file)
     finally:
         sys.setprofile(before)
     return counted
 
 
 def test_work_grows_with_the_cell_and_not_with_its_square(tmp_path: Path) -> None:
-    once, twice = _calls(_FIRST, tmp_path), _calls(2 * _FIRST, tmp_path)
+    once, twice = (
+        _calls(_cell(size), tmp_path, lambda file: emit_cell(check(file)).value) for size in (_FIRST, 2 * _FIRST)
+    )
+    assert twice <= _MOST * once, f"{once} and {twice} calls"
+
+
+def test_a_check_of_many_devices_grows_with_their_number(tmp_path: Path) -> None:
+    # Few calls for each device, and many devices: what looks at all of them for each one is most of the work.
+    once, twice = (_calls(_stands(size), tmp_path, lambda file: check(file).graph) for size in (_MANY, 2 * _MANY))
     assert twice <= _MOST * once, f"{once} and {twice} calls"

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 
 from cellc.compute.work import Work, in_order, stream
 from cellc.contract.fleet import FleetRehearsal, FleetSweep
 from cellc.description.packages import package_path
-from cellc.limits import limits
+from cellc.limits import limits, option
 from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import cell_of, in_turn, read_to_run
 from cellc.mock.command.options import MockOptions
@@ -20,6 +20,10 @@ from cellc.mock.errors import MockError
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.sweep.sweep import Sweep
 from cellc.printing import progress, time_left
+
+_TOO_LONG = "the rehearsals of all folders must take at most {} s of processor time together; " + option(
+    "command-seconds"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,11 +42,12 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Rehearsed:
-    """What became of a folder: its rehearsals, and its sweeps where any were asked for."""
+    """What became of a folder: its rehearsals, its sweeps where any were asked for, and its processor time."""
 
     rehearsals: tuple[FleetRehearsal, ...] = ()
     sweeps: tuple[FleetSweep, ...] | None = None
     problem: str = ""
+    seconds: float = field(default=0.0, compare=False)
 
     @property
     def passed(self) -> bool:
@@ -76,7 +81,11 @@ def rehearse_all(members: Sequence[Member], options: MockOptions) -> Iterator[Re
         for number, member in enumerate(members):
             left = time_left(number, len(members), perf_counter() - begun)
             update(f"{number + 1} of {len(members)}, {member.name}{left}")
-            found.append(Rehearsed(problem=member.problem) if member.read is None else next(ended))
+            if member.read is None:
+                found.append(Rehearsed(problem=member.problem))
+                continue
+            left_out = sum(ready.seconds for ready in found) > limits().command_seconds
+            found.append(Rehearsed(problem=_TOO_LONG.format(limits().command_seconds)) if left_out else next(ended))
     for member, one in zip(members, found, strict=True):
         yield one if not options.sweep or one.problem else _with_sweeps(one, member, options)
 
@@ -103,6 +112,7 @@ def _begin(_: None) -> Callable[[Assignment], Rehearsed]:
 
 
 def _rehearse(assignment: Assignment) -> Rehearsed:
+    start_s = process_time()
     try:
         cell = assignment.cell()
         results = [cell.run(name, seed=assignment.seed) for name in in_turn(cell, cell.rehearsals)]
@@ -112,7 +122,8 @@ def _rehearse(assignment: Assignment) -> Rehearsed:
         tuple(
             FleetRehearsal(name=one.name, outcome=one.outcome, expected=one.expected, passed=one.passed)
             for one in results
-        )
+        ),
+        seconds=process_time() - start_s,
     )
 
 

@@ -31,8 +31,10 @@ Source:
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from cellc.cell.control import Controller
+from cellc.cell.device import DeviceJoint
 from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.vocabulary import TRAJECTORIES
 
@@ -43,10 +45,11 @@ _WIDEST_RAD = 1.0
 @rule(Severity.ERROR, assumes=("unit-of-another-joint",))
 def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers whose tolerance exceeds half of a joint's range, or 1 rad."""
+    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
     for controller in graph.cell.controllers:
         if controller.behaviour not in TRAJECTORIES or controller.path_tolerance is None:
             continue
-        bounds = _bounds(graph, controller)
+        bounds = _bounds(joints, controller)
         wide = [(bounds[name], name) for name, one in controller.path_tolerance.items() if one.value > bounds[name]]
         if wide:
             widest, joint = min(wide)
@@ -57,10 +60,10 @@ def check(graph: CellGraph) -> Findings:
             yield found(graph, path, message)
 
 
-def _bounds(graph: CellGraph, controller: Controller) -> dict[str, float]:
+def _bounds(joints: Mapping[str, DeviceJoint], controller: Controller) -> dict[str, float]:
     """Return the widest tolerance of each joint in rad or m; no bound where a joint has no limits."""
     bounds = dict.fromkeys(controller.joints, math.inf)
-    for joint in (joint for device in graph.cell.devices for joint in device.joints if joint.name in bounds):
+    for joint in (joints[name] for name in bounds if name in joints):
         if joint.lower is not None and joint.upper is not None:
             bound = _SHARE_OF_RANGE * (joint.upper - joint.lower)
             bounds[joint.name] = bound if joint.slides else min(bound, _WIDEST_RAD)

@@ -42,6 +42,11 @@ from cellc.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield controllers whose claims a real robot keeps over a stop of its program, where no topic reports the stop."""
     for manager in graph.cell.managers:
+        claims = [
+            (controller, {interface.rpartition("/")[0] for interface in controller.command_interfaces})
+            for controller in manager.controllers
+            if "real" in controller.targets
+        ]
         telling = {(one.kind, one.device) for one in manager.controllers if one.active and "real" in one.targets}
         for name in manager.devices:
             device = graph.cell.device(name)
@@ -57,8 +62,7 @@ def check(graph: CellGraph) -> Findings:
                 if kinds
                 else f"say under `told` of the `device.yaml` of `{name}` which topic reports whether its program runs"
             )
-            for one in manager.controllers:
-                claimed = {interface.rpartition("/")[0] for interface in one.command_interfaces}
-                if "real" in one.targets and claimed & joints:
+            for one, claimed in claims:
+                if claimed & joints:
                     message = f"`{name}` keeps the set points of `{one.name}` over a stop of its program, unheard"
                     yield found(graph, one.path, message, advice)
