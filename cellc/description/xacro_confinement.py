@@ -43,6 +43,7 @@ class Confinement:
         self.failure: BaseException | None = None
         self.place: Span | None = None
         self.called = ""
+        self.unprefixed = ""
         self._touched: Any = None
         self._packages: dict[str, str] = {}
 
@@ -234,6 +235,7 @@ class Confinement:
                 if self.failure is not error:
                     self.failure = error
                     self.called = str(node.tagName).removeprefix("xacro:")
+                    self.unprefixed = _unprefixed(node)
                     inner = self._touched if getattr(self._touched, "parentNode", None) is node else node
                     self.place = place_of(inner) or place_of(node)
                 raise
@@ -248,6 +250,15 @@ class Confinement:
             return original(node, *arguments)
 
         return check_attrs
+
+
+def _unprefixed(node: Any) -> str:
+    """Return the tag around a node that is one of xacro without its prefix: what xacro 1 still took for its own."""
+    while node is not None and node.nodeType == minidom.Node.ELEMENT_NODE:
+        if node.tagName in ("macro", "property", "if", "unless"):
+            return str(node.tagName)
+        node = node.parentNode
+    return ""
 
 
 def _typed(value: str) -> Any:

@@ -128,7 +128,7 @@ def _failure(error: Exception, confinement: Confinement, start: Span) -> Diagnos
 
 
 def _macro_help(message: str, confinement: Confinement) -> str:
-    """Write the help for a call that does not fit its macro; empty for another message."""
+    """Write the help for a macro that is unknown, does not fit its call or has no prefix; empty for another message."""
     unknown, misfit = _UNKNOWN_MACRO.search(message), _MISFIT.match(message)
     called = unknown[1] if unknown else confinement.called
     defined = confinement.macros.get(called)
@@ -137,7 +137,8 @@ def _macro_help(message: str, confinement: Confinement) -> str:
         advice = f"compare with `params` of macro `{called}`, {place}, or take a release whose files fit each other"
         return advice if place else ""
     if unknown is None:
-        return ""
+        tag = confinement.unprefixed
+        return f"write `<xacro:{tag}>` for the `<{tag}>` around it: tags of xacro need the prefix" if tag else ""
     if place:
         return f"move its definition, {place}, above this call: xacro reads in order"
     if nearest(called, confinement.macros):

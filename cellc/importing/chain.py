@@ -58,13 +58,20 @@ def _held(description: Description) -> str:
     """Say what keeps every joint from moving, with the first as the example."""
     joints = actuated(description)
     if not joints:
-        return "its joints are fixed, or mimic each other" if description.joints else "it has no joints"
+        return _fixed(description) if description.joints else "it has no joints"
     first, limit = joints[0], joints[0].limit or JointLimit(None, None, None, None)
     wrong = limit.velocity if limit.velocity is not None and limit.velocity < 0.0 else None
     lower, upper = _ends(first)
     why = f"a velocity of {wrong:g}" if wrong is not None else f"the range {lower:g} to {upper:g}"
     more = f", and {len(joints) - 1} more" if joints[1:] else ""
     return f"`{first.name}` has {why}{more}; correct its `<limit>`"
+
+
+def _fixed(description: Description) -> str:
+    """Say which joint the description limits and fixes all the same: its type is the mistake."""
+    why = "its joints are fixed, or mimic each other"
+    limited = next((joint.name for joint in description.joints if joint.type == "fixed" and joint.limit), None)
+    return why if limited is None else f"{why}; `{limited}` is fixed and has a `<limit>`, correct its type"
 
 
 def home_of(joint: Joint) -> float:

@@ -172,7 +172,13 @@ def _refuse(description: Description) -> None:
     roots = description.roots()
     if len(roots) != 1:
         raise ImportRefusedError(f"the links must have one root, got {', '.join(roots) or 'none'}")
-    names = [*(link.name for link in description.links), *(joint.name for joint in description.joints)]
-    wrong = next((name for name in names if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./-]*", name) is None), None)
-    if wrong is not None:
-        raise ImportRefusedError(f"names of links and joints must be letters, digits and `_./-`, got `{wrong}`")
+    named = [
+        *(("link", link.name) for link in description.links),
+        *(("joint", joint.name) for joint in description.joints),
+    ]
+    for kind, name in named:
+        if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_./-]*", name) is None:
+            rule = "names of links and joints must begin with a letter and hold letters, digits and `_./-`"
+            allowed = re.sub(r"[^A-Za-z0-9_./-]", "_", name)
+            better = allowed if re.match(r"[A-Za-z_]", allowed) else f"{kind}_{allowed}"
+            raise ImportRefusedError(f"{rule}, got `{name}`; rename it in the description, to `{better}` for one")

@@ -145,6 +145,10 @@ MACRO = '<xacro:macro name="finger"><a/></xacro:macro>'
         ("<xacro:thumb/>", "include the file that defines it"),
         (f'{MACRO}\n<xacro:finger side="left"/>', "`params` of macro `finger`, line 2 of `robot.urdf.xacro`"),
         ('<xacro:macro name="finger" params="side"/>\n<xacro:finger/>', "line 2 of"),
+        (
+            '<macro name="finger" params="side"><link name="${side}"/></macro>',
+            "write `<xacro:macro>` for the `<macro>`",
+        ),
     ],
 )
 def test_a_call_that_fits_no_macro_is_told_with_the_way_on(body: str, advice: str, tmp_path: Path) -> None:

@@ -339,6 +339,11 @@ NASTY = {
     ),
     "two roots": (_robot(_links("a", "b", "lone"), _joint("j", "a", "b")), "must have one root, got a, lone"),
     "a name with a space": (_robot(_links("a", "the tool"), _joint("j", "a", "the tool")), "got `the tool`"),
+    "a name that is a number": (
+        _robot(_links("a", "b"), _joint("0", "a", "b")),
+        "must begin with a letter and hold letters, digits and `_./-`, got `0`; rename it in the description,"
+        " to `joint_0` for one",
+    ),
     "a name beyond ASCII": (_robot(_links("a", "grüße"), _joint("j", "a", "grüße")), "got `grüße`"),
     "degrees for radians": (
         _robot(_links("a", "b"), _joint("j", "a", "b", inside=_LIMIT.replace("-2", "-180").replace('"2"', '"180"'))),
@@ -362,6 +367,10 @@ NASTY = {
     "nothing that moves": (
         _robot(_links("a", "b"), _joint("j", "a", "b", "fixed", "")),
         "no joint that can move: its joints are fixed",
+    ),
+    "a wheel that is fixed": (
+        _robot(_links("a", "b", "c"), _joint("i", "a", "b", "fixed", ""), _joint("wheel", "b", "c", "fixed")),
+        "`wheel` is fixed and has a `<limit>`, correct its type",
     ),
     "not a robot": ("<sdf/>", "urdf-not-a-robot"),
     "not closed": ("<robot name='x'>", "xml-not-well-formed"),
