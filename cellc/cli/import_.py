@@ -189,7 +189,7 @@ def _write_cell(folder: Path, first: FirstCell) -> None:
     from cellc.pipeline import check
 
     file, name = folder.parent / "cell.yaml", f"{folder.name}_cell"
-    if file.exists():
+    if file.exists() or file.is_symlink():  # one that leads nowhere is kept too
         show(f"kept {file.as_posix()} as it was")
     else:
         write_whole(file, cell_text(name, f"./{folder.name}", first))

@@ -113,7 +113,7 @@ def test_expansions_of_all_devices_together_are_bounded(cell: Path, monkeypatch:
     make(cell, xacro(_LOOPS))
     shutil.copytree(cell / "stage", cell / "other")
     make(cell, {"cell.yaml": SPEC.replace("devices:\n", "devices:\n  more: {model: ./other}\n", 1)})
-    _refused(cell, "error[xacro-too-large]", "is not begun")
+    _refused(cell, "error[xacro-too-large]", "was not started")
 
 
 def test_pairs_of_shapes_are_bounded(cell: Path) -> None:

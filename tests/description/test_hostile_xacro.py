@@ -177,7 +177,7 @@ def test_after_an_expansion_that_took_its_time_no_other_of_the_spec_begins(tmp_p
     with in_force(replace(DEFAULTS, xacro_seconds=1)):
         found = [one for one in check(tmp_path / "cell.yaml").diagnostics if one.code == "xacro-too-large"]
     assert [Path(one.span.file).parent.name for one in found] == ["quick", "slow"]
-    assert "is not begun" in found[0].message
+    assert "was not started" in found[0].message
 
 
 def test_import_path_is_not_the_strangers_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
