@@ -24,7 +24,7 @@ from cellc.output.manifest import hashes_in, sha256
 from cellc.output.plan import check_paths, check_places, content_of, is_inside
 from cellc.output.write import write
 from cellc.pipeline import Checked, check
-from cellc.store.swap import discard, is_alive, make_folder, make_staging, others, replace_whole, write_new, write_whole
+from cellc.store.swap import discard, make_folder, make_staging, others, replace_whole, write_new, write_whole
 
 LOCK = "import.lock.json"
 _DEVICE = "device.yaml"
@@ -111,8 +111,7 @@ def _tried(
     """Settle the ``device.yaml`` in a folder beside the place, which is removed afterwards."""
     place = folder.parent / f"{folder.name}.import"
     for left in others(place):
-        if not is_alive(left):
-            discard(left)
+        discard(left)
     make_folder(folder.parent)
     staging = make_staging(place)
     try:

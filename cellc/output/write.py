@@ -56,6 +56,8 @@ def write(
         return Outcome(None, refused)
     try:
         return _Writing(files, folder, force, index, known or {}).outcome()
+    except BlockingIOError:
+        return Outcome(None, (_busy(folder),))
     except OSError as error:
         reason = error.strerror or type(error).__name__
         message = f"`{folder.as_posix()}` cannot be written: {reason.lower()}"
@@ -94,10 +96,7 @@ class _Writing:
         return () if self.force else tuple(_edited(path, self.folder) for path in planned.edited)
 
     def _busy(self) -> tuple[Diagnostic, ...]:
-        if contested(self.folder):
-            message = f"another build is writing `{self.folder.as_posix()}`"
-            return (finding("output-busy", message, self.folder),)
-        return ()
+        return (_busy(self.folder),) if contested(self.folder) else ()
 
     def _carry_out(self) -> Outcome[WriteReport]:
         """Replace files, after it was settled who does.
@@ -159,6 +158,10 @@ def _prune(former: Sequence[str], folder: Path) -> None:
     for parent in sorted(parents, key=lambda path: len(path.parts), reverse=True):
         if parent.is_dir() and not parent.is_symlink() and not any(parent.iterdir()):
             remove_folder(parent)
+
+
+def _busy(folder: Path) -> Diagnostic:
+    return finding("output-busy", f"another build is writing `{folder.as_posix()}`", folder)
 
 
 def _edited(path: str, folder: Path) -> Diagnostic:

@@ -31,6 +31,7 @@ _RUN = os.urandom(4).hex()
 """Tells this run from a killed one whose process had the same number, as every run in a container has."""
 _LOCK = ".cellc-lock"
 """A file in a staging folder that is locked as long as its maker runs: what no archive and no repository can carry."""
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
 _locks: dict[Path, BinaryIO] = {}
 """The locks that this process holds, by their staging folders."""
 
@@ -96,7 +97,7 @@ class Swap:
             elif kept.exists():
                 os.replace(kept, self.folder / path)
         # All that was kept is back in its place; the staging folder would hold the folder that was made around it.
-        shutil.rmtree(self.staging, ignore_errors=True)
+        discard(self.staging)
         for folder in reversed(self._made):
             # One that holds a file of somebody else by now stays, and what ended the build is told, not this.
             with contextlib.suppress(OSError):
@@ -128,22 +129,46 @@ def make_staging(folder: Path) -> Path:
     """Make the staging folder of this process, marked as made by cellc, and locked until it is discarded.
 
     Raises:
+        BlockingIOError: another process took it for one of a killed process before it had its lock.
         OSError: something stands there, or writing is refused.
     """
     staging = staging_of(folder)
     os.mkdir(staging, 0o1777)
-    if sys.platform != "win32":
-        _locks[staging] = lock = open_new(staging / _LOCK)
-        with contextlib.suppress(OSError):  # a file system without locks: builds there do not see each other
-            fcntl.flock(lock, fcntl.LOCK_EX)
+    lock = _locked(staging, wait=True)
+    if lock is None:
+        raise BlockingIOError(errno.EAGAIN, os.strerror(errno.EAGAIN), str(staging))
+    _locks[staging] = lock
     return staging
+
+
+def _locked(staging: Path, *, wait: bool = False) -> BinaryIO | None:
+    """Lock a staging folder; None where another process has its lock, or has removed it meanwhile."""
+    place = staging / _LOCK
+    try:
+        lock = os.fdopen(os.open(place, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666), "r+b", buffering=0)
+    except FileNotFoundError:
+        return None
+    if sys.platform == "win32":
+        return lock
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
+    except BlockingIOError:
+        lock.close()
+        return None
+    except OSError:  # a file system without locks: processes there do not see each other
+        return lock
+    with contextlib.suppress(FileNotFoundError):
+        if os.path.samestat(place.lstat(), os.fstat(lock.fileno())):
+            return lock
+    lock.close()
+    return None
 
 
 def contested(folder: Path) -> bool:
     """Whether another process that runs is making files ready for the same folder.
 
     A process that made its staging folder asks a second time: of two processes, the one that asks later sees the other.
-    A staging folder without its lock yet passes for that of a killed process, and may have been removed since.
+    On a file system without locks a staging folder passes for that of a killed process, and may have been removed.
     """
     own = staging_of(folder)
     overtaken = own in _locks and not _is_staging(own)
@@ -215,9 +240,18 @@ def _runs(part: Path) -> bool:
 
 
 def discard(staging: Path) -> None:
-    """Remove a staging folder as far as the system lets."""
-    shutil.rmtree(staging, ignore_errors=True)
+    """Remove the staging folder of this process, or of a killed one, as far as the system lets; its lock goes last."""
     lock = _locks.pop(staging, None)
+    with contextlib.suppress(OSError):
+        lock = lock or _locked(staging)
+        if lock is None:
+            return  # a process at work has it by now
+        for path in tuple(staging.iterdir()):
+            if path.is_dir() and not path.is_symlink():
+                shutil.rmtree(path, ignore_errors=True)
+            elif path.name != _LOCK:
+                remove_file(path)
+    shutil.rmtree(staging, ignore_errors=True)
     if lock is not None:
         lock.close()
 

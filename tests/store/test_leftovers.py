@@ -8,7 +8,6 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import BinaryIO
 
 import pytest
 
@@ -16,7 +15,6 @@ from cellc.mock.command.options import write_records
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.output.write import write
-from cellc.store import swap
 from cellc.store.cache import read_entry, write_entry
 from cellc.store.cache_key import cache_key
 from cellc.store.swap import write_whole
@@ -124,18 +122,17 @@ def test_a_build_that_was_overtaken_before_it_had_its_lock_writes_nothing(
 ) -> None:
     folder = tmp_path / "small"
     write(FIRST, folder)
-    real = swap.open_new
+    real = os.mkdir
 
-    def open_new(file: Path, mode: int = 0o666) -> BinaryIO:
+    def mkdir(place: Path, mode: int = 0o777) -> None:
         monkeypatch.undo()
-        opened = real(file, mode)
-        child = os.fork()  # another build, from its begin to its end: it finds a staging folder without a lock
+        real(place, mode)
+        child = os.fork()  # another build, from its start to its end: it finds a staging folder without a lock
         if child == 0:
             os._exit(0 if write(THIRD, folder).ok else 1)
         assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
-        return opened
 
-    monkeypatch.setattr(swap, "open_new", open_new)
+    monkeypatch.setattr(os, "mkdir", mkdir)
     assert [found.code for found in write(SECOND, folder).diagnostics] == ["output-busy"]
     assert contents(tmp_path) == {f"small/{path}": text for path, text in as_contents(THIRD).items()}
 

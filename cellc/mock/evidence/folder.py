@@ -75,17 +75,19 @@ class EvidenceFolder:
             raise MockError(folder.as_posix(), "is not a folder that evidence can be written to")
         self._stale = others(folder)
         if contested(folder):
-            raise MockError(folder.as_posix(), "another run is writing its evidence there")
+            raise MockError(folder.as_posix(), _BUSY)
         self._refuse_edited(names)
         try:
             make_folder(folder.parent)
             make_staging(folder)  # fails where anything stands there, a link too
             make_folder(self._staging / "new")
+        except BlockingIOError:
+            raise MockError(folder.as_posix(), _BUSY) from None
         except OSError as error:
             raise self._unwritable(error) from None
         if contested(folder):  # by one that began at the same moment
             self.discard()
-            raise MockError(folder.as_posix(), "another run is writing its evidence there")
+            raise MockError(folder.as_posix(), _BUSY)
 
     def open(self, name: str) -> BinaryIO:
         """Open a new file of the folder for writing; a name of one part, as `file_names` gives them."""
@@ -189,3 +191,6 @@ def _sha256(path: Path) -> str:
 def _flush(path: Path) -> None:
     with open_regular(path, follow=False) as file:
         os.fsync(file.fileno())
+
+
+_BUSY = "another run is writing its evidence there"
