@@ -24,7 +24,8 @@ from cellc.output.manifest import hashes_in, sha256
 from cellc.output.plan import check_paths, check_places, content_of, is_inside
 from cellc.output.write import write
 from cellc.pipeline import Checked, check
-from cellc.store.swap import discard, make_folder, make_staging, others, replace_whole, write_new, write_whole
+from cellc.store.staging import discard, make_staging, others
+from cellc.store.swap import make_folder, replace_whole, write_new, write_whole
 
 LOCK = "import.lock.json"
 _DEVICE = "device.yaml"

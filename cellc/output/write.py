@@ -11,7 +11,8 @@ from cellc.diagnostics import Diagnostic, Outcome
 from cellc.output.codes import finding
 from cellc.output.manifest import MANIFEST, hashes_in
 from cellc.output.plan import Plan, check_paths, check_places, content_of, plan
-from cellc.store.swap import Swap, contested, discard, make_staging, others, remove_folder, staging_of, write_new
+from cellc.store.staging import contested, discard, make_staging, others, staging_of
+from cellc.store.swap import Swap, remove_folder, write_new
 
 
 @dataclass(frozen=True, slots=True, repr=False)

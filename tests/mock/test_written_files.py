@@ -11,7 +11,8 @@ from cellc.limits import limits
 from cellc.mock.command.options import write_records
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import INDEX, EvidenceFolder
-from cellc.store.swap import staging_of, write_whole
+from cellc.store.staging import staging_of
+from cellc.store.swap import write_whole
 
 PRECIOUS = "precious\n"
 

@@ -14,7 +14,7 @@ import pytest
 
 import cellc.output
 from cellc.output.write import write
-from cellc.store import swap
+from cellc.store import staging as stagings
 from tests.output.building import as_contents, build_of, contents, staging_at_work
 
 FIRST = build_of(a_txt="one\n", b_txt="two\n", old__d_txt="d\n")
@@ -101,7 +101,7 @@ def test_folder_that_another_build_is_writing_is_left_alone(tmp_path: Path) -> N
 
 def _let_go(staging: Path) -> None:
     """Do with the lock of a staging folder what the system does when its process ends, and no more."""
-    lock = swap._locks.pop(staging, None)
+    lock = stagings._locks.pop(staging, None)
     if lock is not None:
         lock.close()
 

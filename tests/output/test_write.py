@@ -15,7 +15,8 @@ from cellc.limits import limits
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
 from cellc.output.write import write
-from cellc.store.swap import Swap, make_staging, write_whole
+from cellc.store.staging import make_staging
+from cellc.store.swap import Swap, write_whole
 from tests.output.building import artifacts_of, as_contents, build_of, contents
 
 FIRST = build_of(a_txt="one\n", b_txt="two\n", config__c_yaml="c: 1\n", old__d_txt="d\n")

@@ -15,17 +15,8 @@ from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.limits import limits, option
 from cellc.mock.errors import MockError
 from cellc.store.regular_file import open_regular, read_regular
-from cellc.store.swap import (
-    Swap,
-    contested,
-    discard,
-    link_on_the_way,
-    make_folder,
-    make_staging,
-    open_new,
-    others,
-    staging_of,
-)
+from cellc.store.staging import contested, discard, make_staging, others, staging_of
+from cellc.store.swap import Swap, link_on_the_way, make_folder, open_new
 
 _LONGEST = 100
 
