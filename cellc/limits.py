@@ -101,6 +101,8 @@ class Limits:
         600, "s", 360_000, "processor time of a rehearsal, and of those of one generated folder, one after the other"
     )
     campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
+    message_bytes: int = _row(16 * MIB, "bytes", 512 * MIB, "one message of an editor to the language server")
+    open_documents: int = _row(1000, "documents", 100_000, "documents that an editor has open with the language server")
     sweep_runs: int = _row(1_000_000, "runs", 100_000_000, "runs of a sweep, each of which is kept with about 1 kB")
     mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
 

@@ -11,6 +11,8 @@ from cellc.cell.cell import Cell
 from cellc.diagnostics import Diagnostic, Severity, Span, YamlPath
 from cellc.edit.fixes import misspelt_keys, misspelt_units
 from cellc.edit.rewrite import Edit
+from cellc.formats.escape import code
+from cellc.formats.markdown_table import table
 from cellc.lsp.cursor import Begun, begun, here
 from cellc.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
 from cellc.lsp.names import Names, kinds_at, names_of
@@ -68,24 +70,21 @@ def hover(text: str, line: int, column: int, known: Known) -> tuple[str, Span] |
     found = here(root, line, column) if root is not None else None
     if root is None or found is None:
         return None
-    parts = [f"**`{found.path[-1]}`**", meaning_of(root.data, _field(found.path))]
+    parts = [f"**{code(str(found.path[-1]))}**", meaning_of(root.data, _field(found.path))]
     if not found.is_key:
         si = in_si(annotation_at(root.data, found.path), found.text)
-        parts += [f"`{found.text}` is `{si}` in SI units and radians."] if si else []
+        parts += [f"{code(found.text)} is `{si}` in SI units and radians."] if si else []
     if root_model(root.data) is CellSpec and known.cell is not None:
-        parts.append("\n".join(_rows(known.cell, found.path)))
+        parts.append(_uses(known.cell, found.path))
     return "\n\n".join(part for part in parts if part), found.span
 
 
-def _rows(cell: Cell, path: YamlPath) -> Iterator[str]:
+def _uses(cell: Cell, path: YamlPath) -> str:
     leaves = [one for tree, name in resolved_at(resolved_tree(cell), path) for one in flatten(tree, name)]
-    if not leaves:
-        return
-    yield "| cellc uses | | from |\n|---|---|---|"
-    for name, leaf in leaves[:_MOST_ROWS]:
-        yield f"| `{name}` | `{leaf.text or ' '}` | {leaf.origin} |"
-    if len(leaves) > _MOST_ROWS:
-        yield f"| {len(leaves) - _MOST_ROWS} more | | `cellc show` |"
+    rows = [(code(name), code(leaf.text or " "), leaf.origin) for name, leaf in leaves[:_MOST_ROWS]]
+    more = len(leaves) - _MOST_ROWS
+    rows += [(f"{more} more", "", "`cellc show`")] if more > 0 else []
+    return table(("cellc uses", "", "from"), rows) if rows else ""
 
 
 def definition(text: str, line: int, column: int, known: Known, file: Path) -> Span | None:

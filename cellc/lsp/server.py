@@ -6,6 +6,7 @@ Language Server Protocol 3.17: https://microsoft.github.io/language-server-proto
 from __future__ import annotations
 
 import asyncio
+import io
 import os
 import threading
 from collections.abc import Callable, Sequence
@@ -24,14 +25,19 @@ from pygls.workspace import PositionCodec, TextDocument
 from cellc.diagnostics import Diagnostic, Severity, Span
 from cellc.edit.rewrite import Edit
 from cellc.layout.layout import formatted
-from cellc.limits import limits
+from cellc.limits import limits, option
 from cellc.lsp.answers import Symbol, by_file, completions, definition, fixes, hover, symbols
 from cellc.lsp.cells import Cells
+from cellc.printing import refuse
 from cellc.source.text import read_text
 from cellc.version import __version__
 
 _QUIET_S = 0.15
 """How long nobody types before a cell is checked."""
+
+_LONGEST_HEADER = 1024
+_NOTHING = b'{"jsonrpc": "2.0", "method": "$/dropped"}'
+"""A notification without a meaning, which LSP 3.17 has every receiver ignore: `$ Notifications and Requests`."""
 
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
@@ -75,7 +81,7 @@ class CellServer(LanguageServer):
         reading, writing = os.pipe()
         self._writing = os.fdopen(writing, "wb", buffering=0)
         threading.Thread(target=_pump, args=(source, self._writing), daemon=True).start()
-        with os.fdopen(reading, "rb") as coming, os.fdopen(os.dup(sink), "wb") as going:
+        with _Messages(reading) as coming, os.fdopen(os.dup(sink), "wb") as going:
             self.start_io(coming, going)
 
     def shutdown(self) -> None:
@@ -153,6 +159,27 @@ class CellServer(LanguageServer):
         return {file_of(uri): normalised(one.source[:most]) for uri, one in documents.items()}
 
 
+class _Messages(io.BufferedReader):
+    """What an editor sends; a message that is longer than the limit is passed over."""
+
+    def __init__(self, descriptor: int) -> None:
+        super().__init__(FileIO(descriptor, "rb"))
+
+    def readline(self, size: int | None = -1) -> bytes:
+        """Return a line of a header, or a part of one that is longer than any."""
+        return super().readline(_LONGEST_HEADER)
+
+    def read(self, size: int | None = -1) -> bytes:
+        """Return a message."""
+        most, left = limits().message_bytes, size or 0
+        if left <= most:
+            return super().read(left)
+        refuse(f"a message of {left} bytes is dropped; {option('message-bytes')}")
+        while left and (dropped := super().read(min(left, most))):
+            left -= len(dropped)
+        return b"" if left else _NOTHING
+
+
 def _pump(source: int, sink: FileIO) -> None:
     with suppress(OSError, ValueError), sink:  # until either is closed
         while data := os.read(source, 1 << 16):
@@ -187,7 +214,8 @@ class Ranges:
 
 def file_of(uri: str) -> str:
     """Return the absolute path of a document with forward slashes, as spans name it."""
-    return Path(to_fs_path(uri) or uri).as_posix()
+    # No file has a zero character in its name, and Python refuses to look for one.
+    return Path((to_fs_path(uri) or uri).replace("\0", "\ufffd")).as_posix()
 
 
 def normalised(text: str) -> str:
@@ -206,7 +234,11 @@ _Touched = (
 
 
 async def _touched(of: CellServer, params: _Touched) -> None:
-    of.soon(params.text_document.uri)
+    uri = params.text_document.uri
+    if len(of.workspace.text_documents) > limits().open_documents:
+        of.workspace.remove_text_document(uri)  # from here on it is what its file holds
+        refuse(f"`{file_of(uri)}` is one document too many; {option('open-documents')}")
+    of.soon(uri)
 
 
 for _event in (
