@@ -163,7 +163,7 @@ class _Messages(io.BufferedReader):
     """What an editor sends; a message that is longer than the limit is passed over."""
 
     def __init__(self, descriptor: int) -> None:
-        super().__init__(FileIO(descriptor, "rb"))
+        super().__init__(os.fdopen(descriptor, "rb", buffering=0))
 
     def readline(self, size: int | None = -1) -> bytes:
         """Return a line of a header, or a part of one that is longer than any."""
