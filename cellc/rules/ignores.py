@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 
 from cellc.diagnostics import Diagnostic, Severity, Span, did_you_mean
 from cellc.diagnostics.diagnostic import CodePage
@@ -73,6 +74,9 @@ _LINK_CODES = frozenset(page.code for page in LINK_CODES)
 _MARKER = re.compile(r"(?<!\S)#\s*cellc:\s*ignore\b")
 _CODE = re.compile(r"[\w-]+")
 _NEXT = re.compile(r"\s*,\s*")
+_MOST_SHOWN = 100
+"""Wrong comments of one spec that are reported, and as many without effect; each is compared with every code."""
+_MOST_NAMED = 12
 # What people put between the codes and the reason.
 _SEPARATORS = " \t:-–—("
 
@@ -106,11 +110,13 @@ def ignore_comments(texts: Mapping[str, str]) -> tuple[IgnoreComment, ...]:
 def _read(file: str, comment: Comment) -> IgnoreComment:
     head = _MARKER.match(comment.text)
     assert head is not None  # the comment begins where the marker was found
-    codes, end = [], head.end()
+    codes: dict[str, IgnoredCode] = {}
+    end = head.end()
     for start, end in _codes(comment.text, head.end()):
-        codes.append(IgnoredCode(comment.text[start:end], _span(file, comment, start, end)))
+        code = comment.text[start:end]
+        codes.setdefault(code, IgnoredCode(code, _span(file, comment, start, end)))
     reason = comment.text[end:].strip(_SEPARATORS)
-    return IgnoreComment(_span(file, comment, 0, len(comment.text)), tuple(codes), reason)
+    return IgnoreComment(_span(file, comment, 0, len(comment.text)), tuple(codes.values()), reason)
 
 
 def _codes(text: str, position: int) -> Iterator[tuple[int, int]]:
@@ -142,17 +148,22 @@ def apply_ignores(
     """
     found = tuple(diagnostics)
     reported = {diagnostic.code for diagnostic in found}
+    on_line: dict[tuple[str, str, int], set[Diagnostic]] = {}
+    for one in found:
+        for line in (one.span.line, one.span.end_line):
+            on_line.setdefault((one.code, one.span.file, line), set()).add(one)
     excused: set[Diagnostic] = set()
     unused: list[Diagnostic] = []
     for comment in ignores:
         for ignored in comment.codes if comment.reason else ():
-            if _refusal(ignored, pages) is not None:
+            page = pages.get(ignored.code)
+            if page is None or _refusal_of(ignored.code, page.severity) is not None:
                 continue
-            matches = {one for one in found if one.code == ignored.code and _is_on_line(one.span, comment.span)}
+            matches = on_line.get((ignored.code, ignored.span.file, ignored.span.line), set())
             excused |= matches
             if not matches and not _may_be_hidden(ignored.code, reported):
                 unused.append(_misuse("unused-ignore", _unused(ignored), ignored.span))
-    return (*(one for one in found if one not in excused), *misused_ignores(ignores, pages), *unused)
+    return (*(one for one in found if one not in excused), *misused_ignores(ignores, pages), *unused[:_MOST_SHOWN])
 
 
 def may_be_ignored(code: str) -> bool:
@@ -163,18 +174,20 @@ def may_be_ignored(code: str) -> bool:
 
 def misused_ignores(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> tuple[Diagnostic, ...]:
     """Return what is wrong with comments whatever the rules find: no code, no reason, or a code that stays."""
-    problems: list[Diagnostic] = []
+    return tuple(islice(_misused(ignores, pages), _MOST_SHOWN))
+
+
+def _misused(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> Iterator[Diagnostic]:
     for comment in ignores:
-        problems += _shape_problems(comment)
-        problems += (refusal for ignored in comment.codes if (refusal := _refusal(ignored, pages)) is not None)
-    return tuple(problems)
+        yield from _shape_problems(comment)
+        yield from (refusal for ignored in comment.codes if (refusal := _refusal(ignored, pages)) is not None)
 
 
 def _shape_problems(comment: IgnoreComment) -> Iterator[Diagnostic]:
     if not comment.codes:
         yield _misuse("unknown-ignored-code", "the comment names no code to ignore", comment.span)
     elif not comment.reason:
-        codes = ", ".join(f"`{ignored.code}`" for ignored in comment.codes)
+        codes = ", ".join(f"`{ignored.code}`" for ignored in comment.codes[:_MOST_NAMED])
         yield _misuse("ignore-without-reason", f"{codes} is ignored without a reason", comment.span)
 
 
@@ -201,10 +214,6 @@ def _refusal_of(code: str, severity: Severity) -> str | None:
 
 def _article(severity: Severity) -> str:
     return f"{'an' if severity is Severity.ERROR else 'a'} {severity.value}"
-
-
-def _is_on_line(place: Span, comment: Span) -> bool:
-    return place.file == comment.file and comment.line in (place.line, place.end_line)
 
 
 def _may_be_hidden(code: str, reported: set[str]) -> bool:

@@ -79,7 +79,7 @@ class Comment:
 
 
 def comments(text: str, marker: re.Pattern[str], *, pure: bool = False) -> tuple[Comment, ...]:
-    """Return the comments in which ``marker`` begins, each from there on.
+    """Return the comments in which ``marker`` begins, each from its first one on.
 
     The scanner says what is a comment: a ``#`` inside a quoted text or a block of text is none. The text is scanned
     only where the marker occurs at all, so that a file without one costs nothing.
@@ -89,17 +89,25 @@ def comments(text: str, marker: re.Pattern[str], *, pure: bool = False) -> tuple
         marker: matches from a ``#`` on, within one line.
         pure: use the scanner written in Python; both give the same comments.
     """
-    candidates = [(number, match) for number, line in enumerate(text.split("\n")) for match in marker.finditer(line)]
-    if not candidates:
+    lines = text.split("\n")
+    if not any(map(marker.search, lines)):
         return ()
     # Scalars come in the order of the text and do not overlap: the last that begins before a comment may hold it.
     scalars = list(_scalars(text, pure))
     starts = [start for start, _ in scalars]
-    return tuple(
-        Comment(line + 1, match.start() + 1, match.string[match.start() :].rstrip())
-        for line, match in candidates
-        if not (place := bisect_right(starts, (line, match.start()))) or scalars[place - 1][1] <= (line, match.start())
-    )
+
+    def is_comment(at: tuple[int, int]) -> bool:
+        place = bisect_right(starts, at)
+        return not place or scalars[place - 1][1] <= at
+
+    found: list[Comment] = []
+    for number, line in enumerate(lines):
+        columns = (match.start() for match in marker.finditer(line))
+        # A comment goes on to the end of its line, whatever looks like another one in it.
+        column = next((column for column in columns if is_comment((number, column))), None)
+        if column is not None:
+            found.append(Comment(number + 1, column + 1, line[column:].rstrip()))
+    return tuple(found)
 
 
 def _scalars(text: str, pure: bool) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
