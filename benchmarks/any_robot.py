@@ -23,8 +23,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from cellc.importing.source import descriptions_in
-from cellc.printing import show
+from cellc.contract.printing import show
+from cellc.tools.importing.source import descriptions_in
 
 _WITHIN_S = 1200.0
 _STEPS = ("import", "build", "mock")

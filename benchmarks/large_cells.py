@@ -18,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from cellc.pipeline import check  # noqa: E402  the checkout comes before what is installed
+from cellc.compiler.pipeline import check  # noqa: E402  the checkout comes before what is installed
 
 _TOPIC = {
     "topic": "geometry_msgs/msg/PoseStamped", "wants": "newest", "frame": "world", "rate": "10 Hz",

@@ -18,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from cellc.compute.processes import usable_cores
+from cellc.contract.compute.processes import usable_cores
 
 ROOT = Path(__file__).resolve().parents[1]
 TEMPLATES = sorted((ROOT / "cells").glob("*/cell.yaml"))

@@ -40,6 +40,7 @@ FOLDERS = {
     "adapter": "mock/adapter",
     "artifact.py": "output",
     "cell": "cell link",
+    "compiler": "report",
     "compute": "compute",
     "contract": "mock",
     "deploy": "deploy",
@@ -51,9 +52,11 @@ FOLDERS = {
     "pins.py": "link",
     "pipeline.py": "cli",
     "printing.py": "printing",
+    "robot": "description",
     "rules": "rules corpus",
     "signals.py": "cli",
     "store": "store",
+    "tools": "cli",
     "transforms.py": "mock/tf formats graph",
     "version.py": "cli",
     "vocabulary.py": "mock",
@@ -158,8 +161,11 @@ def stages() -> list[str]:
 
 
 def stage_of(file: str) -> str:
-    """Return the part of cellc that a source belongs to."""
-    return file.split("/")[1]
+    """Return the room of a wing that a source belongs to, or its own name where `FOLDERS` has it, or the wing."""
+    wing, *within = file.split("/")[1:]
+    if wing == "mock" or not within:
+        return wing
+    return within[0] if within[0] in FOLDERS or not within[0].endswith(".py") else wing
 
 
 def folders_of(file: str) -> list[str]:

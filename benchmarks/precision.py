@@ -23,8 +23,8 @@ import yaml
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from cellc.diagnostics import Diagnostic  # noqa: E402  the checkout comes before what is installed
-from cellc.pipeline import check  # noqa: E402
+from cellc.compiler.pipeline import check  # noqa: E402
+from cellc.contract.diagnostics import Diagnostic  # noqa: E402  the checkout comes before what is installed
 
 _NUMBER = re.compile(r"(?<![\w.-])-?\d+(?:\.\d+)?(?![\w.-])")
 _OTHER_UNIT = {"mm": "m", "m": "mm", "deg": "rad", "rad": "deg", "ms": "s", "s": "ms", "kg": "g", "Hz": "kHz"}

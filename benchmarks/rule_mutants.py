@@ -20,12 +20,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from cellc.graph.cell_graph import CellGraph, build_graph  # noqa: E402  the checkout comes before what is installed
-from cellc.link.link import link  # noqa: E402
-from cellc.rules.kit import Rule  # noqa: E402
-from cellc.rules.run import ALL_RULES  # noqa: E402
-from cellc.source.read import read  # noqa: E402
-from cellc.spec.parse import parse  # noqa: E402
+from cellc.compiler.graph.cell_graph import CellGraph, build_graph  # noqa: E402  the checkout comes before what is installed
+from cellc.compiler.link.link import link  # noqa: E402
+from cellc.compiler.rules.kit import Rule  # noqa: E402
+from cellc.compiler.rules.run import ALL_RULES  # noqa: E402
+from cellc.compiler.source.read import read  # noqa: E402
+from cellc.compiler.spec.parse import parse  # noqa: E402
 from tests.rules import boundaries, examples  # noqa: E402
 
 _WORDING = {"message", "advice", "names", "related", "way", "chain", "allowed", "turns", "faults", "expected", "got"}

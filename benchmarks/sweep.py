@@ -21,9 +21,9 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from cellc.compute.cluster import cluster
-from cellc.compute.processes import processes
-from cellc.compute.work import Hire
+from cellc.contract.compute.cluster import cluster
+from cellc.contract.compute.processes import processes
+from cellc.contract.compute.work import Hire
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.sweep.sweep import SweepRun, sweep

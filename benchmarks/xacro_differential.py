@@ -23,9 +23,9 @@ from xml.etree import ElementTree
 
 import xacro
 
-from cellc.description.packages import find_package, root_of, use_packages
-from cellc.description.xacro_expansion import expand_here
-from cellc.printing import show
+from cellc.contract.printing import show
+from cellc.robot.description.packages import find_package, root_of, use_packages
+from cellc.robot.description.xacro_expansion import expand_here
 
 _WITHIN_S = 60
 _ASKS_THE_MACHINE = ("xacro-refused-substitution", "xacro-outside-root")

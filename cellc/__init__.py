@@ -23,11 +23,11 @@ from typing import TYPE_CHECKING
 from cellc.version import __version__
 
 if TYPE_CHECKING:
-    from cellc.diagnostics import Diagnostic, Outcome, Related, Severity, Span
-    from cellc.errors import CellcError
+    from cellc.compiler.output.write import WriteReport
+    from cellc.compiler.pipeline import Checked
+    from cellc.contract.diagnostics import Diagnostic, Outcome, Related, Severity, Span
+    from cellc.contract.errors import CellcError
     from cellc.mock import AttemptRecord, MockCell, MockError, RehearsalResult
-    from cellc.output.write import WriteReport
-    from cellc.pipeline import Checked
 
 __all__ = [
     "AttemptRecord",
@@ -50,17 +50,17 @@ __all__ = [
 
 _HOMES = {
     "AttemptRecord": "cellc.mock",
-    "CellcError": "cellc.errors",
-    "Checked": "cellc.pipeline",
-    "Diagnostic": "cellc.diagnostics",
+    "CellcError": "cellc.contract.errors",
+    "Checked": "cellc.compiler.pipeline",
+    "Diagnostic": "cellc.contract.diagnostics",
     "MockCell": "cellc.mock",
     "MockError": "cellc.mock",
-    "Outcome": "cellc.diagnostics",
+    "Outcome": "cellc.contract.diagnostics",
     "RehearsalResult": "cellc.mock",
-    "Related": "cellc.diagnostics",
-    "Severity": "cellc.diagnostics",
-    "Span": "cellc.diagnostics",
-    "WriteReport": "cellc.output.write",
+    "Related": "cellc.contract.diagnostics",
+    "Severity": "cellc.contract.diagnostics",
+    "Span": "cellc.contract.diagnostics",
+    "WriteReport": "cellc.compiler.output.write",
 }
 
 if not TYPE_CHECKING:  # a checker of types knows the names above, and no others
@@ -86,7 +86,7 @@ def check(spec: str | Path) -> Checked:
     Returns:
         Its diagnostics, and the linked cell where nothing hides it. A file that cannot be read is a diagnostic too.
     """
-    from cellc.pipeline import judge
+    from cellc.compiler.pipeline import judge
 
     return judge(spec)
 
@@ -102,10 +102,10 @@ def build(spec: str | Path, output: str | Path = "generated", *, force: bool = F
     Returns:
         What was written, and the diagnostics of all stages. There is no value where an error stopped the build.
     """
-    from cellc.diagnostics import Outcome
-    from cellc.output.write import write
-    from cellc.pipeline import check as check_cell
-    from cellc.pipeline import compile_cell
+    from cellc.compiler.output.write import write
+    from cellc.compiler.pipeline import check as check_cell
+    from cellc.compiler.pipeline import compile_cell
+    from cellc.contract.diagnostics import Outcome
 
     checked = check_cell(spec)
     compiled = compile_cell(checked)

@@ -12,13 +12,13 @@ import gc
 import os
 import warnings
 
-from cellc.signals import run_program
+from cellc.contract.signals import run_program
 
 
 def main() -> None:
     """Run the command; what is imported stands inside, so that a signal while it loads ends without a traceback too."""
     if sys.flags.optimize > 1:
-        from cellc.printing import refuse
+        from cellc.contract.printing import refuse
 
         refuse("`python -OO` drops the docstrings, in which rules and commands keep their help")
         sys.exit(2)
@@ -34,7 +34,7 @@ def main() -> None:
 
 
 def _run() -> int:
-    from cellc.cli.main import run
+    from cellc.tools.cli.main import run
 
     return run()
 

@@ -15,17 +15,17 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from cellc.artifact import Artifact
-from cellc.catalog.compiled import compiled_device
-from cellc.cell.cell import Cell
-from cellc.diagnostics import Diagnostic, Outcome
-from cellc.graph.cell_graph import CellGraph, build_graph
-from cellc.link.link import link
-from cellc.output.write import write
-from cellc.pipeline import check, compile_cell
-from cellc.rules.run import run_rules
-from cellc.source import SourceDocument, read
-from cellc.spec.parse import parse
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.catalog.compiled import compiled_device
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.graph.cell_graph import CellGraph, build_graph
+from cellc.compiler.link.link import link
+from cellc.compiler.output.write import write
+from cellc.compiler.pipeline import check, compile_cell
+from cellc.compiler.rules.run import run_rules
+from cellc.compiler.source import SourceDocument, read
+from cellc.compiler.spec.parse import parse
+from cellc.contract.diagnostics import Diagnostic, Outcome
 
 ROOT = Path(__file__).resolve().parents[1]
 CORPUS = ROOT / "tests" / "corpus"

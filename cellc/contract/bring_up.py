@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
-from cellc.vocabulary import BringUpPhase
+from cellc.contract.vocabulary import BringUpPhase
 
 Target = Literal["mock", "real"]
 

@@ -25,7 +25,7 @@ from cellc.contract.quantities import (
     Seconds,
     Share,
 )
-from cellc.vocabulary import Behaviour, Distro, ManagerLock, Moment, Motion, Need, Unmet
+from cellc.contract.vocabulary import Behaviour, Distro, ManagerLock, Moment, Motion, Need, Unmet
 
 
 class ContractFiles(ContractModel):

@@ -14,7 +14,7 @@ from typing import Annotated
 from pydantic import AfterValidator, ValidationInfo
 from pydantic_core import PydanticCustomError
 
-from cellc.limits import Limits
+from cellc.contract.limits import Limits
 
 _CELL = re.compile("[a-z][a-z0-9_]{1,63}")
 _LONGEST_NAME = 255

@@ -15,7 +15,7 @@ from typing import Annotated, TypeVar
 from pydantic import AfterValidator, ValidationInfo
 from pydantic_core import PydanticCustomError
 
-from cellc.limits import Limits, option
+from cellc.contract.limits import Limits, option
 
 LARGEST = 1e9
 """Of lengths, angles, speeds and forces, SI. No machine has more, and products of such values stay finite."""

@@ -10,8 +10,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import from_json
 
 from cellc.contract.base import Json
-from cellc.errors import CellcError
-from cellc.limits import Limits, limits, option
+from cellc.contract.errors import CellcError
+from cellc.contract.limits import Limits, limits, option
 
 _LARGEST_INTEGER = 2**63 - 1
 

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from cellc.contract.base import ContractModel
 from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
-from cellc.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
 
 
 class StepEntry(ContractModel):

@@ -8,7 +8,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
-from cellc.vocabulary import GateCode, Grade, ReviewArea
+from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
 
 ApprovalArea = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
 

@@ -13,8 +13,8 @@ import warnings
 from functools import partial
 from typing import NoReturn
 
-from cellc.printing import Stream, run_to_end, show
-from cellc.signals import run_program
+from cellc.contract.printing import Stream, run_to_end, show
+from cellc.contract.signals import run_program
 
 
 class _Parser(argparse.ArgumentParser):
@@ -56,7 +56,7 @@ def _arguments() -> _Parser:
 
 def main() -> int:
     """Parse the command line and run; the import stands inside, so that Ctrl-C while it loads ends well too."""
-    from cellc.limits import LimitError, raised, use
+    from cellc.contract.limits import LimitError, raised, use
     from cellc.mock.command.options import MockOptions, run_mock
 
     parser = _arguments()

@@ -14,6 +14,7 @@ from cellc.contract.contract import (
     ContractFrame,
     ContractSimulatedJoint,
 )
+from cellc.contract.transforms import Pose
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind
 from cellc.mock.bus.qos import hears, middleware_of, task_node
@@ -49,7 +50,6 @@ from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
-from cellc.transforms import Pose
 
 
 def joint_state_feeds(

@@ -7,6 +7,7 @@ from functools import partial
 
 from cellc.contract.bring_up import BringUpStep, Comparison, HardwareActivation, Proof, Restart, Transition
 from cellc.contract.contract import ContractManager
+from cellc.contract.vocabulary import BringUpPhase
 from cellc.mock.bus.qos import hears, unmatched_pairs
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.process import Wait, Waiting
@@ -15,7 +16,6 @@ from cellc.mock.plant import Plant
 from cellc.mock.proofs import Proofs
 from cellc.mock.result import StageEvidence
 from cellc.mock.tf.buffer import Transform
-from cellc.vocabulary import BringUpPhase
 
 _LEVELS = ("WARN", "ERROR", "FATAL")
 

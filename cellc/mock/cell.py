@@ -9,8 +9,11 @@ from pathlib import Path
 from time import process_time
 
 from cellc.contract.contract import Contract
+from cellc.contract.limits import Purse, PurseError, limits, option
+from cellc.contract.printing import stage
 from cellc.contract.rehearsals import RehearsalEntry
-from cellc.limits import Purse, PurseError, limits, option
+from cellc.contract.signals import within
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.agreement.agreement import refuse_disagreement
 from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup import Bringup
@@ -27,9 +30,6 @@ from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageE
 from cellc.mock.standing import StandingMemory, comes_up_alike
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
-from cellc.printing import stage
-from cellc.signals import within
-from cellc.vocabulary import AttemptOutcome
 
 Watch = Callable[[Plant], None]
 """Called with the plant before anything runs, so that whoever keeps evidence can listen from the first cycle on."""

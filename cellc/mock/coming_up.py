@@ -15,7 +15,7 @@ from cellc.contract.bring_up import (
     TopicProof,
 )
 from cellc.contract.contract import Contract
-from cellc.vocabulary import BringUpPhase
+from cellc.contract.vocabulary import BringUpPhase
 
 
 def played(real: Sequence[BringUpStep], mock: Sequence[BringUpStep], contract: Contract) -> tuple[BringUpStep, ...]:

@@ -14,11 +14,11 @@ from functools import partial
 
 from cellc.contract.bring_up import BringUpStep, TopicProof, Watch
 from cellc.contract.contract import Contract, ContractDevice
+from cellc.contract.vocabulary import BringUpPhase, ManagerLock, Moment, Motion, Need, Unmet
 from cellc.mock.control import ControlEvent, ControllerChanged, ControllerManager
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Action
 from cellc.mock.engine.simulation import Simulation
-from cellc.vocabulary import BringUpPhase, ManagerLock, Moment, Motion, Need, Unmet
 
 STALE = 0.01
 """rad or m between a set point and a joint that make a jump; a joint that follows its trajectory is closer."""

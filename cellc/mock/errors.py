@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cellc.errors import CellcError
-from cellc.limits import option
+from cellc.contract.errors import CellcError
+from cellc.contract.limits import option
 
 
 class MockError(CellcError):

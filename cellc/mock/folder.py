@@ -14,20 +14,20 @@ from pydantic import BaseModel
 
 from cellc.contract.bring_up import BringUp, BringUpStep, Comparison, Transition, Watch
 from cellc.contract.contract import Contract
+from cellc.contract.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
+from cellc.contract.limits import limits, option
 from cellc.contract.manifest import Manifest
 from cellc.contract.quantities import LARGEST
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import RehearsalEntry, Rehearsals
+from cellc.contract.store.regular_file import FileTooLargeError, NotRegularError, read_regular
 from cellc.contract.uncertainty import UNCERTAINTY_FILE, Uncertainty
-from cellc.description.model import Description
-from cellc.description.packages import lies_under, repository_of
-from cellc.description.urdf_reader import read_urdf
-from cellc.description.xml_tree import read_xml
-from cellc.description.yaml_values import load_values
-from cellc.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
-from cellc.limits import limits, option
 from cellc.mock.errors import MockError
-from cellc.store.regular_file import FileTooLargeError, NotRegularError, read_regular
+from cellc.robot.description.model import Description
+from cellc.robot.description.packages import lies_under, repository_of
+from cellc.robot.description.urdf_reader import read_urdf
+from cellc.robot.description.xml_tree import read_xml
+from cellc.robot.description.yaml_values import load_values
 
 CONTRACT_FILE = "contract.json"
 MANIFEST_FILE = "manifest.json"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from cellc.transforms import Pose, Vector3
+from cellc.contract.transforms import Pose, Vector3
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,9 +11,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
 
-from cellc.diagnostics.notebook import html_table
-from cellc.diagnostics.unsafe_text import escaped, harmless_json
-from cellc.vocabulary import AttemptOutcome, Term
+from cellc.contract.diagnostics.notebook import html_table
+from cellc.contract.diagnostics.unsafe_text import escaped, harmless_json
+from cellc.contract.vocabulary import AttemptOutcome, Term
 
 
 class PacketStep(str, Enum):

@@ -12,8 +12,7 @@ import pickle
 from dataclasses import dataclass
 from typing import Any
 
-from cellc.description.model import Description
-from cellc.limits import Limits, limits
+from cellc.contract.limits import Limits, limits
 from cellc.mock.bringup import Bringup, announce
 from cellc.mock.control.parameters import Parameter
 from cellc.mock.control.robot_description import RobotDescription
@@ -21,6 +20,7 @@ from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.nodes.perception import PROCESSING_S
 from cellc.mock.plant import Plant
 from cellc.mock.result import StageEvidence
+from cellc.robot.description.model import Description
 
 _SHARED = (Description, RobotDescription, Parameter)
 """What no run changes; a parameter has checks that are functions, which are not copied."""

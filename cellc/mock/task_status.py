@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 from dataclasses import dataclass
 
+from cellc.contract.transforms import Vector3
 from cellc.mock.engine.process import Action, Signal
-from cellc.transforms import Vector3
 
 
 class TaskRequests:

@@ -6,9 +6,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from cellc.browse.controllers import controllers_page
-from cellc.browse.page import page, pages, picture
-from cellc.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
+from cellc.compiler.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
+from cellc.tools.browse.controllers import controllers_page
+from cellc.tools.browse.page import page, pages, picture
 from tests.cells import ROOT
 from tests.cli.run import run
 

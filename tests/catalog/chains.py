@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from cellc.description.model import Description, Joint
+from cellc.robot.description.model import Description, Joint
 
 Matrix = npt.NDArray[np.float64]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from cellc.vocabulary import Distro
+from cellc.contract.vocabulary import Distro
 from tests.oracles.parameters import Declaration, declarations
 
 # Upstream files behind each kind; on humble the gripper comes from another package.

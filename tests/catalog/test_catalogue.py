@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from cellc.catalog.compiled import CATALOG
-from cellc.catalog.controller_kind import ControllerKind, ParameterFacts
-from cellc.catalog.load import (
+from cellc.compiler.catalog.compiled import CATALOG
+from cellc.compiler.catalog.controller_kind import ControllerKind, ParameterFacts
+from cellc.compiler.catalog.load import (
     CatalogDevice,
     controller_kinds,
     device_names,
@@ -28,7 +28,7 @@ from cellc.catalog.load import (
     load_qos_profiles,
     load_releases,
 )
-from cellc.vocabulary import OF_ONE_DEVICE, Distro
+from cellc.contract.vocabulary import OF_ONE_DEVICE, Distro
 from tests.catalog.declarations import upstream_parameters
 from tests.cells import catalog_facts
 

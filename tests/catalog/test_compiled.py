@@ -7,18 +7,18 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog import compiled, load
-from cellc.catalog.compiled import CATALOG, compile_catalog, compiled_device, compiled_table
-from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.load import controller_kinds, device_names, load_controller_kind, load_device, read_device
-from cellc.catalog.read_model import read_model
+from cellc.compiler.catalog import compiled, load
+from cellc.compiler.catalog.compiled import CATALOG, compile_catalog, compiled_device, compiled_table
+from cellc.compiler.catalog.controller_kind import ControllerKind
+from cellc.compiler.catalog.load import controller_kinds, device_names, load_controller_kind, load_device, read_device
+from cellc.compiler.catalog.read_model import read_model
 
 UR = "devices/universal_robots/ur"
 WRITTEN = sorted((CATALOG / "compiled").rglob("*.json"))
 
 
 def test_compiled_files_are_up_to_date() -> None:
-    # After a change in the catalog: python -m cellc.catalog.compiled
+    # After a change in the catalog: python -m cellc.compiler.catalog.compiled
     expected = dict(compile_catalog())
     assert {file: file.read_text(encoding="utf-8") for file in WRITTEN} == expected
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cellc.catalog.device_interfaces import counted
+from cellc.compiler.catalog.device_interfaces import counted
 
 
 def test_numbers_are_written_out() -> None:

@@ -13,10 +13,10 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.compiled import CATALOG, device_file
-from cellc.catalog.load import device_names, load_device
-from cellc.description.model import Box, Description, Inertial
-from cellc.description.xacro_expansion import expand_here
+from cellc.compiler.catalog.compiled import CATALOG, device_file
+from cellc.compiler.catalog.load import device_names, load_device
+from cellc.robot.description.model import Box, Description, Inertial
+from cellc.robot.description.xacro_expansion import expand_here
 from tests.catalog.chains import Matrix, axis_rotation, transform
 from tests.cells import catalog_facts
 
@@ -233,10 +233,10 @@ def test_wide_gripper_touches_itself_where_its_loops_close_alone(angle: float) -
 
 def test_expansion_is_the_same_under_any_hash_seed() -> None:
     program = (
-        "from cellc.catalog.compiled import CATALOG, device_file\n"
-        "from cellc.catalog.load import device_names\n"
+        "from cellc.compiler.catalog.compiled import CATALOG, device_file\n"
+        "from cellc.compiler.catalog.load import device_names\n"
         "from tests.cells import catalog_facts\n"
-        "from cellc.description.xacro_expansion import expand_here\n"
+        "from cellc.robot.description.xacro_expansion import expand_here\n"
         "d = CATALOG / 'devices'\n"
         "facts = {n: catalog_facts(n)['description'] for n in device_names()}\n"
         "files = {device_file(n).parent / f['file']: f.get('arguments', {}) for n, f in facts.items()}\n"

@@ -9,11 +9,11 @@ from collections.abc import Iterator
 import pytest
 from pydantic import BaseModel
 
-from cellc.catalog import catalog_model, device_model
-from cellc.catalog.catalog_model import CatalogModel, said_of
-from cellc.catalog.device_model import DeviceModel
-from cellc.catalog.device_schema import device_reference, device_schema
-from cellc.spec.place import keys_in_order
+from cellc.compiler.catalog import catalog_model, device_model
+from cellc.compiler.catalog.catalog_model import CatalogModel, said_of
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.device_schema import device_reference, device_schema
+from cellc.compiler.spec.place import keys_in_order
 from tests.cells import ROOT
 from tests.cli.run import run
 
@@ -53,7 +53,7 @@ def test_no_meaning_is_that_of_a_key_that_is_gone() -> None:
 
 
 def test_a_key_of_a_base_has_its_meaning_there() -> None:
-    from cellc.catalog.limit_facts import VelocityLimit
+    from cellc.compiler.catalog.limit_facts import VelocityLimit
 
     assert said_of(VelocityLimit, "source").startswith("Document with its version")
     assert said_of(VelocityLimit, "sourc") == ""

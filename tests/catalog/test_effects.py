@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from cellc.catalog.effects import EffectFacts
-from cellc.vocabulary import Distro, Need, Unmet
+from cellc.compiler.catalog.effects import EffectFacts
+from cellc.contract.vocabulary import Distro, Need, Unmet
 
 
 @pytest.mark.parametrize(

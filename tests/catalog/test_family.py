@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog.load import CatalogDevice, load_device_folder
-from cellc.diagnostics import Outcome
+from cellc.compiler.catalog.load import CatalogDevice, load_device_folder
+from cellc.contract.diagnostics import Outcome
 from tests.cells import CORPUS
 
 ARM = CORPUS / "valid/parts/demo_arm"

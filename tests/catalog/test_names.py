@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog.load import load_device_folder
+from cellc.compiler.catalog.load import load_device_folder
 from tests.cells import ROOT
 
 PARTS = ROOT / "tests/corpus/valid/parts"

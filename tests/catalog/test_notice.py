@@ -10,7 +10,7 @@ _REPOSITORY = re.compile(r"github\.com/[\w.-]+/[\w-]+")
 
 
 def test_every_repository_that_the_catalog_cites_has_its_license() -> None:
-    catalog = ROOT / "cellc" / "catalog"
+    catalog = ROOT / "cellc" / "compiler" / "catalog"
     files = [file for file in catalog.rglob("*.yaml") if "symptoms" not in file.parts]  # those cite threads
     cited = {name for file in files for name in _REPOSITORY.findall(file.read_text(encoding="utf-8"))}
     lines = (ROOT / "NOTICE").read_text(encoding="utf-8").splitlines()

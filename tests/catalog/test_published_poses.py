@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cellc.catalog.load import CatalogDevice, load_device
+from cellc.compiler.catalog.load import CatalogDevice, load_device
 from tests.catalog.chains import transform
 from tests.foreign_yaml import safe_load
 

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from cellc.catalog.load import CatalogDevice, load_device
-from cellc.catalog.starter import NamedDevice, starter_spec
-from cellc.description.model import Box
-from cellc.vocabulary import Behaviour, Distro
+from cellc.compiler.catalog.load import CatalogDevice, load_device
+from cellc.compiler.catalog.starter import NamedDevice, starter_spec
+from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.robot.description.model import Box
 from tests.catalog.chains import Matrix, transform
 
 PI = math.pi

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog.load import device_names, load_device
-from cellc.catalog.starter_mounts import mounts_of
+from cellc.compiler.catalog.load import device_names, load_device
+from cellc.compiler.catalog.starter_mounts import mounts_of
 from tests.cli.run import run
 
 _ON_ARMS = {"gripper", "hand", "camera", "sensor"}

@@ -10,8 +10,8 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.compiled import compiled_device
-from cellc.catalog.load import CatalogDevice, device_names, load_device
+from cellc.compiler.catalog.compiled import compiled_device
+from cellc.compiler.catalog.load import CatalogDevice, device_names, load_device
 from tests.cells import catalog_facts
 from tests.foreign_yaml import safe_load
 from tests.oracles import here

@@ -6,16 +6,16 @@ from dataclasses import fields, replace
 
 import pytest
 
-from cellc.cell.cell import Cell
-from cellc.cell.device import EVERY_JOINT, Camera, CameraStream, Device, OfferedInterface, SimulatedJoint
-from cellc.cell.entity import Places
-from cellc.cell.interface import InterfaceKind
-from cellc.cell.site import Host, Kpis, NetworkCard, Safety, Stop, Versions
-from cellc.description.model import Description
-from cellc.diagnostics import Span
-from cellc.graph.cell_graph import build_graph
-from cellc.rules.safety.dependent_stop import check as dependent_stop
-from cellc.vocabulary import Distro
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.device import EVERY_JOINT, Camera, CameraStream, Device, OfferedInterface, SimulatedJoint
+from cellc.compiler.cell.entity import Places
+from cellc.compiler.cell.interface import InterfaceKind
+from cellc.compiler.cell.site import Host, Kpis, NetworkCard, Safety, Stop, Versions
+from cellc.compiler.graph.cell_graph import build_graph
+from cellc.compiler.rules.safety.dependent_stop import check as dependent_stop
+from cellc.contract.diagnostics import Span
+from cellc.contract.vocabulary import Distro
+from cellc.robot.description.model import Description
 from tests.cells import COMPLETE, CORPUS, linked, spec_of
 
 CELL, HOSTS, STOP = (Span("cell.yaml", line, 1, line, 5) for line in (1, 4, 9))

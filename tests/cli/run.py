@@ -6,7 +6,7 @@ import contextlib
 import io
 from dataclasses import dataclass
 
-from cellc.cli.main import main
+from cellc.tools.cli.main import main
 from tests.cells import ROOT
 
 PICK = (ROOT / "cells/ur5e_pick/cell.yaml").as_posix()

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from cellc import limits
-from cellc.cli import batch
-from cellc.cli.batch import CellResult, cell_files, compute, in_workers, number_of_workers
-from cellc.cli.fleet import Task
-from cellc.compute.processes import processes
+from cellc.contract import limits
+from cellc.contract.compute.processes import processes
+from cellc.tools.cli import batch
+from cellc.tools.cli.batch import CellResult, cell_files, compute, in_workers, number_of_workers
+from cellc.tools.cli.fleet import Task
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, run
 

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc import limits
-from cellc.signals import within
+from cellc.contract import limits
+from cellc.contract.signals import within
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, run
 
@@ -38,7 +38,7 @@ def one_second(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_spec_alone_ends_with_a_finding(command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     shutil.copy(MINIMAL, "cell.yaml")
-    monkeypatch.setattr("cellc.pipeline.run_rules", _endless)
+    monkeypatch.setattr("cellc.compiler.pipeline.run_rules", _endless)
     ran = run(*command.format("cell.yaml").split())
     (told,) = json.loads(ran.out)["diagnostics"]
     assert (ran.code, told["code"]) == (1, "command-too-long")
@@ -46,7 +46,7 @@ def test_a_spec_alone_ends_with_a_finding(command: str, tmp_path: Path, monkeypa
     assert not Path("out").exists()
 
 
-@pytest.mark.parametrize("endless", ["cellc.view.content.scene_of", "cellc.pipeline.run_rules"])
+@pytest.mark.parametrize("endless", ["cellc.tools.view.content.scene_of", "cellc.compiler.pipeline.run_rules"])
 def test_a_page_ends_in_one_line(endless: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(endless, _endless)
     ran = run("view", MINIMAL, "-o", (tmp_path / "page.html").as_posix())

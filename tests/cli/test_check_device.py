@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog.compiled import device_file
-from cellc.catalog.load import device_names
+from cellc.compiler.catalog.compiled import device_file
+from cellc.compiler.catalog.load import device_names
 from tests.cells import ROOT
 from tests.cli.run import run
 from tests.cli.test_bad_device_folders import BROKEN

@@ -13,8 +13,8 @@ from pathlib import Path
 import click
 import pytest
 
-from cellc.cli.main import cellc
 from cellc.mock.command.campaign import pace
+from cellc.tools.cli.main import cellc
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, PICK, run
 
@@ -116,7 +116,7 @@ def test_document_of_all_codes_is_replaced_as_a_whole_or_not_at_all(
 
     document = tmp_path / "README.md"
     document.write_text("# Every code of cellc\n\nthe old one")
-    monkeypatch.setattr("cellc.store.swap.os.replace", full)
+    monkeypatch.setattr("cellc.contract.store.swap.os.replace", full)
     ran = run("explain", "--all", "-o", tmp_path.as_posix())
     assert (ran.code, ran.err) == (1, f"error: {document.as_posix()}: no space left on device\n")
     assert [(file.name, file.read_text()) for file in tmp_path.iterdir()] == [

@@ -86,12 +86,12 @@ def _signalled(
     ("moment", "number"),
     [
         ("pydantic", signal.SIGINT),
-        ("cellc.rules.run", signal.SIGTERM),
-        ("cellc.spec.parse:parse", signal.SIGINT),
-        ("cellc.verify.verify:verify", signal.SIGHUP),
-        ("cellc.store.swap:Swap.make_folder", signal.SIGXCPU),
-        ("cellc.store.swap:Swap.put", signal.SIGTERM),
-        ("cellc.store.swap:Swap.settle", signal.SIGINT),
+        ("cellc.compiler.rules.run", signal.SIGTERM),
+        ("cellc.compiler.spec.parse:parse", signal.SIGINT),
+        ("cellc.compiler.verify.verify:verify", signal.SIGHUP),
+        ("cellc.contract.store.swap:Swap.make_folder", signal.SIGXCPU),
+        ("cellc.contract.store.swap:Swap.put", signal.SIGTERM),
+        ("cellc.contract.store.swap:Swap.settle", signal.SIGINT),
     ],
 )
 def test_build_that_a_signal_asks_to_end_leaves_nothing(moment: str, number: signal.Signals, tmp_path: Path) -> None:
@@ -99,7 +99,7 @@ def test_build_that_a_signal_asks_to_end_leaves_nothing(moment: str, number: sig
     assert everything_below(tmp_path) == []
 
 
-@pytest.mark.parametrize("moment", ["cellc.store.swap:Swap.put*2", "cellc.store.swap:Swap.settle"])
+@pytest.mark.parametrize("moment", ["cellc.contract.store.swap:Swap.put*2", "cellc.contract.store.swap:Swap.settle"])
 def test_interrupted_build_leaves_the_former_folder(moment: str, tmp_path: Path) -> None:
     output = tmp_path / "out"
     assert run("build", MINIMAL, "-o", output.as_posix()).code == 0
@@ -111,7 +111,8 @@ def test_interrupted_build_leaves_the_former_folder(moment: str, tmp_path: Path)
 
 
 def test_signals_that_follow_cut_no_cleaning_short(tmp_path: Path) -> None:
-    moments = "cellc.store.swap:Swap.put*7,cellc.store.swap:Swap.undo,cellc.output.write:discard"
+    swap = "cellc.contract.store.swap:Swap"
+    moments = f"{swap}.put*7,{swap}.undo,cellc.compiler.output.write:discard"
     _assert_interrupted(moments, ["build", MINIMAL, "-o", str(tmp_path / "out")])
     assert everything_below(tmp_path) == []
 
@@ -124,7 +125,7 @@ def test_signal_that_meets_a_finished_command_changes_nothing() -> None:
 
 @pytest.mark.parametrize(
     "moment",
-    ["cellc.rules.shared_domain:shared_domains", "cellc.rules.shared_domain:shared_domains*20"],
+    ["cellc.compiler.rules.shared_domain:shared_domains", "cellc.compiler.rules.shared_domain:shared_domains*20"],
 )
 def test_interrupted_check_of_many_cells_ends_its_workers(moment: str) -> None:
     cells = [file.as_posix() for file in sorted((ROOT / "tests/corpus/valid").glob("*.yaml"))][:32]
@@ -133,7 +134,7 @@ def test_interrupted_check_of_many_cells_ends_its_workers(moment: str) -> None:
 
 def test_signal_to_the_whole_group_is_told_in_one_line_too() -> None:
     cells = [file.as_posix() for file in sorted((ROOT / "tests/corpus/valid").glob("*.yaml"))][:32]
-    moment = "cellc.rules.shared_domain:shared_domains"
+    moment = "cellc.compiler.rules.shared_domain:shared_domains"
     _assert_interrupted(moment, ["check", *cells], signal.SIGHUP, group=True)
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.edit.rewrite import Edit, apply_edits, rewrite
+from cellc.tools.edit.rewrite import Edit, apply_edits, rewrite
 from tests.cells import ROOT
 from tests.cli.run import PICK, run
 

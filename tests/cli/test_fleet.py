@@ -10,11 +10,11 @@ from typing import Any
 import jsonschema
 import pytest
 
-from cellc.cli.batch import _Asked, _on_shared_disk, _Unit, cell_files, compute, digest_of
-from cellc.cli.fleet import Task
-from cellc.compute.work import ComputeError
-from cellc.limits import limits
-from cellc.spec.schema import schema_files
+from cellc.compiler.spec.schema import schema_files
+from cellc.contract.compute.work import ComputeError
+from cellc.contract.limits import limits
+from cellc.tools.cli.batch import _Asked, _on_shared_disk, _Unit, cell_files, compute, digest_of
+from cellc.tools.cli.fleet import Task
 from tests.cli.run import Ran, run
 
 SPEC = """\

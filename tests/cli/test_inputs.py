@@ -12,7 +12,7 @@ from pathlib import Path
 import click
 import pytest
 
-from cellc.cli.main import cellc
+from cellc.tools.cli.main import cellc
 from tests.cells import ROOT
 from tests.cli.run import run
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.printing import Stream, overheard, show
+from cellc.contract.printing import Stream, overheard, show
 from tests.cells import ROOT
 from tests.cli.hostile_cell import Files, make, mesh, new_cell, xacro
 from tests.cli.run import run
@@ -143,7 +143,7 @@ def test_a_warning_of_python_is_not_printed(module: str) -> None:
     # A library warns on its way: here it is the interpreter's own `warnings`, called where a command begins.
     program = (
         "import runpy, sys, warnings\n"
-        "import cellc.printing as door\n"
+        "import cellc.contract.printing as door\n"
         "door._prepare_streams = lambda: warnings.warn('::error::forged', RuntimeWarning)\n"
         f"sys.argv = ['cellc', '--help']\nrunpy.run_module('{module}', run_name='__main__')\n"
     )

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from cellc.cli.batch import in_workers
-from cellc.cli.fleet import Task
-from cellc.compute.processes import processes
-from cellc.limits import DEFAULTS, LimitError, as_options, in_force, limits, raised, rows
+from cellc.contract.compute.processes import processes
+from cellc.contract.limits import DEFAULTS, LimitError, as_options, in_force, limits, raised, rows
+from cellc.tools.cli.batch import in_workers
+from cellc.tools.cli.fleet import Task
 from tests.cli.run import MINIMAL, run
 
 READING = ("audit", "build", "check", "mock", "show")

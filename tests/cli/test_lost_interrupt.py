@@ -7,7 +7,7 @@ import sys
 
 _PROGRAM = """
 import os, signal, sys, time, weakref
-from cellc.signals import run_program
+from cellc.contract.signals import run_program
 class Thing: pass
 def in_a_callback(_): os.kill(os.getpid(), signal.SIGTERM)
 def program():

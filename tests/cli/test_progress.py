@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc import printing
-from cellc.cli import main
+from cellc.contract import printing
+from cellc.tools.cli import main
 from tests.cells import ROOT, generated
 from tests.cli.run import MINIMAL
 from tests.printing.test_streams import seen

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 import yaml
 
-from cellc.limits import Limits
+from cellc.contract.limits import Limits
 from tests.cells import CORPUS
 from tests.cli.hostile_cell import SECRET, SPEC, Files, make, mesh, new_cell, shape, sparse, xacro
 from tests.cli.run import run
@@ -46,7 +46,7 @@ def _refused(folder: Path, *words: str) -> None:
 
 def _bounded(monkeypatch: pytest.MonkeyPatch, **bounds: int) -> None:
     """Put lower bounds in the place of the defaults, which take seconds to reach."""
-    monkeypatch.setattr("cellc.cli.limit_option.raised", lambda _given: Limits(**bounds))
+    monkeypatch.setattr("cellc.tools.cli.limit_option.raised", lambda _given: Limits(**bounds))
 
 
 def _with_texts(texts: Mapping[str, str]) -> str:

@@ -17,11 +17,11 @@ from pathlib import Path
 import pytest
 import yaml
 
-from cellc.feasibility import compute
-from cellc.feasibility.question import MotionQuestion
-from cellc.store import cache
-from cellc.store.cache import read_entry, write_entry
-from cellc.store.cache_key import _working_tree
+from cellc.compiler.feasibility import compute
+from cellc.compiler.feasibility.question import MotionQuestion
+from cellc.contract.store import cache
+from cellc.contract.store.cache import read_entry, write_entry
+from cellc.contract.store.cache_key import _working_tree
 from tests.cells import CORPUS
 from tests.cli.hostile_cell import IN_THE_WAY, SPEC, make, mesh, new_cell, sparse
 from tests.cli.run import Ran, run

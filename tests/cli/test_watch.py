@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.cli.watch import Watched, different
+from cellc.tools.cli.watch import Watched, different
 from tests.cells import CORPUS, ROOT
 from tests.cli.run import run
 

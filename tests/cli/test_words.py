@@ -11,9 +11,9 @@ import click
 import pytest
 from click.shell_completion import ShellComplete
 
-from cellc.catalog.load import device_names
-from cellc.cli.main import cellc
-from cellc.report.pages import all_pages
+from cellc.compiler.catalog.load import device_names
+from cellc.compiler.pages import all_pages
+from cellc.tools.cli.main import cellc
 from tests.cells import generated
 from tests.cli.run import run
 

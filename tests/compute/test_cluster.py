@@ -15,15 +15,15 @@ from pathlib import Path
 
 import pytest
 
-from cellc.cli.batch import results
-from cellc.cli.fleet import Fan, Task
-from cellc.compute import cluster as of_dask
-from cellc.compute.cluster import cluster
-from cellc.compute.versions import versions
-from cellc.compute.work import ComputeError, Work, stream
+from cellc.contract.compute import cluster as of_dask
+from cellc.contract.compute.cluster import cluster
+from cellc.contract.compute.versions import versions
+from cellc.contract.compute.work import ComputeError, Work, stream
 from cellc.mock import load
 from cellc.mock.campaign.campaign import conduct, make_plan
 from cellc.mock.faults.registry import possible_faults
+from cellc.tools.cli.batch import results
+from cellc.tools.cli.fleet import Fan, Task
 from tests.cells import ROOT, written
 from tests.cli.refused import process
 from tests.compute.test_work import _deadly, _squares

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compute import processes as of_machine
-from cellc.compute.processes import processes
-from cellc.compute.work import ComputeError, Work, in_order, stream
+from cellc.contract.compute import processes as of_machine
+from cellc.contract.compute.processes import processes
+from cellc.contract.compute.work import ComputeError, Work, in_order, stream
 
 
 def _squares(offset: int) -> Callable[[int], int]:
@@ -83,8 +83,8 @@ def test_what_work_raises_is_raised_and_a_caller_that_stops_early_leaves_no_proc
 
 
 _HIRES = """
-from cellc.compute.processes import processes
-from cellc.compute.work import Work, stream
+from cellc.contract.compute.processes import processes
+from cellc.contract.compute.work import Work, stream
 from tests.compute.test_work import _endless
 for answer in stream(Work(_endless, None), range(5), processes(2)):
     print("begun", flush=True)

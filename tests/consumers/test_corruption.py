@@ -15,13 +15,13 @@ from tempfile import TemporaryDirectory, mkdtemp
 
 import pytest
 
-from cellc.artifact import Artifact
-from cellc.deploy.deployment import Deployment, plan_deployment
-from cellc.emit.emit_all import EMITTERS
-from cellc.graph.cell_graph import CellGraph
-from cellc.output.compare import compare
-from cellc.output.write import write
-from cellc.verify.verify import verify
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.deploy.deployment import Deployment, plan_deployment
+from cellc.compiler.emit.emit_all import EMITTERS
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.output.compare import compare
+from cellc.compiler.output.write import write
+from cellc.compiler.verify.verify import verify
 from tests.consumers import (
     starting,
     test_agreement,

@@ -7,12 +7,12 @@ from difflib import get_close_matches
 
 import pytest
 
-from cellc.catalog.codes import CODES as CATALOG_CODES
-from cellc.link.codes import CODES as LINK_CODES
-from cellc.rules.run import ALL_RULES
-from cellc.rules.shared_domain import CODES as FLEET_CODES
-from cellc.source import CODES as SOURCE_CODES
-from cellc.spec.codes import CODES as SPEC_CODES
+from cellc.compiler.catalog.codes import CODES as CATALOG_CODES
+from cellc.compiler.link.codes import CODES as LINK_CODES
+from cellc.compiler.rules.run import ALL_RULES
+from cellc.compiler.rules.shared_domain import CODES as FLEET_CODES
+from cellc.compiler.source import CODES as SOURCE_CODES
+from cellc.compiler.spec.codes import CODES as SPEC_CODES
 from tests.cells import ROOT, built
 from tests.coverage.sentences import expand, units
 

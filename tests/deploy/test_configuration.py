@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from cellc.compiler.deploy.configuration import configuration_id, configuration_inputs
 from cellc.contract.manifest import ConfigurationInputs
-from cellc.deploy.configuration import configuration_id, configuration_inputs
 from tests.cells import linked, spec_text, written
 from tests.emit.cells import emitted
 from tests.review.revisions import edited

@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from pydantic import ValidationError
 
-from cellc.deploy.deployment import plan_deployment
-from cellc.deploy.gate_subjects import CELL, FIELDS, ROWS, cell_row
-from cellc.deploy.gates import Line, gate_texts
-from cellc.formats.header import Header
-from cellc.vocabulary import GateCode
+from cellc.compiler.deploy.deployment import plan_deployment
+from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, cell_row
+from cellc.compiler.deploy.gates import Line, gate_texts
+from cellc.compiler.formats.header import Header
+from cellc.contract.vocabulary import GateCode
 from tests.cells import CELLS, built
 
 _TEXTS = (*gate_texts().promotion, *gate_texts().network)

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 
+from cellc.compiler.deploy.bringup import bring_up
+from cellc.compiler.deploy.gate_subjects import ROWS
+from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import BringUpStep
-from cellc.deploy.bringup import bring_up
-from cellc.deploy.gate_subjects import ROWS
-from cellc.graph.cell_graph import CellGraph
 from tests.cells import CORPUS, ROOT, graph_of
 from tests.foreign_yaml import safe_load
 

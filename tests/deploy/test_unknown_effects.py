@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics import Severity
-from cellc.pipeline import check
+from cellc.compiler.pipeline import check
+from cellc.contract.diagnostics import Severity
 from tests.cells import CORPUS, Compiled, compiled, written
 from tests.foreign_yaml import safe_load
 

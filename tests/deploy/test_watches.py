@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.deploy.bringup import bring_up
+from cellc.compiler.deploy.bringup import bring_up
 from tests.cells import linked, spec_of
 
 

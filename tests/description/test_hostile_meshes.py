@@ -13,9 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cellc.description import mesh_child
-from cellc.description.mesh_numbers import MeshNumbers, pack_numbers, read_answers, read_meshes
-from cellc.description.meshes import (
+from cellc.contract.limits import DEFAULTS, in_force
+from cellc.robot.description import mesh_child
+from cellc.robot.description.mesh_numbers import MeshNumbers, pack_numbers, read_answers, read_meshes
+from cellc.robot.description.meshes import (
     MeshError,
     MeshFacts,
     MeshFile,
@@ -25,9 +26,8 @@ from cellc.description.meshes import (
     readable,
     unusable,
 )
-from cellc.description.model import Mesh
-from cellc.description.packages import lies_under
-from cellc.limits import DEFAULTS, in_force
+from cellc.robot.description.model import Mesh
+from cellc.robot.description.packages import lies_under
 
 TRIANGLE = "solid t\nfacet normal 0 0 1\nouter loop\n{}\nendloop\nendfacet\nendsolid t\n"
 CORNERS = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 2 0"
@@ -147,7 +147,7 @@ def test_link_that_changes_after_it_was_judged_is_not_followed(tmp_path: Path, m
         file.symlink_to(tmp_path / "secret" / "part.stl")
         return answer
 
-    monkeypatch.setattr("cellc.description.meshes.lies_under", swapped)
+    monkeypatch.setattr("cellc.robot.description.meshes.lies_under", swapped)
     assert _refusal("package://parts/part.stl", (root,)) == "mesh-not-found"
 
 

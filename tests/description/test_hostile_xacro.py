@@ -10,12 +10,12 @@ from typing import Any
 
 import pytest
 
-from cellc.description.mesh_numbers import read_meshes
-from cellc.description.meshes import MeshError, identify
-from cellc.description.xacro_expansion import expand_here, expand_xacro
-from cellc.diagnostics import Diagnostic
-from cellc.limits import DEFAULTS, Purse, children_seconds, in_force, limits
-from cellc.pipeline import check
+from cellc.compiler.pipeline import check
+from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.limits import DEFAULTS, Purse, children_seconds, in_force, limits
+from cellc.robot.description.mesh_numbers import read_meshes
+from cellc.robot.description.meshes import MeshError, identify
+from cellc.robot.description.xacro_expansion import expand_here, expand_xacro
 from tests.cells import CORPUS
 
 _HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="stranger">'
@@ -154,7 +154,7 @@ def test_busy_machine_gives_the_answer_of_an_idle_one(tmp_path: Path, monkeypatc
         given.append(timeout)
         return run(command, timeout=timeout, **options)
 
-    monkeypatch.setattr("cellc.description.confined_child.subprocess.run", watched)
+    monkeypatch.setattr("cellc.robot.description.confined_child.subprocess.run", watched)
     purse = Purse(limits().xacro_seconds_together, children_seconds)
     assert expand_xacro(_write(tmp_path, f"{_HEAD}<link name='a'/></robot>"), {}, tmp_path, purse=purse).value
     triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"

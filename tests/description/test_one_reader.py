@@ -1,4 +1,4 @@
-"""A URDF is read by `cellc.description` alone; the check of our own output is the only other reader of XML."""
+"""A URDF is read by `cellc.robot.description` alone; the check of our own output is the only other reader of XML."""
 
 from __future__ import annotations
 

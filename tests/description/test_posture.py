@@ -8,11 +8,11 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.catalog.load import device_names, load_device
-from cellc.description.model import Description, Joint
-from cellc.description.posture import farthest, posture
-from cellc.description.urdf_reader import read_urdf
-from cellc.transforms import Pose, identity
+from cellc.compiler.catalog.load import device_names, load_device
+from cellc.contract.transforms import Pose, identity
+from cellc.robot.description.model import Description, Joint
+from cellc.robot.description.posture import farthest, posture
+from cellc.robot.description.urdf_reader import read_urdf
 
 # A slider, a mimic with offset, an axis that is no unit vector, and a turned joint frame.
 _ODD = """<robot name="odd"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.description.model import Description, HardwareInterface
-from cellc.description.urdf_reader import read_urdf
+from cellc.robot.description.model import Description, HardwareInterface
+from cellc.robot.description.urdf_reader import read_urdf
 
 COMPONENT = """<ros2_control name="arm_hw" type="system" rw_rate="50">
     <hardware><plugin> mock_components/GenericSystem </plugin><param name="calculate_dynamics">true</param></hardware>

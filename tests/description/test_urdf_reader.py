@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cellc.description.model import Box, Cylinder, Description, Mesh, Sphere
-from cellc.description.urdf_reader import read_urdf
-from cellc.diagnostics import Diagnostic, Span
+from cellc.contract.diagnostics import Diagnostic, Span
+from cellc.robot.description.model import Box, Cylinder, Description, Mesh, Sphere
+from cellc.robot.description.urdf_reader import read_urdf
 
 ROBOT = """<?xml version="1.0"?>
 <robot name="r">

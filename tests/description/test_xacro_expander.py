@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cellc.catalog.codes import CODES
-from cellc.description.read_description import read_description
-from cellc.description.xacro_expansion import expand_here, expand_xacro
-from cellc.diagnostics import Diagnostic
+from cellc.compiler.catalog.codes import CODES
+from cellc.contract.diagnostics import Diagnostic
+from cellc.robot.description.read_description import read_description
+from cellc.robot.description.xacro_expansion import expand_here, expand_xacro
 
 HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="mine">'
 

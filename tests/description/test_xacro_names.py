@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 import xacro
 
-from cellc.description.xacro_confinement import Confinement
-from cellc.description.xacro_expansion import expand_here
-from cellc.description.xacro_expression import ExpressionError, evaluate
-from cellc.description.xacro_names import known_names, names_of_eval
+from cellc.robot.description.xacro_confinement import Confinement
+from cellc.robot.description.xacro_expansion import expand_here
+from cellc.robot.description.xacro_expression import ExpressionError, evaluate
+from cellc.robot.description.xacro_names import known_names, names_of_eval
 
 _NAMESPACES = ("math", "python", "xacro")
 _REFUSED = {"python.hash", "python.vars"}

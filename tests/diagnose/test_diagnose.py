@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from cellc.cell.cell import Cell
-from cellc.diagnose.diagnose import Step, classify, diagnose
-from cellc.diagnose.symptoms import LAYERS, Observation, Symptom, knowledge
-from cellc.pipeline import check
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.pipeline import check
+from cellc.tools.diagnose.diagnose import Step, classify, diagnose
+from cellc.tools.diagnose.symptoms import LAYERS, Observation, Symptom, knowledge
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 from tests.oracles import RECORDED

@@ -7,10 +7,10 @@ from functools import cache
 
 import pytest
 
-from cellc.cell.cell import Cell
-from cellc.cell.frame import FrameKind
-from cellc.diagnose.fields import FIELDS, Scope
-from cellc.diagnose.subjects import subjects
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.frame import FrameKind
+from cellc.tools.diagnose.fields import FIELDS, Scope
+from cellc.tools.diagnose.subjects import subjects
 from tests.cells import COMPLETE, linked
 
 _JOINTS = ", ".join(f"arm_joint_{number}" for number in range(1, 7))

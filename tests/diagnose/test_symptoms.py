@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 import pytest
 
-from cellc.cell.cell import Cell
-from cellc.diagnose.diagnose import classify, diagnose
-from cellc.diagnose.log_lines import length
-from cellc.diagnose.symptoms import knowledge
-from cellc.diagnose.words import Words
-from cellc.pipeline import check
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.pipeline import check
+from cellc.tools.diagnose.diagnose import classify, diagnose
+from cellc.tools.diagnose.log_lines import length
+from cellc.tools.diagnose.symptoms import knowledge
+from cellc.tools.diagnose.words import Words
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 

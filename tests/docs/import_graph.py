@@ -1,4 +1,4 @@
-"""Draws which folders of cellc import which, without what follows from the rest: docs/import_graph.svg.
+"""Draws which rooms of the wings of cellc import which, without what follows from the rest: docs/import_graph.svg.
 
 `python -m tests.docs.import_graph` draws it again after a folder came or went, or imports another.
 """
@@ -24,18 +24,24 @@ _Node = str | _Lane
 
 
 def imports() -> nx.DiGraph[str]:
-    """Return the folders and modules at the top of cellc, with an edge from each to what it imports itself."""
+    """Return the rooms of the wings, with an edge from each to what it imports itself."""
     found = grimp.build_graph("cellc", exclude_type_checking_imports=True)
-    tops = found.find_children("cellc")
-    for top in tops:
-        if found.find_children(top):
-            found.squash_module(top)
     graph: nx.DiGraph[str] = nx.DiGraph()
-    for top in sorted(tops - {"cellc.__main__"}):
-        graph.add_node(_short(top))
-        imported = found.find_modules_directly_imported_by(top) & tops
-        graph.add_edges_from((_short(top), _short(other)) for other in sorted(imported - {top}))
+    for module in sorted(found.modules):
+        room = _room(module, found)
+        imported = {_room(other, found) for other in found.find_modules_directly_imported_by(module)}
+        graph.add_edges_from((room, other) for other in sorted(imported - {room, ""}) if room)
     return graph
+
+
+def _room(module: str, found: grimp.ImportGraph) -> str:
+    """Return the folder or module of a wing that a module is in; what is shared in files of its own is one room."""
+    _, *path = module.split(".")
+    if len(path) < 2 and path != ["mock"]:
+        return ""  # the package itself, its version and its `python -m`, and wings, which import nothing
+    wing, *within = path
+    alone = wing == "mock" or (wing == "contract" and not found.find_children(f"cellc.contract.{within[0]}"))
+    return wing if alone else within[0]
 
 
 def picture() -> str:
@@ -48,7 +54,7 @@ def picture() -> str:
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"',
         '     font-family="sans-serif" font-size="13">',
-        "  <title>Folders of cellc: each imports what it has a line down to, and what that imports</title>",
+        "  <title>Rooms of cellc: each imports what it has a line down to, and what that imports</title>",
         f'  <rect width="{width}" height="{height}" fill="white"/>',
     ]
     lines += [f'  <path d="{_curve(edge, places)}" fill="none" stroke="#8a8a8a"/>' for edge in sorted(graph.edges)]
@@ -59,10 +65,6 @@ def picture() -> str:
             f'  <text x="{x}" y="{y + 20}" text-anchor="middle">{node}</text>',
         ]
     return "\n".join([*lines, "</svg>", ""])
-
-
-def _short(module: str) -> str:
-    return module.removeprefix("cellc.")
 
 
 def _rows(graph: nx.DiGraph[str]) -> list[list[_Node]]:

@@ -1,4 +1,4 @@
-"""Writes docs/limits.md: the table of `cellc/limits.py` for people.
+"""Writes docs/limits.md: the table of `cellc/contract/limits.py` for people.
 
 `python -m tests.docs.limits` writes it again after a row came, went or changed.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.limits import KIB, MIB, default, rows
+from cellc.contract.limits import KIB, MIB, default, rows
 from tests.cells import ROOT
 
 PAGE = ROOT / "docs" / "limits.md"

@@ -26,7 +26,7 @@ from pathlib import Path
 import click
 import pytest
 
-from cellc.cli.main import cellc
+from cellc.tools.cli.main import cellc
 from tests.cells import ROOT
 from tests.cli.run import Ran
 from tests.cli.run import run as run_command

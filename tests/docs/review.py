@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.deploy.gates import gate_texts
-from cellc.review.rows import ROWS
-from cellc.review.rules import APPROVAL, REPEATED, THINGS, Row, Thing
-from cellc.vocabulary import ReviewArea
+from cellc.compiler.deploy.gates import gate_texts
+from cellc.contract.vocabulary import ReviewArea
+from cellc.tools.review.rows import ROWS
+from cellc.tools.review.rules import APPROVAL, REPEATED, THINGS, Row, Thing
 from tests.cells import ROOT
 
 PAGE = ROOT / "docs" / "review.md"

@@ -6,8 +6,8 @@ import re
 
 import pytest
 
+from cellc.compiler.spec.parse import parse
 from cellc.mock import load
-from cellc.spec.parse import parse
 from tests.cells import ROOT, built, document_of, generated, linked, spec_of
 from tests.foreign_yaml import safe_load
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from cellc.diagnostics import Severity
-from cellc.vocabulary import AttemptOutcome, GateCode
+from cellc.contract.diagnostics import Severity
+from cellc.contract.vocabulary import AttemptOutcome, GateCode
 from tests.cells import ROOT
 
 TEXT = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")

@@ -7,10 +7,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from cellc.compiler.deploy.deployment import plan_deployment
+from cellc.compiler.emit.emit_all import emit_all
+from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.contract import Contract
-from cellc.deploy.deployment import plan_deployment
-from cellc.emit.emit_all import emit_all
-from cellc.graph.cell_graph import CellGraph
 from tests.cells import graph_of, spec_text, written
 
 CELLS = ("ur5e_pick", "minimal")

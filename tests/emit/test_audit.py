@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.formats.markdown_table import table
+from cellc.compiler.formats.markdown_table import table
 from tests.cells import spec_text
 from tests.cli.run import MINIMAL, PICK, run
 from tests.emit.cells import CELLS, artifacts_of, contract_data, emitted

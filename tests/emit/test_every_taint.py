@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from cellc.deploy.configuration import header_of
-from cellc.deploy.deployment import plan_deployment
-from cellc.emit.launch.launch import emit
-from cellc.formats.escape import markdown_comment
-from cellc.graph.cell_graph import CellGraph
+from cellc.compiler.deploy.configuration import header_of
+from cellc.compiler.deploy.deployment import plan_deployment
+from cellc.compiler.emit.launch.launch import emit
+from cellc.compiler.formats.escape import markdown_comment
+from cellc.compiler.graph.cell_graph import CellGraph
 from tests.cells import ROOT, graph_of, linked, spec_of
 from tests.emit.taint.cells import variants
 from tests.emit.taint.judge import differences

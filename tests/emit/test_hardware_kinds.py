@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 
 import pytest
 
-from cellc.formats.urdf.robot import manager_description
-from cellc.formats.xml_text import render
+from cellc.compiler.formats.urdf.robot import manager_description
+from cellc.compiler.formats.xml_text import render
 from tests.cells import linked, written
 
 SPEC = """format: 1

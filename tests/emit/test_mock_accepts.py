@@ -6,8 +6,8 @@ import json
 
 import pytest
 
+from cellc.contract.vocabulary import Distro
 from cellc.mock import control
-from cellc.vocabulary import Distro
 from tests.cells import DISTROS
 from tests.emit.cells import CELLS, artifacts_of, contract_data
 

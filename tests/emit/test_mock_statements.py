@@ -6,7 +6,7 @@ import shutil
 
 import pytest
 
-from cellc.report.resolved import flatten, resolved_tree
+from cellc.tools.report.resolved import flatten, resolved_tree
 from tests.cells import CORPUS, Compiled, compiled, written
 
 _SPEC = """format: 1

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from cellc.deploy.files import PARAMETER_FILES
+from cellc.compiler.deploy.files import PARAMETER_FILES
 from tests.cells import DISTROS, spec_text
 from tests.emit.cells import artifacts_of, emitted
 from tests.foreign_yaml import safe_load

@@ -10,9 +10,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from cellc.catalog.load import load_device
+from cellc.compiler.catalog.load import load_device
+from cellc.contract.vocabulary import Distro
 from cellc.mock.control import ControllerManager, DeclaredInterfaces
-from cellc.vocabulary import Distro
 from tests.cells import diagnose, spec_text
 from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from cellc.catalog.version_rows import RepositoryPin
+from cellc.compiler.catalog.version_rows import RepositoryPin
 from tests.cells import CORPUS, ROOT
 from tests.cli.run import run
 from tests.emit.taint.programs import READ_BY, misled

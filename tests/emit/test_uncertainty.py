@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cellc.compiler.emit.contract.uncertainty import uncertainty
+from cellc.contract.limits import limits
 from cellc.contract.uncertainty import UncertainQuantity, Uncertainty
-from cellc.emit.contract.uncertainty import uncertainty
-from cellc.limits import limits
 from cellc.mock.sweep.draws import draw, reality_of
 from tests.cells import ROOT, linked, spec_of, spec_text, written
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.pipeline import check
+from cellc.compiler.pipeline import check
 from tests.cli.run import PICK
 
 

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 import yaml
 
-from cellc.description.packages import on_package_path, use_packages
-from cellc.feasibility import MotionAnswer, disabled_links, mesh_faults, motion_answer
-from cellc.feasibility.question import MotionQuestion
-from cellc.store.cache import cache_folder
+from cellc.compiler.feasibility import MotionAnswer, disabled_links, mesh_faults, motion_answer
+from cellc.compiler.feasibility.question import MotionQuestion
+from cellc.contract.store.cache import cache_folder
+from cellc.robot.description.packages import on_package_path, use_packages
 from tests.cells import CORPUS, graph_of, written
 
 SMALL, LARGE = 0.02, 1.0
@@ -164,7 +164,7 @@ def test_mesh_that_appears_is_seen(tmp_path: Path) -> None:
 
 
 def test_mesh_that_changes_during_the_computation_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from cellc.feasibility import compute
+    from cellc.compiler.feasibility import compute
 
     mesh = tmp_path / "one" / "parts" / "hand.stl"
     _cube(mesh, SMALL)

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 import yaml
 
-from cellc.feasibility import MotionAnswer, disabled_links, motion_answer
-from cellc.graph.cell_graph import CellGraph
-from cellc.limits import DEFAULTS, in_force
-from cellc.pipeline import check, compile_cell
+from cellc.compiler.feasibility import MotionAnswer, disabled_links, motion_answer
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.pipeline import check, compile_cell
+from cellc.contract.limits import DEFAULTS, in_force
 from tests.cells import CORPUS, graph_of, written
 
 DEVICES = CORPUS / "invalid" / "base"
@@ -112,7 +112,7 @@ def test_poses_and_goals_are_answered_without_sampling_the_pairs_that_never_touc
         raise AssertionError("pairs are sampled where no artifact asks for them")
 
     monkeypatch.setenv("CELLC_NO_CACHE", "1")
-    monkeypatch.setattr("cellc.feasibility.compute.disabled_collisions", refuse)
+    monkeypatch.setattr("cellc.compiler.feasibility.compute.disabled_collisions", refuse)
     graph = _graph(tmp_path, motion=_motion(poses={"folded": {"bars": "0 171 0 deg"}}))
     assert [len(pose.contacts) for pose in motion_answer(graph).poses] == [1]
     with pytest.raises(AssertionError):

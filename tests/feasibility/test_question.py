@@ -8,10 +8,16 @@ from functools import cache
 
 import pytest
 
-from cellc.cell.device import Device
-from cellc.feasibility.question import CarriedQuestion, MotionQuestion, PoseQuestion, ViewQuestion, motion_question
-from cellc.graph.cell_graph import CellGraph, build_graph
-from cellc.transforms import Pose
+from cellc.compiler.cell.device import Device
+from cellc.compiler.feasibility.question import (
+    CarriedQuestion,
+    MotionQuestion,
+    PoseQuestion,
+    ViewQuestion,
+    motion_question,
+)
+from cellc.compiler.graph.cell_graph import CellGraph, build_graph
+from cellc.contract.transforms import Pose
 from tests.cells import COMPLETE, graph_of
 
 Triple = tuple[float, float, float]

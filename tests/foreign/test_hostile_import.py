@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.importing.beside import controllers_near, read_controllers
-from cellc.importing.merge import facts_in, merged
-from cellc.limits import DEFAULTS, in_force
+from cellc.contract.limits import DEFAULTS, in_force
+from cellc.tools.importing.beside import controllers_near, read_controllers
+from cellc.tools.importing.merge import facts_in, merged
 from tests.cli.run import run
 from tests.foreign.test_import import ARM, _robot
 

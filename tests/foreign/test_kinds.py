@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from cellc.description.urdf_reader import read_urdf
-from cellc.importing.role import Role, role_of
+from cellc.robot.description.urdf_reader import read_urdf
+from cellc.tools.importing.role import Role, role_of
 from tests.cli.run import run
 
 _LIMIT = '<limit lower="-1" upper="1" velocity="1" effort="10"/>'

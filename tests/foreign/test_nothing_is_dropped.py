@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.importing.device_text import Judged, device_facts, questions
-from cellc.importing.role import role_of
-from cellc.importing.source import Robot, read_robot
+from cellc.tools.importing.device_text import Judged, device_facts, questions
+from cellc.tools.importing.role import role_of
+from cellc.tools.importing.source import Robot, read_robot
 
 _LIMIT = '<limit lower="-2" upper="2" velocity="1" effort="10"/>'
 _PLAIN = {

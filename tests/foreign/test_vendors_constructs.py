@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from cellc.description.meshes import identify
-from cellc.description.model import Description, Mesh
-from cellc.description.packages import find_package, root_of
-from cellc.description.read_description import read_description
+from cellc.robot.description.meshes import identify
+from cellc.robot.description.model import Description, Mesh
+from cellc.robot.description.packages import find_package, root_of
+from cellc.robot.description.read_description import read_description
 from tests.cli.run import run
 
 _HEAD = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'

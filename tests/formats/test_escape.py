@@ -7,7 +7,7 @@ import re
 import pytest
 from markdown_it import MarkdownIt
 
-from cellc.formats.escape import code, markdown, mermaid
+from cellc.compiler.formats.escape import code, markdown, mermaid
 
 _PAGES = MarkdownIt("commonmark").enable(["table", "strikethrough"])
 

@@ -9,8 +9,8 @@ import pytest
 import yaml
 from pydantic import BaseModel
 
-from cellc.formats import json_text, xml_text, yaml_text
-from cellc.formats.escape import markdown, mermaid, shell_quoted, shell_word
+from cellc.compiler.formats import json_text, xml_text, yaml_text
+from cellc.compiler.formats.escape import markdown, mermaid, shell_quoted, shell_word
 from cellc.mock.report_page.html import tag, to_page
 from tests.printing.payloads import PAYLOADS, hides
 

@@ -7,7 +7,7 @@ import json
 import pytest
 from pydantic import BaseModel, Field
 
-from cellc.formats.json_text import render
+from cellc.compiler.formats.json_text import render
 from tests.cells import CELLS, built
 
 

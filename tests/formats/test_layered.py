@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 
 import pytest
 
-from cellc.formats.layered import PORT, Box, Columns, Layout, Line, layout
+from cellc.compiler.formats.layered import PORT, Box, Columns, Layout, Line, layout
 
 _COLUMNS = Columns(tuple(200.0 * number for number in range(5)), 120.0)
 

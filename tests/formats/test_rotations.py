@@ -13,12 +13,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cellc.description.urdf_reader import read_urdf
-from cellc.formats.numbers import rounded
-from cellc.formats.urdf.elements import origin
-from cellc.link.hand_eye_file import read_hand_eye
-from cellc.link.side_file import SideFile
-from cellc.transforms import Pose, apart, from_xyz_rpy, interpolate
+from cellc.compiler.formats.numbers import rounded
+from cellc.compiler.formats.urdf.elements import origin
+from cellc.compiler.link.hand_eye_file import read_hand_eye
+from cellc.compiler.link.side_file import SideFile
+from cellc.contract.transforms import Pose, apart, from_xyz_rpy, interpolate
+from cellc.robot.description.urdf_reader import read_urdf
 
 _QUARTER = math.pi / 2.0
 _WRITTEN = 4e-12

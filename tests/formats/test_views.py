@@ -9,9 +9,9 @@ from xml.etree.ElementTree import Element, fromstring
 
 import pytest
 
-from cellc.description.model import Box, Cylinder
-from cellc.formats.views import Part, two_views
-from cellc.transforms import Pose
+from cellc.compiler.formats.views import Part, two_views
+from cellc.contract.transforms import Pose
+from cellc.robot.description.model import Box, Cylinder
 from tests.cells import ROOT
 
 _SVG = "{http://www.w3.org/2000/svg}"

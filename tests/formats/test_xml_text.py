@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cellc.formats.xml_text import comment, element, render
+from cellc.compiler.formats.xml_text import comment, element, render
 
 _TEXT = st.text(st.characters(min_codepoint=32, blacklist_categories=("Cs", "Cc", "Cn")), min_size=1)
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from cellc.cell.cell import Cell
-from cellc.cell.interface import Endpoint, Interface
-from cellc.graph.data_flow import age_chains
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.compiler.graph.data_flow import age_chains
 from tests.cells import COMPLETE, linked
 
 

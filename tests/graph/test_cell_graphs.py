@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from cellc.graph.cell_graph import CellGraph
+from cellc.compiler.graph.cell_graph import CellGraph
 from tests.cells import COMPLETE, ROOT, diagnose, graph_of
 
 
@@ -64,7 +64,7 @@ def test_every_responsibility_has_its_owner(graph: CellGraph) -> None:
 def test_a_clean_cell_is_checked_again_without_heavy_imports() -> None:
     assert diagnose(COMPLETE) == ()  # what shapes and joints allow is kept from here on
     script = (
-        "import sys; from cellc.cli.batch import Task, results\n"
+        "import sys; from cellc.tools.cli.batch import Task, results\n"
         f"(checked,) = results('check', [Task({str(COMPLETE)!r})])\n"
         "heavy = ('networkx', 'pinocchio', 'yourdfpy', 'numpy', 'concurrent.futures')\n"
         "print(checked.findings.diagnostics, [name for name in heavy if name in sys.modules])\n"

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from cellc.cell.control import Controller, ControllerManager, ControllerSwitch
-from cellc.diagnostics import Span
-from cellc.graph.claims import ClaimGraph, can_switch, explore
-from cellc.vocabulary import Behaviour
+from cellc.compiler.cell.control import Controller, ControllerManager, ControllerSwitch
+from cellc.compiler.graph.claims import ClaimGraph, can_switch, explore
+from cellc.contract.diagnostics import Span
+from cellc.contract.vocabulary import Behaviour
 
 SPAN = Span("cell.yaml", 1, 1, 1, 2)
 

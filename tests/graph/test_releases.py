@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.graph.releases import release_sets
-from cellc.graph.versions import Answer, compatibility
-from cellc.pipeline import check
+from cellc.compiler.graph.releases import release_sets
+from cellc.compiler.graph.versions import Answer, compatibility
+from cellc.compiler.pipeline import check
 from tests.cells import spec_text, written
 
 _UR = ("ur_robot_driver 3.8.0", "ur_client_library 2.14.1", "ur_description 3.5.1")

@@ -24,7 +24,7 @@ from tests.cli.run import Ran
 _LEFT_OUT = (":!tests", ":!benchmarks", ":!docs")
 _DRIVER = """\
 import contextlib, io, json, os, sys
-from cellc.cli.main import run
+from cellc.tools.cli.main import run
 for words in json.load(sys.stdin):
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
@@ -36,7 +36,7 @@ for words in json.load(sys.stdin):
 """
 _TREE = """\
 import click, json
-from cellc.cli.main import cellc
+from cellc.tools.cli.main import cellc
 def walk(name, command):
     if not isinstance(command, click.Group):
         return [name]

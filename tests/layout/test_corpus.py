@@ -10,20 +10,20 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics import Span
-from cellc.layout import layout
-from cellc.link.link import link
-from cellc.report.resolved import flatten, resolved_tree
-from cellc.source import read
-from cellc.source.compose import compose
-from cellc.source.text import read_text
-from cellc.spec.parse import parse
+from cellc.compiler.link.link import link
+from cellc.compiler.source import read
+from cellc.compiler.source.compose import compose
+from cellc.compiler.source.text import read_text
+from cellc.compiler.spec.parse import parse
+from cellc.contract.diagnostics import Span
+from cellc.tools.layout import layout
+from cellc.tools.report.resolved import flatten, resolved_tree
 from tests.cells import CORPUS, EVERY_CELL, ROOT, spec_of
 from tests.cli.run import run
 from tests.foreign_yaml import safe_load
 
 _FILES = tuple(sorted(CORPUS.rglob("*.yaml"))) + tuple(spec_of(cell) for cell in EVERY_CELL)
-_DEVICES = tuple(sorted(ROOT.glob("cellc/catalog/devices/*/*.yaml")))
+_DEVICES = tuple(sorted(ROOT.glob("cellc/compiler/catalog/devices/*/*.yaml")))
 
 
 def _texts(files: tuple[Path, ...]) -> dict[str, str]:

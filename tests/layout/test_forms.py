@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.layout import layout
-from cellc.layout.layout import formatted
+from cellc.tools.layout import layout
+from cellc.tools.layout.layout import formatted
 
 FORMS = {
     "two spaces a level, and lists below their key": (

@@ -8,15 +8,15 @@ from xml.etree.ElementTree import fromstring
 
 import pytest
 
-from cellc.cell.cell import Cell
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.bringup import bring_up
+from cellc.compiler.deploy.deployment import plan_deployment
+from cellc.compiler.deploy.first_goal import first_goal
+from cellc.compiler.emit import moveit, parameters
+from cellc.compiler.emit.launch import launch
+from cellc.compiler.emit.security import policy
+from cellc.compiler.graph.cell_graph import build_graph
 from cellc.contract.bring_up import TARGETS
-from cellc.deploy.bringup import bring_up
-from cellc.deploy.deployment import plan_deployment
-from cellc.deploy.first_goal import first_goal
-from cellc.emit import moveit, parameters
-from cellc.emit.launch import launch
-from cellc.emit.security import policy
-from cellc.graph.cell_graph import build_graph
 from tests.cells import catalog_facts, linked, linking, spec_of, spec_text, written
 from tests.consumers.permissions import permissions
 from tests.foreign_yaml import safe_load

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cellc.diagnostics import Diagnostic
+from cellc.contract.diagnostics import Diagnostic
 from tests.cells import linked, linking, spec_text, written
 
 PUT = "put: {group: load, frame: nest"

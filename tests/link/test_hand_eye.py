@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.cell.cell import Cell
-from cellc.diagnostics import Outcome
+from cellc.compiler.cell.cell import Cell
+from cellc.contract.diagnostics import Outcome
 from tests.cells import linking, spec_text
 
 MOUNT = "xyz: 0 -70 30 mm, rpy: 0 -75 -90 deg, calibration"

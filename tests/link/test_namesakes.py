@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cellc.cell.cell import Cell
+from cellc.compiler.cell.cell import Cell
 from tests.cells import ROOT, linking, written
 
 TWO_ARMS = ROOT / "tests" / "consumers" / "two_arms.yaml"

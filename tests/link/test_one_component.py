@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.cell.cell import Cell
-from cellc.emit.contract.devices import devices
-from cellc.formats.urdf.robot import robot_description
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.emit.contract.devices import devices
+from cellc.compiler.formats.urdf.robot import robot_description
 from tests.cells import linked, spec_of
 
 

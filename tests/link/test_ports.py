@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from cellc.catalog.device_model import DeviceModel
-from cellc.catalog.load import load_device
-from cellc.link.ports import listened, port_shifts
-from cellc.spec.devices import DeviceSpec
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.load import load_device
+from cellc.compiler.link.ports import listened, port_shifts
+from cellc.compiler.spec.devices import DeviceSpec
 
 
 def robot(**connection: object) -> DeviceSpec:

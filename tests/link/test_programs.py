@@ -7,10 +7,10 @@ from functools import cache
 
 import pytest
 
-from cellc.catalog.programs import InnerNodeFacts
-from cellc.cell.interface import Node, NodeEndpoints, NodeSource
-from cellc.link.programs import endpoints, implied_endpoints, inner_nodes, with_programs
-from cellc.vocabulary import Distro
+from cellc.compiler.catalog.programs import InnerNodeFacts
+from cellc.compiler.cell.interface import Node, NodeEndpoints, NodeSource
+from cellc.compiler.link.programs import endpoints, implied_endpoints, inner_nodes, with_programs
+from cellc.contract.vocabulary import Distro
 from tests.cells import COMPLETE, linked
 
 

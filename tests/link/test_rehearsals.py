@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.cell.motion import Fault, Rehearsal, StepEvent
-from cellc.diagnostics import Diagnostic
+from cellc.compiler.cell.motion import Fault, Rehearsal, StepEvent
+from cellc.contract.diagnostics import Diagnostic
 from tests.cells import linked, linking, spec_text, written
 
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from cellc.cell.cell import Cell
-from cellc.cell.control import Controller
-from cellc.formats.urdf.robot import robot_description
-from cellc.pipeline import check
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller
+from cellc.compiler.formats.urdf.robot import robot_description
+from cellc.compiler.pipeline import check
 from tests.cells import linked, spec_of, spec_text, without_absent, written
 
 SPEC = spec_of("fr3_hand")

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.description.model import Box, Sphere
-from cellc.description.packages import on_package_path
+from cellc.robot.description.model import Box, Sphere
+from cellc.robot.description.packages import on_package_path
 from tests.cells import CORPUS, compiled, diagnose, linked, written
 
 _BASE = CORPUS / "invalid" / "base"

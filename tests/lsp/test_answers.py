@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog.compiled import device_file
-from cellc.lsp.answers import Known, completions, definition, hover
-from cellc.lsp.cells import Cells
+from cellc.compiler.catalog.compiled import device_file
+from cellc.tools.lsp.answers import Known, completions, definition, hover
+from cellc.tools.lsp.cells import Cells
 from tests.cells import spec_of
 
 _BROKEN = {

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cellc.limits import DEFAULTS, in_force, limits
+from cellc.contract.limits import DEFAULTS, in_force, limits
+from cellc.contract.store.regular_file import NotRegularError, read_regular
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.cell import run_all
 from cellc.mock.command.options import MockOptions, run_mock
@@ -22,7 +23,6 @@ from cellc.mock.control.controllers.joint_trajectory.motion import stop_points
 from cellc.mock.errors import LimitReachedError
 from cellc.mock.folder import path_tolerances
 from cellc.mock.result import RunFailure
-from cellc.store.regular_file import NotRegularError, read_regular
 from tests.cells import ROOT
 from tests.mock.conftest import LoadWith
 

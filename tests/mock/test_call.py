@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock import load
 from cellc.mock.cell import cell_of
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.result import AttemptRecord, RehearsalResult
-from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.cells import diagnose, spec_text, written
 
 SERVICE = "/arm_io/zero_ftsensor"

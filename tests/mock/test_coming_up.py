@@ -14,12 +14,12 @@ import pytest
 
 from cellc.contract.bring_up import Activation, BringUpStep, HardwareActivation
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind, Moment, Need, Unmet
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult
-from cellc.vocabulary import AttemptOutcome, BringUpPhase, FaultKind, Moment, Need, Unmet
 from tests.cells import generated
 
 STEPS = (StepEntry(kind="move", target="home"), StepEntry(kind="wait", target="", duration_s=1.0))

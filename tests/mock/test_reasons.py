@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell, load
 from cellc.mock.campaign.campaign import execute, make_plan
 from cellc.mock.campaign.plan import CampaignRun
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.result import RehearsalResult
-from cellc.vocabulary import AttemptOutcome
 from tests.mock.conftest import Fault, LoadWith, fault
 
 _STEP = re.compile(r"step (\d+) `([a-z]+)(?:: ([^`]+))?`: (.+)")

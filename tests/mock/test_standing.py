@@ -6,6 +6,7 @@ from dataclasses import asdict
 
 import pytest
 
+from cellc.contract.transforms import Pose
 from cellc.mock import MockCell
 from cellc.mock.bringup import Bringup
 from cellc.mock.campaign.campaign import execute
@@ -14,7 +15,6 @@ from cellc.mock.cell import cell_of
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Displacement, Reality
 from cellc.mock.standing import StandingMemory
-from cellc.transforms import Pose
 
 _STRAIGHT = (0.0, 0.0, 0.0, 1.0)
 _ASIDE = Reality(

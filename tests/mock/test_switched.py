@@ -10,13 +10,13 @@ import pytest
 
 from cellc.contract.contract import ContractSwitched
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock import load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult
-from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.cells import CORPUS, build_into
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
-from cellc.planning import PlanFailure
+from cellc.robot.planning import PlanFailure
 from tests.cells import ROOT
 
 

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from cellc.limits import limits
+from cellc.contract.limits import limits
+from cellc.contract.store.staging import staging_of
+from cellc.contract.store.swap import write_whole
 from cellc.mock.command.options import write_records
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import INDEX, EvidenceFolder
-from cellc.store.staging import staging_of
-from cellc.store.swap import write_whole
 
 PRECIOUS = "precious\n"
 

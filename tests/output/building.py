@@ -6,9 +6,9 @@ import fcntl
 from pathlib import Path
 from typing import BinaryIO
 
-from cellc.artifact import Artifact
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.output.manifest import with_manifest
 from cellc.contract.manifest import ConfigurationInputs
-from cellc.output.manifest import with_manifest
 
 _at_work: list[BinaryIO] = []
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics import Span
-from cellc.output.codes import CODES, finding, shared_output
+from cellc.compiler.output.codes import CODES, finding, shared_output
+from cellc.contract.diagnostics import Span
 
 
 def _span(file: str) -> Span:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cellc.output.compare import Difference, compare
-from cellc.output.write import write
+from cellc.compiler.output.compare import Difference, compare
+from cellc.compiler.output.write import write
 from tests.output.building import build_of, contents
 
 FIRST = build_of(a_txt="one\ntwo\nthree\n", b_txt="b\n", d_txt="d\n")

@@ -12,15 +12,15 @@ from typing import Any
 
 import pytest
 
-import cellc.output
-from cellc.output.write import write
-from cellc.store import staging as stagings
+import cellc.compiler.output
+from cellc.compiler.output.write import write
+from cellc.contract.store import staging as stagings
 from tests.output.building import as_contents, build_of, contents, staging_at_work
 
 FIRST = build_of(a_txt="one\n", b_txt="two\n", old__d_txt="d\n")
 SECOND = build_of(a_txt="changed\n", b_txt="two\n", new__e_txt="e\n")
 THIRD = build_of(a_txt="again\n", b_txt="2\n", new__e_txt="e2\n")
-_STAGE = str(Path(cellc.output.__file__).parent)
+_STAGE = str(Path(cellc.compiler.output.__file__).parent)
 
 
 class _Killed(BaseException):
@@ -117,8 +117,8 @@ def _kill_at(replacement: int, folder: Path, monkeypatch: pytest.MonkeyPatch) ->
         real(source, target)
 
     monkeypatch.setattr(os, "replace", replace)
-    monkeypatch.setattr("cellc.store.swap.Swap.undo", lambda _: None)
-    monkeypatch.setattr("cellc.output.write.discard", _let_go)
+    monkeypatch.setattr("cellc.contract.store.swap.Swap.undo", lambda _: None)
+    monkeypatch.setattr("cellc.compiler.output.write.discard", _let_go)
     # No process has this number: it is above the largest that Linux gives out.
     monkeypatch.setattr("os.getpid", lambda: 2**22 + 1)
     with pytest.raises(_Killed):

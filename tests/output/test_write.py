@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from cellc.artifact import Artifact
-from cellc.limits import limits
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.output.write import write
+from cellc.contract.limits import limits
+from cellc.contract.store.staging import make_staging
+from cellc.contract.store.swap import Swap, write_whole
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
-from cellc.output.write import write
-from cellc.store.staging import make_staging
-from cellc.store.swap import Swap, write_whole
 from tests.output.building import artifacts_of, as_contents, build_of, contents
 
 FIRST = build_of(a_txt="one\n", b_txt="two\n", config__c_yaml="c: 1\n", old__d_txt="d\n")

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from cellc.planning import JointLimits, PlanningGroup
+from cellc.robot.planning import JointLimits, PlanningGroup
 
 JOINTS = ("pan", "lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
 HOME = (0.0, -1.57, 1.57, -1.57, -1.57, 0.0)

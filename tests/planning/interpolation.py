@@ -7,7 +7,7 @@ from math import perm
 import numpy as np
 import numpy.typing as npt
 
-from cellc.planning import TimedTrajectory
+from cellc.robot.planning import TimedTrajectory
 
 Array = npt.NDArray[np.float64]
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import xacro
 
-from cellc.planning import (
+from cellc.contract.transforms import Pose, from_xyz_rpy
+from cellc.robot.planning import (
     CollisionScene,
     JointLimits,
     JointPath,
@@ -19,12 +20,11 @@ from cellc.planning import (
     disabled_collisions,
     time_parameterize,
 )
-from cellc.transforms import Pose, from_xyz_rpy
 from tests.cells import catalog_facts
 
 from .arm import dh_tool_to_base
 
-DEVICES = Path(__file__).resolve().parents[2] / "cellc" / "catalog" / "devices"
+DEVICES = Path(__file__).resolve().parents[2] / "cellc" / "compiler" / "catalog" / "devices"
 ARM = DEVICES / "universal_robots" / "ur.urdf.xacro"
 GRIPPER = DEVICES / "robotiq" / "robotiq_2f_85.urdf.xacro"
 HOME = (0.0, -1.57, 1.57, -1.57, -1.57, 0.0)

@@ -12,7 +12,8 @@ import numpy.typing as npt
 import pinocchio
 import pytest
 
-from cellc.planning import (
+from cellc.contract.transforms import Pose
+from cellc.robot.planning import (
     CollisionScene,
     IkSolution,
     JointLimits,
@@ -22,7 +23,6 @@ from cellc.planning import (
     TimedTrajectory,
     time_parameterize,
 )
-from cellc.transforms import Pose
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_tool_to_base
 from .interpolation import derivatives_between

@@ -13,8 +13,8 @@ SCRIPT = """
 import sys
 sys.path.insert(0, {tests!r})
 from planning.arm import ADJACENT, GROUP, HOME, LIMITS, arm_urdf
-from cellc.planning import CollisionScene, Planner, RobotModel, disabled_collisions, time_parameterize
-from cellc.transforms import Pose
+from cellc.robot.planning import CollisionScene, Planner, RobotModel, disabled_collisions, time_parameterize
+from cellc.contract.transforms import Pose
 
 model = RobotModel.from_urdf(arm_urdf())
 disabled = [pair.links for pair in disabled_collisions(model, samples=20, rng_seed=1, margin_m=0.005)]

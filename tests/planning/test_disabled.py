@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cellc.planning import CollisionScene, DisabledReason, RobotModel, decided_collisions, disabled_collisions
+from cellc.robot.planning import CollisionScene, DisabledReason, RobotModel, decided_collisions, disabled_collisions
 
 from .arm import ADJACENT, arm_urdf
 from .test_catalogue_arm import ARM, GRIPPER, _expanded

@@ -9,10 +9,10 @@ import numpy.typing as npt
 import pinocchio
 import pytest
 
-from cellc.planning import CollisionScene, PlanningGroup, RobotModel
-from cellc.planning.chain import GroupChain
-from cellc.planning.rrt_connect import EDGE_RESOLUTION_M, edge_is_free
-from cellc.transforms import Pose
+from cellc.contract.transforms import Pose
+from cellc.robot.planning import CollisionScene, PlanningGroup, RobotModel
+from cellc.robot.planning.chain import GroupChain
+from cellc.robot.planning.rrt_connect import EDGE_RESOLUTION_M, edge_is_free
 from tests.planning.arm import ADJACENT, GROUP, LIMITS, arm_urdf
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)

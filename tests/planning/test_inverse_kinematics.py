@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from cellc.planning import (
+from cellc.contract.transforms import Pose, from_xyz_rpy
+from cellc.robot.planning import (
     CollisionScene,
     FailureReason,
     IkFailure,
@@ -19,10 +20,9 @@ from cellc.planning import (
     Planner,
     RobotModel,
 )
-from cellc.planning.chain import GroupChain
-from cellc.planning.inverse_kinematics import Descent, descend, undo_turns
-from cellc.planning.model import from_pose
-from cellc.transforms import Pose, from_xyz_rpy
+from cellc.robot.planning.chain import GroupChain
+from cellc.robot.planning.inverse_kinematics import Descent, descend, undo_turns
+from cellc.robot.planning.model import from_pose
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_singular_values, dh_tool_to_base
 
@@ -165,7 +165,7 @@ def _nearest_of_many(planner: Planner, target: Pose, current: npt.NDArray[np.flo
 
 def test_search_that_ends_early_ends_at_the_nearest_solution(planner: Planner, monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[int] = []
-    monkeypatch.setattr("cellc.planning.inverse_kinematics.descend", _counting(calls))
+    monkeypatch.setattr("cellc.robot.planning.inverse_kinematics.descend", _counting(calls))
     early = 0
     generator = np.random.default_rng(6)
     for _ in range(60):
@@ -185,7 +185,7 @@ def test_search_that_ends_early_ends_at_the_nearest_solution(planner: Planner, m
 
 def test_solution_on_another_branch_does_not_end_the_search(planner: Planner, monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[int] = []
-    monkeypatch.setattr("cellc.planning.inverse_kinematics.descend", _counting(calls))
+    monkeypatch.setattr("cellc.robot.planning.inverse_kinematics.descend", _counting(calls))
     # Close to the wrist's singularity (wrist_2 at zero) the nearest solution lies on its other side.
     current, wanted = np.array([0.0, -1.2, 1.4, -1.0, -0.1, 0.0]), np.array([0.05, -1.2, 1.4, -1.0, 0.1, 0.0])
     solution = planner.inverse_kinematics(planner.tip_pose(wanted.tolist()), current.tolist())

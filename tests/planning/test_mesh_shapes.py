@@ -11,8 +11,8 @@ import numpy as np
 import pinocchio
 import pytest
 
-from cellc.description.packages import on_package_path
-from cellc.planning import RobotModel
+from cellc.robot.description.packages import on_package_path
+from cellc.robot.planning import RobotModel
 
 CORNERS = ((0, 0, 0), (0.1, 0, 0), (0, 0.2, 0), (0, 0, 0.3))
 FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cellc.planning.motion_law import fastest_bounds, jerk_changes, rest_to_rest, rest_to_rest_durations
-from cellc.planning.problem import JointLimits
-from cellc.planning.splines import SectionCurve
+from cellc.robot.planning.motion_law import fastest_bounds, jerk_changes, rest_to_rest, rest_to_rest_durations
+from cellc.robot.planning.problem import JointLimits
+from cellc.robot.planning.splines import SectionCurve
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from cellc.planning import (
+from cellc.contract.transforms import Pose, from_xyz_rpy
+from cellc.robot.planning import (
     CollisionScene,
     FailureReason,
     IkSolution,
@@ -18,7 +19,6 @@ from cellc.planning import (
     PlanningGroup,
     RobotModel,
 )
-from cellc.transforms import Pose, from_xyz_rpy
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_tool_to_base
 

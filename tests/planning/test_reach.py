@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.planning import RobotModel, beyond_reach
+from cellc.robot.planning import RobotModel, beyond_reach
 
 
 def _swing(post_m: float, kind: str = "revolute", travel_m: float = 1.0) -> RobotModel:

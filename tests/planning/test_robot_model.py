@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from cellc.planning import CollisionScene, JointLimits, ModelError, Planner, PlanningGroup, RobotModel
+from cellc.robot.planning import CollisionScene, JointLimits, ModelError, Planner, PlanningGroup, RobotModel
 
 from .arm import ADJACENT, HOME, JOINTS, arm_urdf
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.planning import Box, CollisionScene, JointLimits, ModelError, Planner, PlanningGroup, RobotModel
-from cellc.planning.pair_sampling import draw_configurations
-from cellc.transforms import Pose, Vector3
+from cellc.contract.transforms import Pose, Vector3
+from cellc.robot.planning import Box, CollisionScene, JointLimits, ModelError, Planner, PlanningGroup, RobotModel
+from cellc.robot.planning.pair_sampling import draw_configurations
 from tests.planning.arm import ADJACENT, arm_urdf
 
 # A ball of 0.1 m radius slides along x over a floor whose top is at z = -0.2; a post stands at x = 1.
@@ -95,7 +95,7 @@ def test_other_positions_of_one_scene_do_not_move_another(scene: CollisionScene)
 
 @pytest.mark.parametrize("few", [0, 64])
 def test_bounding_boxes_hide_no_contact(few: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("cellc.planning.scene._FEW_SHAPES", few)
+    monkeypatch.setattr("cellc.robot.planning.scene._FEW_SHAPES", few)
     model = RobotModel.from_urdf(arm_urdf())
     scene = CollisionScene(model, disabled_collisions=ADJACENT).attach("part", "tool", (0.1, 0.1, 0.1), _at((0, 0, 0)))
     configurations = draw_configurations(model, samples=400, rng_seed=3)

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from cellc.planning import CarriedMass, RobotModel, holding_efforts
+from cellc.robot.planning import CarriedMass, RobotModel, holding_efforts
 
 _INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 _LIMIT = '<limit lower="-3" upper="3" velocity="1" effort="1"/>'

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import ruckig
 
-from cellc.planning import (
+from cellc.contract.transforms import Pose
+from cellc.robot.planning import (
     CollisionScene,
     JointLimits,
     JointPath,
@@ -18,8 +19,7 @@ from cellc.planning import (
     TimedTrajectory,
     time_parameterize,
 )
-from cellc.planning.motion_law import rest_to_rest, rest_to_rest_durations
-from cellc.transforms import Pose
+from cellc.robot.planning.motion_law import rest_to_rest, rest_to_rest_durations
 
 from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf
 from .interpolation import derivatives_between

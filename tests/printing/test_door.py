@@ -9,8 +9,8 @@ from itertools import count
 
 import pytest
 
-from cellc.diagnostics.unsafe_text import escaped, harmless_json, hidden, hidden_in_json
-from cellc.printing import Line, Style, Styled, WorkflowCommand, as_text, progress, run_to_end, show_document
+from cellc.contract.diagnostics.unsafe_text import escaped, harmless_json, hidden, hidden_in_json
+from cellc.contract.printing import Line, Style, Styled, WorkflowCommand, as_text, progress, run_to_end, show_document
 from tests.printing.payloads import PAYLOADS, harm, without_colour
 
 payloads = pytest.mark.parametrize("text", PAYLOADS.values(), ids=PAYLOADS.keys())

@@ -9,7 +9,7 @@ import threading
 
 import pytest
 
-from cellc.printing import progress, show, stage, wants_colour
+from cellc.contract.printing import progress, show, stage, wants_colour
 
 
 class _Terminal(io.StringIO):

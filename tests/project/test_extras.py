@@ -1,4 +1,4 @@
-"""Nobody imports a package of an extra past `cellc.extras`, so that whoever has none of them gets one line."""
+"""Nobody imports a package of an extra past `cellc.contract.extras`, so that whoever has none of them gets one line."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 
 import pytest
 
-from cellc.extras import EXTRAS, LIVE, MissingExtraError, gate
+from cellc.contract.extras import EXTRAS, LIVE, MissingExtraError, gate
 from tests.cells import ROOT
 
 OPTIONAL = {module for extra in EXTRAS for module in extra.modules}
@@ -70,7 +70,7 @@ def test_what_people_call_needs_no_extra() -> None:
     needy = _needy(dict(_imports()))
     assert {name: reason for name, reason in needy.items() if ENTRIES.fullmatch(name)} == {}
     # What stays: the two that are imported through the gate, and nothing that anybody else imports.
-    assert set(needy) == {"cellc.lsp.server", "cellc.mock.command.live"}
+    assert set(needy) == {"cellc.tools.lsp.server", "cellc.mock.command.live"}
 
 
 def test_an_import_past_the_gate_is_found() -> None:

@@ -1,4 +1,4 @@
-"""Nobody prints past `cellc.printing`, which escapes what comes from strangers."""
+"""Nobody prints past `cellc.contract.printing`, which escapes what comes from strangers."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from pathlib import Path
 
 from tests.cells import ROOT
 
-_DOOR = "cellc/printing.py"
+_DOOR = "cellc/contract/printing.py"
 _PAST_IT = {
-    "cellc/cli/lsp.py": "it leads what pygls logs through the door",
-    "cellc/description/mesh_child.py": "the child process answers its parent there, in numbers",
-    "cellc/description/xacro_expansion.py": "the child process answers its parent there, and nobody reads it",
-    "cellc/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
-    "cellc/emit/launch/first_goal_program.py": "it runs on the robot's host, without cellc",
-    "cellc/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
-    "cellc/emit/launch/required_program.py": "it runs on the robot's host, without cellc",
-    "cellc/verify/parsers.py": "it takes the loggers of foreign parsers off the terminal",
-    "cellc/signals.py": "one line of its own, past the buffers of a program that was stopped anywhere",
+    "cellc/tools/cli/lsp.py": "it leads what pygls logs through the door",
+    "cellc/robot/description/mesh_child.py": "the child process answers its parent there, in numbers",
+    "cellc/robot/description/xacro_expansion.py": "the child process answers its parent there, and nobody reads it",
+    "cellc/compiler/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/emit/launch/first_goal_program.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/emit/launch/required_program.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/verify/parsers.py": "it takes the loggers of foreign parsers off the terminal",
+    "cellc/contract/signals.py": "one line of its own, past the buffers of a program that was stopped anywhere",
 }
 _PRINTING = {
     "click": {"echo", "secho", "style", "echo_via_pager", "progressbar", "confirm", "prompt", "get_text_stream"},

@@ -9,13 +9,13 @@ import pytest
 
 from tests.cells import ROOT
 
-_WRITERS = ("cellc/store/staging.py", "cellc/store/swap.py")
-_READER = "cellc/store/regular_file.py"
+_WRITERS = ("cellc/contract/store/staging.py", "cellc/contract/store/swap.py")
+_READER = "cellc/contract/store/regular_file.py"
 _ELSEWHERE = {
-    "cellc/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
-    "cellc/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
-    "cellc/printing.py": "it opens the null device in the place of a closed stream",
-    "cellc/signals.py": "it opens the null device, as the process ends",
+    "cellc/compiler/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
+    "cellc/contract/printing.py": "it opens the null device in the place of a closed stream",
+    "cellc/contract/signals.py": "it opens the null device, as the process ends",
 }
 _WRITING_METHODS = {
     *("chmod", "hardlink_to", "lchmod", "link_to", "mkdir", "rename", "rmdir", "symlink_to", "touch", "unlink"),

@@ -11,13 +11,13 @@ from xml.etree import ElementTree
 import pytest
 
 import cellc
-from cellc.diagnostics import Diagnostic, Outcome, Severity, Span
-from cellc.diagnostics.diagnostic import Findings
-from cellc.diagnostics.unsafe_text import escaped
+from cellc.compiler.output.write import WriteReport
+from cellc.compiler.pipeline import Checked
+from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
+from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.diagnostics.unsafe_text import escaped
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import AttemptRecord, MockError, RehearsalResult
-from cellc.output.write import WriteReport
-from cellc.pipeline import Checked
-from cellc.vocabulary import AttemptOutcome
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, run
 

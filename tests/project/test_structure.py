@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog.load import device_names, load_device
+from cellc.compiler.catalog.load import device_names, load_device
 from tests.cells import ROOT
 
 SOURCES = sorted((ROOT / "cellc").rglob("*.py"))
@@ -95,8 +95,8 @@ def test_no_vendor_or_model_stands_in_python() -> None:
 @pytest.mark.parametrize(
     "code",
     [
-        "import cellc, cellc.cli.main",
-        "from cellc.pipeline import check; assert check('cells/ur5e_pick/cell.yaml').ok",
+        "import cellc, cellc.tools.cli.main",
+        "from cellc.compiler.pipeline import check; assert check('cells/ur5e_pick/cell.yaml').ok",
     ],
     ids=["import", "warm check"],
 )

@@ -105,9 +105,10 @@ def files() -> Iterator[Path]:
 
 
 def folder_of(file: Path) -> str:
-    """Return the folder that a count is kept for: one of `cellc`, or one at the top."""
+    """Return the folder that a count is kept for: a room of a wing of `cellc`, or one at the top."""
     parts = file.parts
-    return "/".join(parts[:2]) if parts[0] == "cellc" and len(parts) > 2 else parts[0]
+    depth = 2 if parts[:2] == ("cellc", "mock") else 3
+    return "/".join(parts[:-1][:depth]) if parts[0] == "cellc" else parts[0]
 
 
 def printed(file: Path) -> list[str]:

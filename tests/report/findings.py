@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cellc.diagnostics import Diagnostic, Related, Severity, Span
+from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
 
 FILE = "cells/a.yaml"
 

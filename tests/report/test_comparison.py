@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from cellc.report.comparison import Comparison, Row, compare
-from cellc.report.comparison_text import comparison_markdown
+from cellc.tools.report.comparison import Comparison, Row, compare
+from cellc.tools.report.comparison_text import comparison_markdown
 from tests.cells import ROOT, linked, spec_of, spec_text
 from tests.cli.run import run
 

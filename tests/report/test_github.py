@@ -6,9 +6,9 @@ from pathlib import PurePosixPath
 
 import pytest
 
-from cellc.diagnostics import Diagnostic, Severity, Span
-from cellc.printing import as_text
-from cellc.report.github_report import render_github
+from cellc.contract.diagnostics import Diagnostic, Severity, Span
+from cellc.contract.printing import as_text
+from cellc.tools.report.github_report import render_github
 from tests.report.findings import FILE, finding
 
 HOME = PurePosixPath("/project")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 
-from cellc.diagnostics import Related, Severity, Span
-from cellc.report.json_report import render_json
+from cellc.contract.diagnostics import Related, Severity, Span
+from cellc.tools.report.json_report import render_json
 from tests.report.findings import FILE, finding
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from cellc.report.pages import all_pages, render_handbook, render_page
-from cellc.rules.kit import FAMILIES
-from cellc.rules.run import ALL_RULES
+from cellc.compiler.pages import all_pages, render_handbook, render_page
+from cellc.compiler.rules.kit import FAMILIES
+from cellc.compiler.rules.run import ALL_RULES
 from tests.cli.run import run
 
 FOLDER = Path(__file__).resolve().parents[2] / "docs" / "rules"

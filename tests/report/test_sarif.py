@@ -9,9 +9,9 @@ from typing import Any
 import jsonschema
 import pytest
 
-from cellc.diagnostics import Diagnostic, Related, Severity, Span
-from cellc.report.pages import all_pages
-from cellc.report.sarif_report import render_sarif
+from cellc.compiler.pages import all_pages
+from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
+from cellc.tools.report.sarif_report import render_sarif
 from tests.cells import diagnose
 from tests.report.findings import FILE, finding
 

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cellc.diagnostics import Diagnostic, Related, Severity, Span
-from cellc.printing import as_text
-from cellc.report.text_report import SEVERITY_STYLES, render_text, summary
+from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
+from cellc.contract.printing import as_text
+from cellc.tools.report.text_report import SEVERITY_STYLES, render_text, summary
 from tests.report.findings import FILE, finding
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.review.sides import Package
+from cellc.tools.review.sides import Package
 from tests.review.revisions import Repository, new_repository, package_of
 
 

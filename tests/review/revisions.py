@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.contract.review import Review, ReviewChange
-from cellc.review.review import review
-from cellc.review.sides import Package, Side, packages
+from cellc.tools.review.review import review
+from cellc.tools.review.sides import Package, Side, packages
 from tests.cells import spec_text
 
 SPEC = "cells/ur5e_pick/cell.yaml"

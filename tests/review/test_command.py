@@ -8,7 +8,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from cellc.spec.schema import schema_files
+from cellc.compiler.spec.schema import schema_files
 from tests.cells import ROOT, generated
 from tests.cli.run import run
 from tests.review.revisions import SMALL, Repository, edited, new_repository

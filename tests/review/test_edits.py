@@ -11,9 +11,9 @@ import json
 
 import pytest
 
-from cellc.review.compare import changes_between
-from cellc.review.facts import facts_of
-from cellc.review.sides import Package
+from cellc.tools.review.compare import changes_between
+from cellc.tools.review.facts import facts_of
+from cellc.tools.review.sides import Package
 from tests.review.revisions import Edit, Repository, changes_of, edited, package_of
 
 ARM = "arm_elbow_joint, arm_shoulder_lift_joint, arm_shoulder_pan_joint, arm_wrist_1_joint, arm_wrist_2_joint, "

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.review.objects import RevisionError
-from cellc.review.revisions import repository_of
+from cellc.tools.review.objects import RevisionError
+from cellc.tools.review.revisions import repository_of
 from tests.cells import spec_text
 from tests.cli.run import run
 from tests.review.revisions import SMALL, Repository, new_repository

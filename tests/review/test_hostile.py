@@ -11,14 +11,14 @@ from pathlib import Path
 
 import pytest
 
-from cellc.limits import DEFAULTS, in_force
-from cellc.review import objects
-from cellc.review.facts import FactsError, facts_of
-from cellc.review.lines import Known, lines_left
-from cellc.review.objects import Entry, RevisionError
-from cellc.review.revisions import repository_of
-from cellc.review.sides import Package
-from cellc.review.tokens import tokens
+from cellc.contract.limits import DEFAULTS, in_force
+from cellc.tools.review import objects
+from cellc.tools.review.facts import FactsError, facts_of
+from cellc.tools.review.lines import Known, lines_left
+from cellc.tools.review.objects import Entry, RevisionError
+from cellc.tools.review.revisions import repository_of
+from cellc.tools.review.sides import Package
+from cellc.tools.review.tokens import tokens
 from tests.cells import spec_text
 from tests.cli.run import run
 from tests.review.revisions import SMALL, SPEC, Repository, edited, new_repository

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from cellc.contract.base import Json
-from cellc.review.leaves import Leaf, flatten, said, same
-from cellc.review.revisions import _leads_out
-from cellc.transforms import Pose
+from cellc.contract.transforms import Pose
+from cellc.tools.review.leaves import Leaf, flatten, said, same
+from cellc.tools.review.revisions import _leads_out
 
 
 @pytest.mark.parametrize(

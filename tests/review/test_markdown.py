@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 
+from cellc.contract.printing import as_text
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewRehearsal, ReviewSide
-from cellc.printing import as_text
-from cellc.review.markdown import render_markdown
-from cellc.review.text import render_review
-from cellc.vocabulary import Grade, ReviewArea
+from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.markdown import render_markdown
+from cellc.tools.review.text import render_review
 
 HOSTILE = (
     "a`b``c | d <img src=x onerror=1> @everyone #1 [l](http://x) </details> ::error::x ##[error]y \x1b[31m \u202e \n# h"

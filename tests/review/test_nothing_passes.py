@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from cellc.review.compare import changes_between
-from cellc.review.facts import facts_of
-from cellc.review.sides import Package, Side, packages
-from cellc.review.units import difference
-from cellc.transforms import Pose
+from cellc.contract.transforms import Pose
+from cellc.tools.review.compare import changes_between
+from cellc.tools.review.facts import facts_of
+from cellc.tools.review.sides import Package, Side, packages
+from cellc.tools.review.units import difference
 from tests.cells import spec_text
 from tests.cli.run import run
 from tests.link.test_packages import CELL, CUBE, DEVICE

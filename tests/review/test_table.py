@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.review.grading import grade
-from cellc.review.leaves import Delta, Leaf
-from cellc.review.rows import ROWS
-from cellc.review.rules import APPROVAL, REPEATED, THINGS, Rule
-from cellc.review.sides import Package
-from cellc.vocabulary import GateCode, Grade, ReviewArea
+from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
+from cellc.tools.review.grading import grade
+from cellc.tools.review.leaves import Delta, Leaf
+from cellc.tools.review.rows import ROWS
+from cellc.tools.review.rules import APPROVAL, REPEATED, THINGS, Rule
+from cellc.tools.review.sides import Package
 from tests.docs import review
 
 _D, _R, _S = Grade.DANGEROUS, Grade.REVIEW, Grade.SAFE

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.review.compare import changes_between
-from cellc.review.facts import facts_of
+from cellc.tools.review.compare import changes_between
+from cellc.tools.review.facts import facts_of
 from tests.cells import generated
 
 _LINES = {

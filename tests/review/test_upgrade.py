@@ -9,14 +9,14 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from cellc.catalog.load import load_distros
+from cellc.compiler.catalog.load import load_distros
+from cellc.compiler.spec.schema import schema_files
 from cellc.contract.upgrade import Upgrade
-from cellc.review.declared import parameter_changes
-from cellc.review.tuples import moved_pins
-from cellc.review.upgrade import Planned, plan_upgrade
-from cellc.review.upgrade_text import upgrade_markdown
-from cellc.spec.schema import schema_files
-from cellc.vocabulary import Distro
+from cellc.contract.vocabulary import Distro
+from cellc.tools.review.declared import parameter_changes
+from cellc.tools.review.tuples import moved_pins
+from cellc.tools.review.upgrade import Planned, plan_upgrade
+from cellc.tools.review.upgrade_text import upgrade_markdown
 from tests.catalog.declarations import DECLARATIONS, upstream_parameters
 from tests.cells import linked, spec_of, spec_text, written
 from tests.cli.run import MINIMAL, run

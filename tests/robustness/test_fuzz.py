@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc import pipeline
-from cellc.description.packages import on_package_path
+from cellc.compiler import pipeline
+from cellc.robot.description.packages import on_package_path
 from tests.cells import ROOT
 from tests.robustness.fuzz import oracle
 from tests.robustness.fuzz.inputs import KINDS, make_input

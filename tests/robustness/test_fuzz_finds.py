@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
-from cellc.diagnostics import Severity
+from cellc.compiler.pipeline import check
+from cellc.contract.diagnostics import Severity
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell, MockError, load
-from cellc.pipeline import check
-from cellc.planning import RobotModel
-from cellc.vocabulary import AttemptOutcome
+from cellc.robot.planning import RobotModel
 from tests.cells import build_into, generated, written
 from tests.robustness.fuzz import bases
 from tests.robustness.fuzz.bases import PARTS

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.pipeline import check
+from cellc.compiler.pipeline import check
 
 CELL = Path(__file__).resolve().parents[2] / "cells" / "ur5e_pick" / "cell.yaml"
 TEXT = CELL.read_text(encoding="utf-8")

@@ -21,8 +21,8 @@ from typing import Any
 
 import yaml
 
-from cellc.diagnostics import Diagnostic
-from cellc.rules.kit import Rule
+from cellc.compiler.rules.kit import Rule
+from cellc.contract.diagnostics import Diagnostic
 from tests.cells import CORPUS, diagnose
 from tests.foreign_yaml import LOADER, safe_load
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.rules.motion.timeout_below_motion import _alone_s
-from cellc.rules.run import ALL_RULES
+from cellc.compiler.rules.motion.timeout_below_motion import _alone_s
+from cellc.compiler.rules.run import ALL_RULES
 from tests.rules.examples import diagnose_example, examples
 
 FIGURES = {

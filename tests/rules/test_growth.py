@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
 
-from cellc.pipeline import check, emit_cell
+from cellc.compiler.pipeline import check, emit_cell
 
 _FIRST, _MANY, _MOST = 14, 250, 2.15
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics import Severity
-from cellc.link.codes import CODES as LINK_CODES
-from cellc.pipeline import check
-from cellc.rules.run import ALL_RULES
+from cellc.compiler.link.codes import CODES as LINK_CODES
+from cellc.compiler.pipeline import check
+from cellc.compiler.rules.run import ALL_RULES
+from cellc.contract.diagnostics import Severity
 
 INVALID = Path(__file__).resolve().parents[1] / "corpus" / "invalid"
 _MARK = re.compile(r"# expect: ([a-z0-9, -]+)$", re.MULTILINE)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics import Diagnostic, Severity, Span
-from cellc.pipeline import Checked, check
-from cellc.report.pages import all_pages
-from cellc.rules.ignores import apply_ignores, ignore_comments
-from cellc.rules.run import ALL_RULES
+from cellc.compiler.pages import all_pages
+from cellc.compiler.pipeline import Checked, check
+from cellc.compiler.rules.ignores import apply_ignores, ignore_comments
+from cellc.compiler.rules.run import ALL_RULES
+from cellc.contract.diagnostics import Diagnostic, Severity, Span
 
 PICK = Path(__file__).resolve().parents[2] / "cells/ur5e_pick/cell.yaml"
 REVISION = "    revision: UNKNOWN\n    serial"

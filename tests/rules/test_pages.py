@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from cellc.rules.kit import FAMILIES, Rule
-from cellc.rules.run import ALL_RULES
+from cellc.compiler.rules.kit import FAMILIES, Rule
+from cellc.compiler.rules.run import ALL_RULES
 from tests.rules.examples import Example, diagnose_example, examples, marks, matches, places
 
 RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
 _PUBLIC = re.compile(r"https://\S+ \((?:[^()]*\d[^()]*|Jazzy)\)(?:: .+)?")
 _OWN = re.compile(r"docs/principles\.md#([\w-]+)")
-FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
+FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "compiler" / "rules"
 
 
 def test_the_complete_cell_is_clean(folder: Path) -> None:
@@ -64,7 +64,7 @@ def test_source_is_a_public_page_with_version_or_date_or_a_section_of_the_princi
 
 
 def test_every_section_of_the_principles_is_the_source_of_a_rule() -> None:
-    text = (FOLDER.parents[1] / "docs" / "principles.md").read_text(encoding="utf-8")
+    text = (FOLDER.parents[2] / "docs" / "principles.md").read_text(encoding="utf-8")
     sections = {title.lower().replace(" ", "-") for title in re.findall(r"^## ([\w -]+)$", text, re.MULTILINE)}
     assert sections == {section for rule in ALL_RULES for section in _OWN.findall(rule.page)}
 

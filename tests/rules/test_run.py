@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.diagnostics import Severity, Span
-from cellc.graph.cell_graph import CellGraph
-from cellc.rules.kit import Finding, Rule
-from cellc.rules.run import ALL_RULES, run_rules
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.rules.kit import Finding, Rule
+from cellc.compiler.rules.run import ALL_RULES, run_rules
+from cellc.contract.diagnostics import Severity, Span
 from tests.cells import CORPUS, graph_of
 
 

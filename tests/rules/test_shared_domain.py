@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics import Span
-from cellc.rules.shared_domain import Presence, way_between
+from cellc.compiler.rules.shared_domain import Presence, way_between
+from cellc.contract.diagnostics import Span
 from tests.cli.run import MINIMAL, run
 
 _APART = ("10.1.0.1/24", "10.2.0.1/24")

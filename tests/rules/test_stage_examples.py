@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from cellc.description.urdf_reader import read_urdf
-from cellc.description.xacro_expansion import expand_here
-from cellc.diagnostics.diagnostic import CodePage
-from cellc.pipeline import check
-from cellc.report.pages import STAGES, render_page
-from cellc.source.read import read
+from cellc.compiler.pages import STAGES, render_page
+from cellc.compiler.pipeline import check
+from cellc.compiler.source.read import read
+from cellc.contract.diagnostics.diagnostic import CodePage
+from cellc.robot.description.urdf_reader import read_urdf
+from cellc.robot.description.xacro_expansion import expand_here
 from tests.cells import spec_text, written
 from tests.cli.run import MINIMAL, run
 from tests.rules.examples import Example, Place, diagnose_example, matches, places

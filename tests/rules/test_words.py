@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from cellc.rules.kit import Rule
-from cellc.rules.run import ALL_RULES
+from cellc.compiler.rules.kit import Rule
+from cellc.compiler.rules.run import ALL_RULES
 from tests.rules.examples import Example, diagnose_example
 
-FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "rules"
+FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "compiler" / "rules"
 RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
 _REFUSED = re.compile(
     r"\b(?:is|are) (?:due|asked for|allowed)\b|\bnone can\b|(?<![Tt]here )\bis no [a-z]|\bha(?:s|ve) to be\b"

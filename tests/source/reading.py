@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cellc.diagnostics import Outcome
-from cellc.source import SourceDocument, read
+from cellc.compiler.source import SourceDocument, read
+from cellc.contract.diagnostics import Outcome
 
 
 def read_bytes(folder: Path, content: bytes | str) -> Outcome[SourceDocument]:

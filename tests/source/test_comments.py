@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from cellc.source.events import comments
+from cellc.compiler.source.events import comments
 
 MARKER = re.compile(r"# mark")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from cellc.description.xml_tree import read_xml
-from cellc.source.events import comments
+from cellc.compiler.source.events import comments
+from cellc.robot.description.xml_tree import read_xml
 
 _MARK = re.compile(r"# cellc:")
 

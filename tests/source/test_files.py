@@ -10,10 +10,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from cellc.diagnostics import Span
-from cellc.limits import limits
-from cellc.source import Plain, read
-from cellc.source.compose import compose
+from cellc.compiler.source import Plain, read
+from cellc.compiler.source.compose import compose
+from cellc.contract.diagnostics import Span
+from cellc.contract.limits import limits
 from tests.source.reading import codes, read_bytes
 
 

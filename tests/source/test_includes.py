@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.source import read
+from cellc.compiler.source import read
 from tests.source.reading import codes, places
 
 

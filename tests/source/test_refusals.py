@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.limits import DEFAULTS, in_force
-from cellc.source import read
-from cellc.source.codes import CODES
+from cellc.compiler.source import read
+from cellc.compiler.source.codes import CODES
+from cellc.contract.limits import DEFAULTS, in_force
 from tests.source.reading import codes, places, read_bytes
 
 BOMB = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from cellc.diagnostics.nearest import nearest
+from cellc.contract.diagnostics.nearest import nearest
 
 
 def test_misspelt_name_is_found_among_thousands() -> None:
@@ -23,7 +23,7 @@ def test_a_name_is_compared_with_a_bounded_number_of_others(monkeypatch: pytest.
         seen.append(len(names))
         return real(word, names, n=n, cutoff=cutoff)
 
-    monkeypatch.setattr(sys.modules["cellc.diagnostics.nearest"], "get_close_matches", counting)
+    monkeypatch.setattr(sys.modules["cellc.contract.diagnostics.nearest"], "get_close_matches", counting)
     nearest("frame_nomber", [f"frame_number_{number}" for number in range(5000)])
     assert seen == [128]
     assert nearest("a" * 100_000, ["a" * 100_000]) == ()

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics import Span
-from cellc.source import Plain
+from cellc.compiler.source import Plain
+from cellc.contract.diagnostics import Span
 from tests.source.reading import document, places, read_bytes
 
 

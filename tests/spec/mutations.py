@@ -9,9 +9,9 @@ from pathlib import Path
 
 from hypothesis import strategies as st
 
-from cellc.diagnostics import YamlPath
-from cellc.source import Plain, read
-from cellc.spec.wording import value_at
+from cellc.compiler.source import Plain, read
+from cellc.compiler.spec.wording import value_at
+from cellc.contract.diagnostics import YamlPath
 
 
 @cache

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from cellc.diagnostics import Outcome
-from cellc.source import Plain, read
-from cellc.source.document import SourceDocument
-from cellc.spec.cell_spec import CellSpec
-from cellc.spec.parse import parse
+from cellc.compiler.source import Plain, read
+from cellc.compiler.source.document import SourceDocument
+from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.compiler.spec.parse import parse
+from cellc.contract.diagnostics import Outcome
 from tests.cells import ROOT
 
 CELLS = sorted(ROOT.glob("cells/*/cell.yaml"))

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from cellc.compiler.output.write import write
+from cellc.compiler.pipeline import check, emit_cell
 from cellc.mock.cell import read_to_run
-from cellc.output.write import write
-from cellc.pipeline import check, emit_cell
 from tests.cells import spec_text, written
 from tests.spec.reading import ARM, HEAD, parsed
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from cellc.source import Plain
-from cellc.spec.cell_spec import CellSpec
+from cellc.compiler.source import Plain
+from cellc.compiler.spec.cell_spec import CellSpec
 from tests.spec.mutations import mutated
 from tests.spec.reading import CELLS, as_yaml, parsed
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.spec.reference import spec_reference
-from cellc.spec.schema import cell_schema
+from cellc.compiler.spec.reference import spec_reference
+from cellc.compiler.spec.schema import cell_schema
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 from tests.spec.reading import ARM, as_yaml, parsed

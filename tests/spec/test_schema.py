@@ -14,9 +14,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from cellc.compiler.source import Plain
+from cellc.compiler.spec.schema import cell_schema, schema_files
 from cellc.contract.base import Json
-from cellc.source import Plain
-from cellc.spec.schema import cell_schema, schema_files
 from tests.cells import ROOT
 from tests.spec.mutations import data_of, mutated
 from tests.spec.reading import ARM, CELLS, HEAD, as_yaml, document_of, parsed

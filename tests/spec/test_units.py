@@ -7,8 +7,8 @@ import math
 import pytest
 from pydantic_core import PydanticCustomError
 
-from cellc.spec import quantity
-from cellc.spec.quantity import Dimension, Quantity, QuantityType
+from cellc.compiler.spec import quantity
+from cellc.compiler.spec.quantity import Dimension, Quantity, QuantityType
 
 _TURN = math.pi / 180.0
 SI: dict[str, tuple[dict[str, float], float]] = {

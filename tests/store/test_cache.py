@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.store.cache import GEOMETRY, Program, cache_folder, recall
+from cellc.contract.store.cache import GEOMETRY, Program, cache_folder, recall
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,7 @@ def test_a_folder_that_cannot_be_made_costs_time_only(home: Path) -> None:
 def test_another_program_does_not_read_the_entry(monkeypatch: pytest.MonkeyPatch) -> None:
     compute = Counting()
     recall("kind", "question", Answer, compute)
-    monkeypatch.setattr("cellc.store.cache.__version__", "0.0.0")
+    monkeypatch.setattr("cellc.contract.store.cache.__version__", "0.0.0")
     recall("kind", "question", Answer, compute)
     assert compute.calls == 2
 
@@ -108,7 +108,7 @@ def test_a_relative_folder_is_ignored_as_the_standard_has_it() -> None:
 def test_a_warm_check_says_the_same_without_the_robot_library(home: Path) -> None:
     root = Path(__file__).resolve().parents[2]
     script = (
-        "import sys; from cellc.pipeline import check; "
+        "import sys; from cellc.compiler.pipeline import check; "
         "print([str(d) for d in check('cells/ur5e_pick/cell.yaml').diagnostics]); print('pinocchio' in sys.modules)"
     )
 

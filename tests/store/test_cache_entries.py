@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from cellc.store import cache, cache_key
-from cellc.store.cache import read_entry, write_entry
+from cellc.contract.store import cache, cache_key
+from cellc.contract.store.cache import read_entry, write_entry
 
 
 @pytest.fixture(name="home", autouse=True)

@@ -12,16 +12,16 @@ from pathlib import Path
 
 import pytest
 
-from cellc.diagnostics.diagnostic import Findings
-from cellc.importing import folder as importing
-from cellc.importing.folder import changed_files, write_folder
-from cellc.importing.role import role_of
-from cellc.importing.source import read_robot
+from cellc.compiler.output.write import write
+from cellc.compiler.pipeline import Checked
+from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.store.cache import read_entry, write_entry
+from cellc.contract.store.swap import write_whole
 from cellc.mock.evidence.folder import EvidenceFolder
-from cellc.output.write import write
-from cellc.pipeline import Checked
-from cellc.store.cache import read_entry, write_entry
-from cellc.store.swap import write_whole
+from cellc.tools.importing import folder as importing
+from cellc.tools.importing.folder import changed_files, write_folder
+from cellc.tools.importing.role import role_of
+from cellc.tools.importing.source import read_robot
 from tests.output.building import as_contents, build_of, contents
 
 OLD = build_of(a_txt="one\n", b_txt="two\n", old__d_txt="d\n")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.store.swap import link_above, link_on_the_way
+from cellc.contract.store.swap import link_above, link_on_the_way
 
 
 @pytest.fixture

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from cellc.cell.cell import Cell
-from cellc.deploy.deployment import plan_deployment
-from cellc.emit import description, package, parameters
-from cellc.emit.launch import launch
-from cellc.emit.security import policy
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.deployment import plan_deployment
+from cellc.compiler.emit import description, package, parameters
+from cellc.compiler.emit.launch import launch
+from cellc.compiler.emit.security import policy
 from tests.cells import CELLS, EVERY_CELL, graph_of, spec_text
 from tests.foreign_yaml import safe_load
 from tests.vendors.oracle import RELEASES, Release

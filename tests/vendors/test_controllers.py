@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from cellc.cell.control import Controller
+from cellc.compiler.cell.control import Controller
 from tests.consumers.permissions import Permissions, Right, permissions
 from tests.oracles import here
 from tests.vendors.oracle import counted, facts

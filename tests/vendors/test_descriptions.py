@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from cellc.catalog.load import load_device
-from cellc.description.model import Description
-from cellc.transforms import Pose
+from cellc.compiler.catalog.load import load_device
+from cellc.contract.transforms import Pose
+from cellc.robot.description.model import Description
 from tests.foreign_yaml import safe_load
 from tests.oracles import here
 from tests.vendors.oracle import VENDORS

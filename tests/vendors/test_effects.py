@@ -6,9 +6,9 @@ import re
 
 import pytest
 
-from cellc.catalog.device_interfaces import HardwareFacts
-from cellc.catalog.load import device_names, load_device
-from cellc.vocabulary import Distro, Moment, Motion, Need, Unmet
+from cellc.compiler.catalog.device_interfaces import HardwareFacts
+from cellc.compiler.catalog.load import device_names, load_device
+from cellc.contract.vocabulary import Distro, Moment, Motion, Need, Unmet
 from tests.cells import built
 from tests.oracles import here
 from tests.vendors.oracle import RELEASES, Release, facts, lines_of

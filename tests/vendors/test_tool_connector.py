@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from cellc.report.resolved import Tree, resolved_tree
+from cellc.tools.report.resolved import Tree, resolved_tree
 from tests.cells import graph_of, spec_text, written
 from tests.emit.cells import emitted
 from tests.oracles import here

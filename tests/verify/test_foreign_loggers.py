@@ -14,6 +14,6 @@ MIMICS_NOTHING = """\
 
 def test_yourdfpy_prints_nothing() -> None:
     # In a process of its own: pytest listens to loggers, and then Python prints none of them.
-    program = f"from cellc.verify.parsers import read_by_yourdfpy; read_by_yourdfpy({MIMICS_NOTHING!r})"
+    program = f"from cellc.compiler.verify.parsers import read_by_yourdfpy; read_by_yourdfpy({MIMICS_NOTHING!r})"
     ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (ran.returncode, ran.stdout, ran.stderr) == (0, "", "")

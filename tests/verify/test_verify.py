@@ -14,13 +14,13 @@ from pathlib import Path
 
 import pytest
 
-from cellc.graph.cell_graph import build_graph
-from cellc.graph.frame_tree import FrameTree
-from cellc.transforms import Pose, apart, from_xyz_rpy, identity
-from cellc.verify.codes import CODES, Disagreement
-from cellc.verify.meant import cell_poses
-from cellc.verify.parsers import read_by_pinocchio, read_by_yourdfpy
-from cellc.verify.verify import verify
+from cellc.compiler.graph.cell_graph import build_graph
+from cellc.compiler.graph.frame_tree import FrameTree
+from cellc.compiler.verify.codes import CODES, Disagreement
+from cellc.compiler.verify.meant import cell_poses
+from cellc.compiler.verify.parsers import read_by_pinocchio, read_by_yourdfpy
+from cellc.compiler.verify.verify import verify
+from cellc.contract.transforms import Pose, apart, from_xyz_rpy, identity
 from tests.cells import CELLS, ROOT, built
 
 
@@ -119,7 +119,7 @@ def test_every_code_is_found_by_a_fault_here() -> None:
 
 def test_check_of_a_cell_does_not_import_foreign_parsers(tmp_path: Path) -> None:
     program = (
-        "import sys, json\nfrom cellc.pipeline import check\n"
+        "import sys, json\nfrom cellc.compiler.pipeline import check\n"
         f"check({str(ROOT / 'cells/minimal/cell.yaml')!r})\n"
         "print(json.dumps([name for name in ('pinocchio', 'yourdfpy', 'scipy', 'jsonschema') if name in sys.modules]))"
     )
@@ -148,7 +148,7 @@ def test_parsers_are_asked_once_about_the_same_bytes_and_the_same_meaning(
         asked.append(next(answers))
         return asked[-1]
 
-    monkeypatch.setattr("cellc.verify.read_back.read_back", answer)
+    monkeypatch.setattr("cellc.compiler.verify.read_back.read_back", answer)
     artifacts, graph = built("ur5e_pick").artifacts, built("ur5e_pick").graph
     assert (verify(artifacts, graph), verify(artifacts, graph), len(asked)) == ((), (), 1)
     # Another byte; a disagreement is not kept, so that nobody has to clear a cache to be rid of it.
@@ -164,7 +164,7 @@ def test_parsers_are_asked_once_about_the_same_bytes_and_the_same_meaning(
 
 def test_what_was_hidden_can_be_imported_after_a_verification() -> None:
     program = (
-        "import sys\nfrom cellc.verify.parsers import import_yourdfpy\nimport_yourdfpy()\n"
+        "import sys\nfrom cellc.compiler.verify.parsers import import_yourdfpy\nimport_yourdfpy()\n"
         "assert not {'scipy', 'networkx', 'PIL', 'shapely'} & set(sys.modules)\n"
         "import PIL.Image, networkx, scipy.spatial, shapely"
     )

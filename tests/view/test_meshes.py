@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from cellc.view.meshes import coarsened
+from cellc.tools.view.meshes import coarsened
 from tests.cli.run import run
 from tests.robustness.fuzz.meshes import binary_stl
 from tests.view.page import Page

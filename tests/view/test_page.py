@@ -13,9 +13,9 @@ from typing import Any
 
 import pytest
 
-from cellc.view.content import Content, before_of, content_of
-from cellc.view.page import three_js, to_html
-from cellc.view.subject import read_subject
+from cellc.tools.view.content import Content, before_of, content_of
+from cellc.tools.view.page import three_js, to_html
+from cellc.tools.view.subject import read_subject
 from tests.cells import ROOT, spec_text
 from tests.cells import written as written_spec
 from tests.cli.run import PICK, Ran, run

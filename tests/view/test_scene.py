@@ -9,12 +9,12 @@ import numpy as np
 import pinocchio
 import pytest
 
+from cellc.contract.transforms import Pose
 from cellc.mock.cell import cell_of
-from cellc.transforms import Pose
-from cellc.view.playback import Run, play
-from cellc.view.scene import Scene, scene_of
-from cellc.view.skeleton import Skeleton
-from cellc.view.subject import Subject, read_subject
+from cellc.tools.view.playback import Run, play
+from cellc.tools.view.scene import Scene, scene_of
+from cellc.tools.view.skeleton import Skeleton
+from cellc.tools.view.subject import Subject, read_subject
 from tests.cells import ROOT
 
 

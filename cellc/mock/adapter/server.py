@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cellc.adapter import (
+from cellc.contract.adapter import (
     AdapterModel,
     DeviceState,
     FollowerResult,

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from cellc.adapter import AdapterModel, DeviceState, JointCommand, Phase, Refusal, check_command
+from cellc.contract.adapter import AdapterModel, DeviceState, JointCommand, Phase, Refusal, check_command
 from cellc.mock.control.hardware.disturbances import JointFault
 
 WATCHDOG_FAULT = "no command within the watchdog's time"

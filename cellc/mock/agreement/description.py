@@ -8,11 +8,11 @@ from dataclasses import replace
 
 from cellc.contract.contract import ContractFrame
 from cellc.contract.quantities import LARGEST
-from cellc.description.model import Description, Joint, JointLimit
-from cellc.description.urdf_reader import read_urdf
+from cellc.contract.transforms import Pose, from_xyz_rpy
 from cellc.mock.agreement.said import Edited, Names, Said, below, differing, plain
 from cellc.mock.errors import MockError
-from cellc.transforms import Pose, from_xyz_rpy
+from cellc.robot.description.model import Description, Joint, JointLimit
+from cellc.robot.description.urdf_reader import read_urdf
 
 _ANGLE = 1e-9
 _OF_CALIBRATIONS = ("revision", "owner")

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.contract.bring_up import Target
-from cellc.description.xml_tree import XmlElement
+from cellc.contract.vocabulary import BringUpPhase
 from cellc.mock.agreement.said import Edited, Said, differing, xml
-from cellc.vocabulary import BringUpPhase
+from cellc.robot.description.xml_tree import XmlElement
 
 _FOLDER = "launch/"
 _RELEASED = {"launch/activate.launch.xml": BringUpPhase.ACTIVATE, "launch/claim.launch.xml": BringUpPhase.CLAIM}

@@ -14,8 +14,8 @@ from cellc.contract.contract import (
     several_groups,
 )
 from cellc.contract.quantities import LARGEST
-from cellc.description.xml_tree import XmlElement
 from cellc.mock.agreement.said import Edited, Names, Said, below, differing, parameters, xml
+from cellc.robot.description.xml_tree import XmlElement
 
 _NODE = "/move_group"
 _LIMITS = "robot_description_planning.joint_limits."

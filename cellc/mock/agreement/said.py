@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from cellc.contract.bring_up import BringUpStep, Target, Watch
 from cellc.contract.contract import Contract
-from cellc.description.model import Description
-from cellc.description.xml_tree import XmlElement, read_xml
 from cellc.mock.control.parameters import ParameterFile, ParameterFileError, flat
 from cellc.mock.errors import MockError
+from cellc.robot.description.model import Description
+from cellc.robot.description.xml_tree import XmlElement, read_xml
 
 CONTRACT = "contract.json"
 

@@ -6,9 +6,8 @@ import hashlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from cellc.compute.work import Hire, Work, stream
-from cellc.description.packages import package_path, use_packages
-from cellc.limits import Limits, limits, use
+from cellc.contract.compute.work import Hire, Work, stream
+from cellc.contract.limits import Limits, limits, use
 from cellc.mock.campaign.limits import LimitsReport, check_limits, merge
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun, RunEnd
 from cellc.mock.cell import MockCell, cell_of
@@ -18,6 +17,7 @@ from cellc.mock.faults.cases import FaultCase
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult, RunFailure, to_json_lines
+from cellc.robot.description.packages import package_path, use_packages
 
 
 def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:

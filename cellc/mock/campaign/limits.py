@@ -26,8 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cellc.contract.contract import Contract, ContractJointLimits
+from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.control.journal import Cause, CommandSamples, Interruption
-from cellc.vocabulary import TRAJECTORIES
 
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 _ROUNDING = 16 * 2.0**-53

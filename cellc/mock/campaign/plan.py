@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.campaign.limits import LimitsReport
 from cellc.mock.faults.cases import FaultCase
 from cellc.mock.result import PacketStep, RehearsalResult
-from cellc.vocabulary import AttemptOutcome
 
 _JOINED = "+"
 

@@ -6,13 +6,13 @@ import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 
+from cellc.contract.diagnostics.unsafe_text import harmless_json
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
-from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import CommandStep, LimitsReport
 from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.result import RunOutcome
-from cellc.vocabulary import AttemptOutcome
 
 SHORT: dict[RunOutcome, str] = {
     AttemptOutcome.SUCCEEDED: "ok",

@@ -10,9 +10,10 @@ from itertools import islice
 from pathlib import Path
 from time import perf_counter
 
-from cellc.compute.work import ComputeError
-from cellc.diagnostics import nearest
-from cellc.limits import limits, option
+from cellc.contract.compute.work import ComputeError
+from cellc.contract.diagnostics import nearest
+from cellc.contract.limits import limits, option
+from cellc.contract.printing import progress, refuse, remark, show, show_document, time_left
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
@@ -22,7 +23,6 @@ from cellc.mock.command.rehearsals import begin_evidence
 from cellc.mock.errors import MockError
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.sweep.sweep import Sweep
-from cellc.printing import progress, refuse, remark, show, show_document, time_left
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import perf_counter, process_time
 
-from cellc.compute.work import Work, in_order, stream
+from cellc.contract.compute.work import Work, in_order, stream
 from cellc.contract.fleet import FleetRehearsal, FleetSweep
-from cellc.description.packages import package_path
-from cellc.limits import limits, option
+from cellc.contract.limits import limits, option
+from cellc.contract.printing import progress, time_left
 from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import cell_of, in_turn, read_to_run
 from cellc.mock.command.options import MockOptions
@@ -19,7 +19,7 @@ from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
 from cellc.mock.errors import MockError
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.sweep.sweep import Sweep
-from cellc.printing import progress, time_left
+from cellc.robot.description.packages import package_path
 
 _TOO_LONG = "the rehearsals of all folders must take at most {} s of processor time together; " + option(
     "command-seconds"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 
-from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.printing import show, show_document
 from cellc.mock.cell import in_turn
 from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_checked, stopped
 from cellc.mock.command.options import MockOptions
@@ -13,7 +14,6 @@ from cellc.mock.errors import MockError
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
-from cellc.printing import show, show_document
 
 
 def run_gates(options: MockOptions) -> int:

@@ -20,15 +20,15 @@ import foxglove.messages
 import yaml
 from mcap.reader import make_reader
 
+from cellc.contract.printing import Stream, show
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.contract.store.swap import temporary_file
 from cellc.mock.cell import MockCell
 from cellc.mock.command.evidence import recorded
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.evidence.topics import LOG
 from cellc.mock.result import RehearsalResult
-from cellc.printing import Stream, show
-from cellc.store.swap import temporary_file
 
 if TYPE_CHECKING:
     from mcap.records import Channel as BagChannel

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
-from cellc.extras import CLUSTER, EVIDENCE, LIVE, Extra, require
+from cellc.contract.extras import CLUSTER, EVIDENCE, LIVE, Extra, require
+from cellc.contract.printing import refuse, remark
+from cellc.contract.store.regular_file import open_regular
+from cellc.contract.store.swap import open_stream, replace_whole
 from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
-from cellc.printing import refuse, remark
-from cellc.store.regular_file import open_regular
-from cellc.store.swap import open_stream, replace_whole
 
 if TYPE_CHECKING:
-    from cellc.compute.work import Hire
+    from cellc.contract.compute.work import Hire
 
 _LONGEST_RECORD = 1 << 20
 
@@ -146,10 +146,10 @@ class MockOptions:
     def crew(self) -> tuple[Hire | None, str]:
         """Return who executes runs, None for this process alone, and how many they are in words."""
         # What hires takes longer to load than a rehearsal to be read.
-        from cellc.compute.processes import processes, usable_cores
+        from cellc.contract.compute.processes import processes, usable_cores
 
         if self.cluster is not None:
-            from cellc.compute.cluster import cluster
+            from cellc.contract.compute.cluster import cluster
 
             return cluster(self.cluster, remark), f"workers of {self.cluster}"
         jobs = usable_cores() if self.jobs is None else self.jobs

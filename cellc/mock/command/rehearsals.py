@@ -10,13 +10,13 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from cellc.diagnostics.unsafe_text import harmless_json
-from cellc.extras import LIVE, gate
+from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.extras import LIVE, gate
+from cellc.contract.printing import progress, refuse, show, show_document
 from cellc.mock.cell import MockCell, in_turn, load
 from cellc.mock.command.options import MockOptions, refuse_foreign, write_records
 from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
-from cellc.printing import progress, refuse, show, show_document
 
 if TYPE_CHECKING:
     from cellc.mock.command.evidence import EvidenceCollector

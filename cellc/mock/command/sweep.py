@@ -10,7 +10,8 @@ from functools import partial
 from pathlib import Path
 from time import perf_counter
 
-from cellc.compute.work import ComputeError
+from cellc.contract.compute.work import ComputeError
+from cellc.contract.printing import progress, remark, show, show_document
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.cell import MockCell
 from cellc.mock.command.campaign import load_checked, pace, stopped
@@ -32,7 +33,6 @@ from cellc.mock.sweep.sweep import (
     sweep,
     uncertainty_of,
 )
-from cellc.printing import progress, remark, show, show_document
 
 _EVIDENCE = 5
 """Failed runs whose evidence is kept; the others are made again by their number."""

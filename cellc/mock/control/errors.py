@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cellc.errors import CellcError
+from cellc.contract.errors import CellcError
 
 
 class ManagerAbortedError(CellcError):

@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cellc.contract.quantities import LARGEST
-from cellc.description.model import Description, HardwareComponent, HardwarePart, Joint
-from cellc.description.urdf_reader import read_urdf
 from cellc.mock.control.errors import DescriptionError
+from cellc.robot.description.model import Description, HardwareComponent, HardwarePart, Joint
+from cellc.robot.description.urdf_reader import read_urdf
 
 # urdfdom answers every mistake in links and joints with this one sentence.
 _REFUSED = "Failed to parse URDF file"

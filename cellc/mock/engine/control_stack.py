@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractManager
-from cellc.limits import limits
+from cellc.contract.limits import limits
+from cellc.contract.vocabulary import Behaviour
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.control import (
     ControlEvent,
@@ -23,7 +24,6 @@ from cellc.mock.control import (
 from cellc.mock.engine.process import Signal
 from cellc.mock.errors import LimitReachedError
 from cellc.mock.world.joint_states import JointStateHistory
-from cellc.vocabulary import Behaviour
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from cellc.limits import limits
+from cellc.contract.limits import limits
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Action, EventQueue, Process, Waiting
 from cellc.mock.errors import LimitReachedError

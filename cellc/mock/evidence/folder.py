@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import BinaryIO
 from urllib.parse import quote
 
+from cellc.contract.diagnostics.unsafe_text import harmless_json
 from cellc.contract.file_names import is_file_name, opens_a_device
-from cellc.diagnostics.unsafe_text import harmless_json
-from cellc.limits import limits, option
+from cellc.contract.limits import limits, option
+from cellc.contract.store.regular_file import open_regular, read_regular
+from cellc.contract.store.staging import contested, discard, make_staging, others, staging_of
+from cellc.contract.store.swap import Swap, link_on_the_way, make_folder, open_new
 from cellc.mock.errors import MockError
-from cellc.store.regular_file import open_regular, read_regular
-from cellc.store.staging import contested, discard, make_staging, others, staging_of
-from cellc.store.swap import Swap, link_on_the_way, make_folder, open_new
 
 _LONGEST = 100
 

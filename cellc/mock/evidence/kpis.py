@@ -7,11 +7,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 
 from cellc.contract.contract import ContractKpis
+from cellc.contract.diagnostics.unsafe_text import harmless_json
 from cellc.contract.rehearsals import RehearsalEntry
-from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.run_trace import StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
-from cellc.vocabulary import AttemptOutcome
 
 _MEASURED = {
     "plan_to_execute_s": ("s", "plan ready (step 3) to first motion (step 7), longest"),

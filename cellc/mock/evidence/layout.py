@@ -10,7 +10,8 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 
 from cellc.contract.contract import Contract
-from cellc.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.vocabulary import TRAJECTORIES, Behaviour
 from cellc.mock.evidence.topics import (
     ATTEMPTS,
     DIAGNOSTICS,
@@ -19,7 +20,6 @@ from cellc.mock.evidence.topics import (
     description_topic,
     joint_states_topic,
 )
-from cellc.vocabulary import TRAJECTORIES, Behaviour
 
 Json = Mapping[str, object]
 

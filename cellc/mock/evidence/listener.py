@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
+from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.control import ControlEvent, ControllerChanged, HardwareChanged, JointStateBlock
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder
 from cellc.mock.engine.control_stack import GoalSent
@@ -11,7 +12,6 @@ from cellc.mock.evidence.run_bag import RunBag, TransformStream
 from cellc.mock.evidence.run_trace import RunTrace
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord
-from cellc.vocabulary import TRAJECTORIES
 
 _PIECE_NS = 250_000_000
 """States of controllers are taken four times a second, so that memory stays flat."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cellc.contract.contract import ContractController
+from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.control import ControllerManager, GripperGoal, JointStateBlock, Recording
 from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.bag import messages
@@ -37,7 +38,6 @@ from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, to_json_line
 from cellc.mock.world.joint_states import JointStateHistory
-from cellc.vocabulary import TRAJECTORIES
 
 _OK, _WARN, _ERROR = 0, 1, 2
 

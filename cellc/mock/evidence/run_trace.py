@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from cellc.contract.contract import Contract
+from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.bus.stream import NEVER_NS
 from cellc.mock.control import ControllerChanged, HardwareChanged, JointStateBlock, Recording
 from cellc.mock.evidence.envelope import AgeBuilder, AgeTrace, Array, Envelope, EnvelopeBuilder
@@ -15,7 +16,6 @@ from cellc.mock.evidence.run_bag import TransformMessage
 from cellc.mock.nodes.perception import ObjectPose
 from cellc.mock.plant import Plant
 from cellc.mock.task.bounds import joint_state_age_s
-from cellc.vocabulary import TRAJECTORIES
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractController
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, StepEntry
-from cellc.vocabulary import AttemptOutcome
+from cellc.contract.vocabulary import AttemptOutcome
 
 
 @dataclass(frozen=True, slots=True)

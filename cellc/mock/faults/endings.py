@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, ends_in
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
@@ -14,7 +15,6 @@ from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, goal_timeou
 from cellc.mock.task.move import TF_TIMEOUT_S
 from cellc.mock.task.task import PATIENCE_PERIODS
 from cellc.mock.task.watch import WATCH_S
-from cellc.vocabulary import AttemptOutcome
 
 MONITOR_S = 0.05
 """Result of an action at the default `action_monitor_rate` of 20 Hz: so much later than it was decided."""

@@ -9,12 +9,12 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractFrame
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.transforms import Pose
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, ends_in, fault_case, published_frames
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.tf.sources import SampledSource
-from cellc.transforms import Pose
-from cellc.vocabulary import AttemptOutcome, FaultKind
 
 AUTHORITY = "second_authority"
 RATE_HZ = 10.0

@@ -9,12 +9,12 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractController
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import TRAJECTORIES, AttemptOutcome, Behaviour, FaultKind
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, cell_steps, controllers, ends_in, fault_case
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.task.bounds import cancel_bound_s
-from cellc.vocabulary import TRAJECTORIES, AttemptOutcome, Behaviour, FaultKind
 
 DISTANCE_M = 10.0
 """Farther than any arm of a cell reaches."""

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome, Behaviour, FaultKind
 from cellc.mock.faults.cases import (
     BORNE,
     CellStep,
@@ -22,7 +23,6 @@ from cellc.mock.faults.cases import (
 )
 from cellc.mock.faults.endings import Bounds, off_track
 from cellc.mock.faults.ports import FaultPorts
-from cellc.vocabulary import AttemptOutcome, Behaviour, FaultKind
 
 SHARE_OF_LIMIT = 0.01
 """A case lets a joint move at this share of its limit."""

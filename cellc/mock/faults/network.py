@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractInterface
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock.bus.qos import served_actions
 from cellc.mock.faults.cases import (
     BORNE,
@@ -30,7 +31,6 @@ from cellc.mock.stops import FAULT
 from cellc.mock.task.bounds import planning_actions, planning_server
 from cellc.mock.task.execute import RESPONSE_S
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
-from cellc.vocabulary import AttemptOutcome, FaultKind
 
 POLICY = "reliability"
 """What the endpoint offers less of than its peers request."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractFrame
+from cellc.contract.transforms import Pose
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clock, Clocks
 from cellc.mock.control import ControlEvent, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
@@ -22,7 +23,6 @@ from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import NEVER_NS, JointStateHistory
 from cellc.mock.world.switches import Switches
-from cellc.transforms import Pose
 
 
 class Schedule(Protocol):

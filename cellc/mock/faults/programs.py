@@ -12,13 +12,13 @@ from typing import ClassVar, TypeVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind, Moment, Need, Unmet
 from cellc.mock.effects import JOGGED, REACTION_NS
 from cellc.mock.errors import FaultMissedError
 from cellc.mock.faults.cases import CellStep, Ending, FaultCase, ends_in, fault_case, joints_of_device
 from cellc.mock.faults.endings import Bounds, stopped
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.stops import PROTECTIVE_STOP
-from cellc.vocabulary import AttemptOutcome, FaultKind, Moment, Need, Unmet
 
 JOG_AFTER_NS = 100_000_000
 START_AFTER_NS = 500_000_000

@@ -8,6 +8,7 @@ from typing import Protocol
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock.errors import FaultMissedError, MockError
 from cellc.mock.faults.cases import FaultCase
 from cellc.mock.faults.frames import DoubleFrame, DropFrame, JumpClock
@@ -19,7 +20,6 @@ from cellc.mock.faults.programs import BrakesClosed, Jog, ProgramStart, ProgramS
 from cellc.mock.faults.samples import Delay, Freeze
 from cellc.mock.faults.sensors import SilentSensor
 from cellc.mock.faults.stops import EmergencyStop, ProtectiveStop, RestartDriver, WrongPayload
-from cellc.vocabulary import FaultKind
 
 
 class Fault(Protocol):

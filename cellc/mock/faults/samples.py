@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock.bus.network import EdgeBehaviour
 from cellc.mock.faults.cases import (
     CellStep,
@@ -22,7 +23,6 @@ from cellc.mock.faults.cases import (
 from cellc.mock.faults.endings import Bounds, StepEnding, stateless, unobserved
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.task.bounds import joint_state_age_s
-from cellc.vocabulary import AttemptOutcome, FaultKind
 
 TIMES_TOO_LATE = 3.0
 """A case delays by this multiple of the age that is allowed."""

@@ -9,10 +9,10 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractSwitched
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts
-from cellc.vocabulary import AttemptOutcome, FaultKind
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock.faults.cases import (
     BORNE,
     CellStep,
@@ -24,7 +25,6 @@ from cellc.mock.faults.cases import (
 from cellc.mock.faults.endings import Bounds, stopped
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
-from cellc.vocabulary import AttemptOutcome, FaultKind
 
 NOTICED_AFTER = 0.01
 """rad or m that a joint moves before the torques give the load away."""

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from itertools import islice
 
 from cellc.contract.contract import ContractController
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.campaign.limits import merge
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
 from cellc.mock.gates.runs import GateEvidence
 from cellc.mock.result import PacketStep
 from cellc.mock.sweep.summary import count_lines
 from cellc.mock.task.bounds import cancel_bound_s
-from cellc.vocabulary import AttemptOutcome
 
 _WHOLE = (PacketStep.GOAL_SENT, PacketStep.ACCEPTED, PacketStep.WRITTEN, PacketStep.DRIVEN, PacketStep.RETURNED)
 

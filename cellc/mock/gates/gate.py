@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from cellc.vocabulary import GateCode
+from cellc.contract.vocabulary import GateCode
 
 _SHOWN = 3
 """Pieces of evidence that a line names; the rest is counted."""

@@ -10,10 +10,10 @@ from collections.abc import Iterator
 
 from cellc.contract.contract import ContractInterface
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.gates.command_path import cancel_trace
 from cellc.mock.gates.gate import GateCheck, judged, unknown
 from cellc.mock.gates.runs import GateEvidence, JudgedRun
-from cellc.vocabulary import AttemptOutcome
 
 _IMAGE = "sensor_msgs/msg/Image"
 _JOINT_STATE = "sensor_msgs/msg/JointState"

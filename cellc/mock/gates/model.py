@@ -9,9 +9,9 @@ import hashlib
 import math
 from collections.abc import Iterator
 
-from cellc.description.model import Description, Joint, JointLimit
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
 from cellc.mock.gates.runs import GateEvidence
+from cellc.robot.description.model import Description, Joint, JointLimit
 
 _UNIT = 1e-6
 """By which the length of an axis may differ from 1: URDF has six digits of it."""

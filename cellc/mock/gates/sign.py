@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from cellc.contract.vocabulary import GateCode
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates.command_path import command_path_checks, mock_run_checks
 from cellc.mock.gates.gate import GateCheck, GateResult
@@ -11,7 +12,6 @@ from cellc.mock.gates.interaction import interaction_checks
 from cellc.mock.gates.model import model_checks
 from cellc.mock.gates.runs import GateEvidence, JudgedRun
 from cellc.mock.sweep.sweep import Sweep
-from cellc.vocabulary import GateCode
 
 # Name, title and state of the robot.
 _GATES: tuple[tuple[GateCode, str, str, Callable[[GateEvidence], Iterator[GateCheck]]], ...] = (

@@ -12,11 +12,12 @@ from pathlib import Path
 import numpy as np
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
-from cellc.description.meshes import absent, without_shapes
-from cellc.description.model import Description
+from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.mock.errors import MockError
 from cellc.mock.world.world import LinkTree, link_tree
-from cellc.planning import (
+from cellc.robot.description.meshes import absent, without_shapes
+from cellc.robot.description.model import Description
+from cellc.robot.planning import (
     Box,
     CollisionScene,
     FailureReason,
@@ -33,7 +34,6 @@ from cellc.planning import (
     UnknownShapeError,
     time_parameterize,
 )
-from cellc.transforms import Pose, Vector3, identity
 
 _IK_ATTEMPTS = 4
 """Configurations tried before a goal: the straight approach is not possible from every one."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractCamera, ContractFrame, ContractInterface
+from cellc.contract.transforms import Pose
 from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
@@ -14,7 +15,6 @@ from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.tf.sources import DeferredPose, SampledSource
 from cellc.mock.world.world import World
-from cellc.transforms import Pose
 
 DEFAULT_TRANSPORT_S = 0.005
 """Where the contract states no transport time: readout and copy of one image on a local bus."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.contract.transforms import Pose
 from cellc.mock.bus.stream import NEVER_NS, IntArray, StreamEdge
 from cellc.mock.clocks import Clock, Clocks
 from cellc.mock.tf.buffer import TransformBuffer
@@ -14,7 +15,6 @@ from cellc.mock.tf.messages import TfWarnings
 from cellc.mock.tf.sources import StaticSource, TimeCache
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.world import LinkJoint, LinkTree
-from cellc.transforms import Pose
 
 NODE = "robot_state_publisher"
 PUBLISH_FREQUENCY_HZ = 20.0

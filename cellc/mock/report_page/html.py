@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, tostring
 
-from cellc.diagnostics.unsafe_text import escaped_within
+from cellc.contract.diagnostics.unsafe_text import escaped_within
 
 Child = Element | str
 _NONE = "–"

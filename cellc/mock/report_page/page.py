@@ -8,6 +8,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
+from cellc.contract.store.regular_file import own_text
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
@@ -18,7 +19,6 @@ from cellc.mock.report_page.run_section import RunEvidence, run_section
 from cellc.mock.report_page.sweep_section import sweep_section, sweep_verdict
 from cellc.mock.result import simulated_s
 from cellc.mock.sweep.sweep import Sweep
-from cellc.store.regular_file import own_text
 
 _NAMES = {
     "plan_to_execute_s": "plan to execute",

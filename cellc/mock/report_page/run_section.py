@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
@@ -16,7 +17,6 @@ from cellc.mock.report_page.html import Child, at, cards, count, seconds, tag
 from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 from cellc.mock.sweep.sweep import SweepRun
-from cellc.vocabulary import AttemptOutcome
 
 _WORDS = {
     PacketStep.OBSERVED: "observed",

@@ -17,9 +17,9 @@ from statistics import NormalDist
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.contract.uncertainty import UncertainQuantity
 from cellc.mock.reality import Displacement, Reality
-from cellc.transforms import Pose, Vector3, identity
 
 _NORMAL = NormalDist()
 _NOISE = "noise of samples"

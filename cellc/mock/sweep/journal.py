@@ -11,13 +11,13 @@ from typing import BinaryIO
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from cellc.compute.versions import difference, versions
+from cellc.contract.compute.versions import difference, versions
 from cellc.contract.contract import Contract
-from cellc.limits import limits, option
+from cellc.contract.limits import limits, option
+from cellc.contract.store.regular_file import open_regular
+from cellc.contract.store.swap import open_to_continue
 from cellc.mock.errors import MockError
 from cellc.mock.sweep.sweep import MOST_DIGITS, GoalRoom, SweepRun
-from cellc.store.regular_file import open_regular
-from cellc.store.swap import open_to_continue
 
 _FORMAT = "cellc sweep 3"
 _OF_ANY_VERSION = "cellc sweep "

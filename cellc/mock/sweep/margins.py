@@ -11,7 +11,7 @@ from cellc.mock.nodes.observations import oldest_observation_s, pose_interface
 from cellc.mock.sweep.sweep import GoalRoom, Sweep
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.mock.task.move import dynamic_ancestor
-from cellc.planning.planner import MIN_SINGULAR_VALUE
+from cellc.robot.planning.planner import MIN_SINGULAR_VALUE
 
 
 @dataclass(frozen=True, slots=True)

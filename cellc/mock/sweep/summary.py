@@ -10,8 +10,8 @@ from dataclasses import asdict
 import numpy as np
 
 from cellc.contract.contract import Contract
+from cellc.contract.diagnostics.unsafe_text import harmless_json
 from cellc.contract.uncertainty import Uncertainty
-from cellc.diagnostics.unsafe_text import harmless_json
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
 from cellc.mock.sweep.margins import Margin, margins

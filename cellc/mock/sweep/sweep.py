@@ -8,7 +8,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from math import inf
 
-from cellc.compute.work import Hire, Work, stream
+from cellc.contract.compute.work import Hire, Work, stream
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.uncertainty import UNCERTAINTY_FILE, ExpectedSuccess, Uncertainty
 from cellc.mock.campaign.campaign import Assignment

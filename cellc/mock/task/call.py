@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.contract.contract import ContractEndpoint, ContractInterface
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.bus.qos import hears
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.context import AttemptError, TaskContext
 from cellc.mock.task.execute import RESPONSE_S
-from cellc.vocabulary import AttemptOutcome
 
 
 def call(context: TaskContext, name: str) -> Waiting[None]:

@@ -6,7 +6,9 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from cellc.contract.contract import Contract
-from cellc.errors import CellcError
+from cellc.contract.errors import CellcError
+from cellc.contract.transforms import Pose
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Signal, Wait, Waiting
@@ -19,8 +21,6 @@ from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.mock.task.starved import starved_observation, starved_states
 from cellc.mock.task.watch import WATCH_NS, is_calm, next_look_ns
-from cellc.transforms import Pose
-from cellc.vocabulary import AttemptOutcome
 
 OUTCOME_OF_STOP = {
     PROTECTIVE_STOP: AttemptOutcome.PROTECTIVE_STOP,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GoalStatus, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.plant import Plant
@@ -15,7 +16,6 @@ from cellc.mock.result import CancelRecord, PacketStep, ResultRecord
 from cellc.mock.task.bounds import cancel_bound_s
 from cellc.mock.task.context import Attempt, AttemptError, GoalEnded, TaskContext
 from cellc.mock.world.joint_states import JointStateHistory
-from cellc.vocabulary import AttemptOutcome
 
 RESPONSE_S = 1.0
 """How long a goal request may stay unanswered; a server answers within milliseconds or not at all."""

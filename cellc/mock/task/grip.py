@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 from cellc.contract.contract import ContractGripper
+from cellc.contract.vocabulary import AttemptOutcome, Behaviour
 from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.bounds import grip_timeout_s
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext
 from cellc.mock.task.execute import execute, require_success
 from cellc.mock.task.move import state_since
-from cellc.vocabulary import AttemptOutcome, Behaviour
 
 ARRIVAL_SHARE = 0.05
 """Share of its stroke by which a gripper may miss the position where it should come to rest."""

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGoal, ContractPoseTarget
+from cellc.contract.transforms import Pose
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, GoalPose, PlannedMotion
@@ -18,9 +20,7 @@ from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskCon
 from cellc.mock.task.execute import await_response, execute_together, require_success
 from cellc.mock.task.starved import starved_transform
 from cellc.mock.tf.buffer import Transform
-from cellc.planning import PlanFailure, TimedTrajectory
-from cellc.transforms import Pose
-from cellc.vocabulary import AttemptOutcome
+from cellc.robot.planning import PlanFailure, TimedTrajectory
 
 TF_TIMEOUT_S = 0.2
 """How long a lookup waits for transforms that are on their way: four intervals of robot_state_publisher."""

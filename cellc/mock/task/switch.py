@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import partial
 
 from cellc.contract.contract import ContractSwitched
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.context import AttemptError, TaskContext
 from cellc.mock.task.grip import object_between, release, take
-from cellc.vocabulary import AttemptOutcome
 
 _LOOK_NS = 10_000_000
 """The client looks at the inputs a hundred times a second."""

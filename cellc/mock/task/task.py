@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.bringup import activate
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ
@@ -14,7 +15,6 @@ from cellc.mock.task.context import OUTCOME_OF_STOP, Attempt, AttemptError, Iden
 from cellc.mock.task.grip import grip
 from cellc.mock.task.move import move
 from cellc.mock.task.switch import sense, switch
-from cellc.vocabulary import AttemptOutcome
 
 PATIENCE_PERIODS = 10
 """An observation that stays away for ten of its periods does not come."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cellc.contract.transforms import Pose, identity, interpolate
 from cellc.mock.clocks import TimeJump
 from cellc.mock.tf.messages import (
     Outside,
@@ -19,7 +20,6 @@ from cellc.mock.tf.messages import (
     unknown_frame,
 )
 from cellc.mock.tf.sources import LATEST, DoubledSource, Neighbours, TransformSource, find
-from cellc.transforms import Pose, identity, interpolate
 
 DEFAULT_BUFFER_S = 10.0
 """tf2::BUFFER_CORE_DEFAULT_CACHE_TIME."""

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from enum import Enum
 
-from cellc.transforms import Pose
+from cellc.contract.transforms import Pose
 
 QUATERNION_TOLERANCE = 10e-3
 """tf2 QUATERNION_NORMALIZATION_TOLERANCE, on the squared length."""

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
+from cellc.contract.transforms import Pose, identity
 from cellc.mock.tf.messages import Outside, TfWarnings, into_the_future, into_the_past, no_data, one_sample, refusal
-from cellc.transforms import Pose, identity
 
 LATEST = 0
 """A lookup at stamp 0 asks for the latest transform (tf2::TimePointZero)."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from cellc.limits import limits
+from cellc.contract.limits import limits
 from cellc.mock.control import JointStateBlock
 from cellc.mock.errors import LimitReachedError
 

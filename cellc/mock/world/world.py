@@ -8,10 +8,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 
-from cellc.description.model import Description, Joint
+from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.mock.tf.sources import DeferredPose
 from cellc.mock.world.joint_states import JointStateHistory
-from cellc.transforms import Pose, Vector3, identity
+from cellc.robot.description.model import Description, Joint
 
 
 @dataclass(frozen=True, slots=True)

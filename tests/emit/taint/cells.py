@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from cellc.catalog.compiled import device_file
+from cellc.compiler.catalog.compiled import device_file
 from tests.cells import CORPUS, ROOT, spec_text
 from tests.consumers.matrix import spec_for
 
 _VALID = CORPUS / "valid"
-_DEVICES = ROOT / "cellc" / "catalog" / "devices"
+_DEVICES = ROOT / "cellc" / "compiler" / "catalog" / "devices"
 _OWN = re.compile(r"model: (\w+)")
 
 

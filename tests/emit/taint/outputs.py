@@ -8,8 +8,8 @@ import json
 import re
 from collections.abc import Iterator
 
-from cellc.cli.findings import show_findings
-from cellc.pipeline import Checked
+from cellc.compiler.pipeline import Checked
+from cellc.tools.cli.findings import show_findings
 from tests.printing.payloads import harm
 
 _OWN = frozenset(("error", "warning", "notice"))

@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from unittest.mock import patch
 
-from cellc.pipeline import Checked, compile_cell
+from cellc.compiler.pipeline import Checked, compile_cell
 from tests.emit.taint.judge import differences
 from tests.emit.taint.outputs import outputs
 from tests.emit.taint.payloads import PAYLOADS, WAYS, text_of, twin_of
@@ -26,8 +26,8 @@ KINDS = ("single", "family")
 def behind_the_readers() -> Iterator[None]:
     """Let texts in that other programs evaluate, so that what writes files is held by itself."""
     with (
-        patch("cellc.source.compose.substitution", lambda text: None),
-        patch("cellc.description.urdf_reader.substitution", lambda text: None),
+        patch("cellc.compiler.source.compose.substitution", lambda text: None),
+        patch("cellc.robot.description.urdf_reader.substitution", lambda text: None),
     ):
         yield
 

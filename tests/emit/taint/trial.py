@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 
-from cellc.diagnostics import Diagnostic, Severity
-from cellc.pipeline import Checked, check
+from cellc.compiler.pipeline import Checked, check
+from cellc.contract.diagnostics import Diagnostic, Severity
 from tests.emit.taint.places import Place, columns_of, with_texts
 
 Files = Mapping[str, str]

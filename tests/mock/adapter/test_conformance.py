@@ -8,8 +8,17 @@ from math import inf
 
 import pytest
 
-from cellc.adapter import AdapterModel, DeviceAdapter, DeviceState, JointCommand, JointModel, Phase, Refusal, Unit
-from cellc.adapter.conformance import CASES, ConformanceCase
+from cellc.contract.adapter import (
+    AdapterModel,
+    DeviceAdapter,
+    DeviceState,
+    JointCommand,
+    JointModel,
+    Phase,
+    Refusal,
+    Unit,
+)
+from cellc.contract.adapter.conformance import CASES, ConformanceCase
 from cellc.mock.adapter.simulated import SimulatedAdapter
 
 MODEL = AdapterModel(

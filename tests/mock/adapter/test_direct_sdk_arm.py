@@ -6,8 +6,9 @@ from collections.abc import Callable
 
 import pytest
 
-from cellc.adapter import Phase
+from cellc.contract.adapter import Phase
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.campaign.campaign import execute
@@ -18,7 +19,6 @@ from cellc.mock.control.hardware.disturbances import JointFault
 from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.plant import Plant
-from cellc.vocabulary import FaultKind
 from tests.cells import CORPUS, ROOT, build_into
 
 SECOND = 1_000_000_000

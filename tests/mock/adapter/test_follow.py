@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cellc.adapter import (
+from cellc.contract.adapter import (
     AdapterModel,
     FollowerResult,
     FollowerStatus,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compute.processes import processes
+from cellc.contract.compute.processes import processes
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 import pytest
 
 from cellc.contract.contract import Contract, ContractJointLimits
+from cellc.contract.vocabulary import Distro
 from cellc.mock import MockCell
 from cellc.mock.campaign.limits import check_limits
 from cellc.mock.control import ControllerManager, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandSamples, Interruption
-from cellc.vocabulary import Distro
 from tests.mock.control.arm_of_two import MS, run
 from tests.mock.control.bench import Value, bench
 

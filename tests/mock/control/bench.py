@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import TypeVar
 
+from cellc.contract.vocabulary import Behaviour, Distro
 from cellc.mock.control import (
     ControlEvent,
     ControllerManager,
@@ -15,7 +16,6 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
-from cellc.vocabulary import Behaviour, Distro
 
 from .arm_of_two import S, run, urdf
 

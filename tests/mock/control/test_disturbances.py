@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from cellc.contract.vocabulary import Behaviour, Distro
 from cellc.mock.control import (
     ControllerChanged,
     ControllerManager,
@@ -16,7 +17,6 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
-from cellc.vocabulary import Behaviour, Distro
 
 from .arm_of_two import MS, S, parameters, run, started, urdf
 

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from cellc.catalog.controller_kind import ControllerKind
-from cellc.catalog.device_interfaces import GroupInterfaces, counted
-from cellc.catalog.device_model import DeviceModel
-from cellc.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
+from cellc.compiler.catalog.controller_kind import ControllerKind
+from cellc.compiler.catalog.device_interfaces import GroupInterfaces, counted
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
+from cellc.contract.vocabulary import PASSIVE, TRAJECTORIES, Behaviour, Distro
 from cellc.mock import load
-from cellc.vocabulary import PASSIVE, TRAJECTORIES, Behaviour, Distro
 from tests.cells import build_into, written
 
 SIMULATED = (("position",), ("velocity",))

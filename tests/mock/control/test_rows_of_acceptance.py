@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from cellc.contract.vocabulary import Distro
 from cellc.mock.control import (
     GoalStatus,
     JointTolerance,
@@ -14,7 +15,6 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
-from cellc.vocabulary import Distro
 
 from .bench import S, bench, commands, ending, only, point, positions, run, send, wait
 from .fact_rows import row

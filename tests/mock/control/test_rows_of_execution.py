@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from cellc.contract.vocabulary import Behaviour
 from cellc.mock.control import ControllerManager, GoalStatus, TrajectoryEnded
-from cellc.vocabulary import Behaviour
 
 from .bench import S, Value, bench, commands, ending, only, point, positions, send, urdf, wait
 from .fact_rows import row

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from cellc.contract.vocabulary import Distro
 from cellc.mock.control import ControllerManager, GoalStatus, GripperEnded, GripperGoal
-from cellc.vocabulary import Distro
 
 from .bench import S, Value, bench, only, urdf, wait
 from .fact_rows import row

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from cellc.contract.vocabulary import Distro
 from cellc.mock.control import ControllerManager, GoalStatus, Trajectory, TrajectoryEnded, TrajectoryPoint
-from cellc.vocabulary import Distro
 
 from .bench import S, Value, bench, commands, ending, only, point, positions, send, wait
 from .fact_rows import row

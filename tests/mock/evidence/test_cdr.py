@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from cellc.contract.transforms import Pose
+from cellc.contract.vocabulary import Distro
 from cellc.mock.control import GripperGoal, Trajectory, TrajectoryPoint
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.bag.bag_file import schema
 from cellc.mock.evidence.bag.messages import CONTROLLER_STATE, Point, controller_state_rows, joint_state_shape
-from cellc.transforms import Pose
-from cellc.vocabulary import Distro
 from tests.oracles import UPSTREAM, needs_upstream
 
 STANDARD = (

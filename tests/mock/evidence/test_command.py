@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.extras import MissingExtraError
+from cellc.contract.extras import MissingExtraError
 from cellc.mock.command.options import MockOptions, run_mock
 
 

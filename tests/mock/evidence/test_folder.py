@@ -94,7 +94,7 @@ def test_swap_that_fails_puts_every_file_back(cell: MockCell, tmp_path: Path, mo
         put.append(path)
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("cellc.store.swap.Swap.settle", lambda swap: fail(swap, ""))
+    monkeypatch.setattr("cellc.contract.store.swap.Swap.settle", lambda swap: fail(swap, ""))
     with pytest.raises(MockError, match="no space left on device"):
         write_evidence(cell, folder, "cancelled", seed=9)
     assert put

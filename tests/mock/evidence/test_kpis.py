@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from cellc.contract.contract import ContractKpis
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.kpis import Kpi, kpis
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, RehearsalResult, TracePoint
-from cellc.vocabulary import AttemptOutcome
 from tests.mock.conftest import Written
 
 TARGETS = ContractKpis(

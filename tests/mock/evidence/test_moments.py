@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry, FaultEvent
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.evidence.envelope import Envelope
 from cellc.mock.result import AttemptRecord, MadeStep, PacketStep, RehearsalResult, TracePoint, simulated_s
-from cellc.vocabulary import FaultKind
 from tests.mock.conftest import Written
 
 MS = 1_000_000

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, RehearsalResult
-from cellc.vocabulary import FaultKind
 from tests.cells import generated
 
 HOME = StepEntry(kind="move", target="home")

@@ -11,12 +11,12 @@ from typing import Any
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock import MockCell, load
 from cellc.mock.errors import MockError
 from cellc.mock.faults.cases import BORNE, CellStep, FaultCase, ends_in
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.registry import possible_faults
-from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.cells import ROOT
 from tests.mock.faults.conftest import Rehearse
 

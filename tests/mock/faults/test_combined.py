@@ -7,10 +7,10 @@ from itertools import pairwise
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock import MockCell
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.result import to_json_lines
-from cellc.vocabulary import AttemptOutcome, FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
 NAMED = set(AttemptOutcome)

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell
-from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import Rehearse, during
 
 PAN = "arm_shoulder_pan_joint"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock.faults.goals import CLIENT
-from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wait
 
 

@@ -15,11 +15,11 @@ import pytest
 
 from cellc.contract.bring_up import Watch
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.plant import Plant
-from cellc.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
 from tests.cells import ROOT
 from tests.mock.faults.conftest import ACKNOWLEDGE, HOME, Rehearse, Run, during, wait
 

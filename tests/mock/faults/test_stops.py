@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell
 from cellc.mock.control import ControllerManager
-from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
 STOPS: tuple[tuple[FaultKind, str, str], ...] = (

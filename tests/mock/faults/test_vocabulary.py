@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from cellc.compiler.rules.evidence.merged_failure_layers import _LAYERS
+from cellc.compiler.spec import faults
+from cellc.compiler.spec.faults import FAULT_KEYS, FaultFields
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell
 from cellc.mock.faults.registry import FAULTS, possible_faults
-from cellc.rules.evidence.merged_failure_layers import _LAYERS
-from cellc.spec import faults
-from cellc.spec.faults import FAULT_KEYS, FaultFields
-from cellc.vocabulary import FaultKind
 
 
 def test_every_kind_of_fault_has_its_shape_in_the_spec_its_builder_and_its_layer() -> None:

@@ -8,13 +8,13 @@ from typing import Any
 import pytest
 
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import FaultKind
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.faults.stops import RestartDriver
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.stops import Stops
 from cellc.mock.task import context, execute, grip, move
 from cellc.mock.task.context import TaskContext
-from cellc.vocabulary import FaultKind
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait
 
 Remove = Callable[[pytest.MonkeyPatch], None]

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from cellc.compiler.pipeline import check
 from cellc.mock import MockCell, load
-from cellc.pipeline import check
 from tests import cells
 from tests.cells import build_into, spec_of, spec_text
 

@@ -7,13 +7,13 @@ from functools import partial
 
 import pytest
 
-from cellc.description.urdf_reader import read_urdf
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell
 from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates import JudgedRun, Verdict, sign_gates
 from cellc.mock.result import CancelRecord
-from cellc.vocabulary import AttemptOutcome
+from cellc.robot.description.urdf_reader import read_urdf
 from tests.mock.gates.conftest import gate, line, with_attempt
 
 PASSED, FAILED, UNKNOWN = Verdict.PASSED, Verdict.FAILED, Verdict.UNKNOWN

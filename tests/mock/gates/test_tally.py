@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 import cellc.mock.report_page.page as page
+from cellc.contract.vocabulary import GateCode
 from cellc.mock.gates.gate import GateCheck, GateResult, Tally, Verdict, gate_lines
-from cellc.vocabulary import GateCode
 
 P, F, U = Verdict.PASSED, Verdict.FAILED, Verdict.UNKNOWN
 

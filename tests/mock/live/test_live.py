@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from mcap.reader import make_reader
 
-from cellc.extras import MissingExtraError
+from cellc.contract.extras import MissingExtraError
+from cellc.contract.printing import Stream
 from cellc.mock import MockCell
 from cellc.mock.command.options import MockOptions, run_mock
 from cellc.mock.errors import MockError
-from cellc.printing import Stream
 from tests.mock.conftest import Written
 from tests.mock.live.viewer import Viewer
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compute.versions import versions
+from cellc.contract.compute.versions import versions
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.sweep import journal as of_runs
 from cellc.mock.sweep.journal import Journal
@@ -68,7 +68,7 @@ def test_runs_that_another_program_made_are_not_mixed_with_those_of_this_one(
     nest: MockCell, file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     here = versions()
-    monkeypatch.setattr("cellc.compute.versions.versions", lambda: {**here, "numpy": "1.0.0"})
+    monkeypatch.setattr("cellc.contract.compute.versions.versions", lambda: {**here, "numpy": "1.0.0"})
     with pytest.raises(MockError, match=rf"has runs that were made with numpy {here['numpy']}, here is 1\.0\.0; name"):
         Journal(file, nest.contract, "put", 0)
     head, _, runs = file.read_text(encoding="utf-8").partition("\n")

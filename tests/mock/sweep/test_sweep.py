@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cellc.compute.processes import processes
+from cellc.contract.compute.processes import processes
 from cellc.contract.uncertainty import UncertainQuantity
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.plant import Plant

@@ -6,11 +6,11 @@ import math
 
 import pytest
 
+from cellc.contract.transforms import Pose, from_xyz_rpy, identity
 from cellc.mock.clocks import Clock, Segment, TimeJump
 from cellc.mock.tf.buffer import Transform, TransformBuffer
 from cellc.mock.tf.messages import TfFailure, TfFailureKind
 from cellc.mock.tf.sources import SampledSource, StaticSource
-from cellc.transforms import Pose, from_xyz_rpy, identity
 
 SECOND = 1_000_000_000
 

@@ -6,10 +6,10 @@ import math
 
 import pytest
 
+from cellc.contract.transforms import Pose, from_xyz_rpy
 from cellc.mock.tf.buffer import Transform, TransformBuffer
 from cellc.mock.tf.messages import TfFailure, TfFailureKind, TfWarnings
 from cellc.mock.tf.sources import SampledSource, StaticSource
-from cellc.transforms import Pose, from_xyz_rpy
 
 SECOND = 1_000_000_000
 

@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cellc.description.model import Description
-from cellc.description.urdf_reader import read_urdf
+from cellc.contract.transforms import Pose, from_xyz_rpy, identity
 from cellc.mock.clocks import Clocks
 from cellc.mock.control import JointStateBlock
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
@@ -19,8 +18,9 @@ from cellc.mock.tf.messages import TfWarnings
 from cellc.mock.tf.sources import DeferredPose, SampledSource
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.mock.world.world import LinkTree, World, link_tree
-from cellc.planning import RobotModel
-from cellc.transforms import Pose, from_xyz_rpy, identity
+from cellc.robot.description.model import Description
+from cellc.robot.description.urdf_reader import read_urdf
+from cellc.robot.planning import RobotModel
 
 MS = 1_000_000
 

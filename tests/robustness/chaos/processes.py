@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from cellc.cli.main import run as run_here
+from cellc.tools.cli.main import run as run_here
 from tests.cells import ROOT
 
 OLD, NEW = "old", "new"

@@ -8,13 +8,13 @@ from functools import cache
 from pathlib import Path
 from xml.etree import ElementTree
 
-from cellc.catalog.compiled import compiled_device
-from cellc.catalog.load import device_names
+from cellc.compiler.catalog.compiled import compiled_device
+from cellc.compiler.catalog.load import device_names
 from tests.cells import CELLS, CORPUS, ROOT, catalog_facts, spec_text
 from tests.robustness.fuzz.tree import Tree, copied, read_yaml
 
 PARTS = CORPUS / "valid" / "parts"
-_CATALOG = ROOT / "cellc" / "catalog"
+_CATALOG = ROOT / "cellc" / "compiler" / "catalog"
 _HEAD = "format: 1\ncell: fuzzed\nversions: {ros: jazzy}\n"
 TINY = (
     _HEAD + "devices:\n  camera: {model: ./parts/demo_camera, mount: {parent: world, xyz: 0 0 1 m}}\n"

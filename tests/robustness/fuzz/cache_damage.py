@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
-from cellc.store.cache_key import state_folder
+from cellc.contract.store.cache_key import state_folder
 
 Damage = Callable[[Path, Sequence[Path], random.Random], None]
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
 
-from cellc.description import confined_child, mesh_child, mesh_numbers, xacro_expansion
+from cellc.robot.description import confined_child, mesh_child, mesh_numbers, xacro_expansion
 
 _ASKING = (mesh_numbers, xacro_expansion)
 _CHILDREN = {module.__name__: module for module in (mesh_child, xacro_expansion)}

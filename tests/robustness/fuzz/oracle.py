@@ -15,25 +15,25 @@ from xml.etree import ElementTree
 
 import yaml
 
-from cellc.artifact import Artifact
-from cellc.deploy.deployment import plan_deployment
-from cellc.description.packages import use_packages
-from cellc.diagnose.diagnose import diagnose
-from cellc.diagnostics import Diagnostic, Severity
-from cellc.diagnostics.unsafe_text import HIDDEN
-from cellc.emit.audit.audit import emit as emit_audit
-from cellc.emit.emit_all import emit_all
-from cellc.feasibility import compute, disabled_links, motion_answer
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.deploy.deployment import plan_deployment
+from cellc.compiler.emit.audit.audit import emit as emit_audit
+from cellc.compiler.emit.emit_all import emit_all
+from cellc.compiler.feasibility import compute, disabled_links, motion_answer
+from cellc.compiler.pipeline import Checked, check, compile_cell
+from cellc.contract.diagnostics import Diagnostic, Severity
+from cellc.contract.diagnostics.unsafe_text import HIDDEN
+from cellc.contract.printing import as_text
+from cellc.contract.store.cache import OFF
 from cellc.mock.cell import load
 from cellc.mock.errors import MockError
-from cellc.pipeline import Checked, check, compile_cell
-from cellc.printing import as_text
-from cellc.report.github_report import render_github
-from cellc.report.json_report import render_json
-from cellc.report.resolved import flatten, resolved_tree
-from cellc.report.sarif_report import render_sarif
-from cellc.report.text_report import render_text
-from cellc.store.cache import OFF
+from cellc.robot.description.packages import use_packages
+from cellc.tools.diagnose.diagnose import diagnose
+from cellc.tools.report.github_report import render_github
+from cellc.tools.report.json_report import render_json
+from cellc.tools.report.resolved import flatten, resolved_tree
+from cellc.tools.report.sarif_report import render_sarif
+from cellc.tools.report.text_report import render_text
 from tests.cli.run import run
 from tests.robustness.fuzz.bases import PARTS
 from tests.robustness.fuzz.cache_damage import damage_cache

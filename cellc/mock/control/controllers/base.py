@@ -6,14 +6,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from cellc.errors import CellcError
+from cellc.contract.errors import CellcError
+from cellc.contract.vocabulary import Distro
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import Block, InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.messages import ControlEvent
 from cellc.mock.control.parameters import ParameterSet, ParameterValue
 from cellc.mock.control.robot_description import RobotDescription
-from cellc.vocabulary import Distro
 
 
 @dataclass(frozen=True, slots=True)

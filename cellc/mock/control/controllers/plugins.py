@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from cellc.contract.vocabulary import Behaviour, Distro
 from cellc.mock.control.controllers.base import Context, Controller
 from cellc.mock.control.controllers.broadcasters import (
     DeclaredController,
@@ -21,7 +22,6 @@ from cellc.mock.control.controllers.forward_command import (
 from cellc.mock.control.controllers.gripper import PARALLEL, POSITION, GripperController
 from cellc.mock.control.controllers.joint_trajectory import JointTrajectoryController
 from cellc.mock.control.controllers.pid import PidController
-from cellc.vocabulary import Behaviour, Distro
 
 HARDWARE_BEHAVIOURS: Mapping[str, str] = {"mock_components/GenericSystem": "generic_system"}
 

@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from cellc.description.model import HardwareComponent, HardwareInterface, Joint, Mimic
 from cellc.mock.control.hardware.disturbances import Disturbances
 from cellc.mock.control.hardware.joint_motion import Motion, differences, hold_last, integral
 from cellc.mock.control.interfaces import Array, InterfaceTable
 from cellc.mock.control.robot_description import follows, read_flag, read_number
+from cellc.robot.description.model import HardwareComponent, HardwareInterface, Joint, Mimic
 
 _MODES = ("position", "velocity", "acceleration")
 

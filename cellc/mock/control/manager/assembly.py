@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from cellc.description.model import Description
+from cellc.contract.vocabulary import Behaviour, Distro
 from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.hardware import CommandLimiter, Disturbances
@@ -19,7 +19,7 @@ from cellc.mock.control.manager.switching import SwitchChecker, Switcher
 from cellc.mock.control.messages import ControlEvent
 from cellc.mock.control.parameters import ParameterSet
 from cellc.mock.control.robot_description import RobotDescription, take_description
-from cellc.vocabulary import Behaviour, Distro
+from cellc.robot.description.model import Description
 
 
 @dataclass(frozen=True, slots=True)

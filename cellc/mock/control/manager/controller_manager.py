@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from cellc.description.model import Description
+from cellc.contract.vocabulary import Behaviour, Distro
 from cellc.mock.control.controllers.base import Controller, DeclaredInterfaces
 from cellc.mock.control.controllers.broadcasters import JointStateBlock, JointStateBroadcaster
 from cellc.mock.control.controllers.forward_command import ForwardCommandController, GpioCommandController
@@ -33,7 +33,7 @@ from cellc.mock.control.messages import (
     TrajectoryStateResponse,
 )
 from cellc.mock.control.parameters import ParameterError, ParameterFile, ParameterValue
-from cellc.vocabulary import Behaviour, Distro
+from cellc.robot.description.model import Description
 
 
 class ControllerManager:

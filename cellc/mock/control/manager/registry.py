@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.vocabulary import Behaviour, Distro
 from cellc.mock.control.controllers.base import ConfigureError, Context, Controller, DeclaredInterfaces
 from cellc.mock.control.controllers.plugins import controller_factory
 from cellc.mock.control.hardware import CommandLimiter
@@ -18,7 +19,6 @@ from cellc.mock.control.manager.settings import NODE_NAME
 from cellc.mock.control.messages import ControlEvent, ControllerChanged, ServiceResponse
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterSet
 from cellc.mock.control.robot_description import RobotDescription
-from cellc.vocabulary import Behaviour, Distro
 
 # A controller is updated when this share of its period has passed (tolerance for jitter in the real manager).
 _DUE = 0.99

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from cellc.limits import limits
+from cellc.contract.limits import limits
+from cellc.contract.vocabulary import Distro, Feature, features
 from cellc.mock.control.errors import ManagerAbortedError
 from cellc.mock.control.parameters import Parameter, ParameterError, ParameterFile, ParameterFileError, ParameterSet
 from cellc.mock.errors import LimitReachedError
-from cellc.vocabulary import Distro, Feature, features
 
 NODE_NAME = "controller_manager"
 _KEPT = 8

@@ -7,8 +7,8 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
-from cellc.errors import CellcError
-from cellc.limits import limits
+from cellc.contract.errors import CellcError
+from cellc.contract.limits import limits
 from cellc.mock.errors import LimitReachedError
 
 ParameterValue = bool | int | float | str | list[bool] | list[int] | list[float] | list[str]

@@ -9,7 +9,7 @@ from typing import TypeAlias, cast
 
 import yaml
 
-from cellc.errors import CellcError
+from cellc.contract.errors import CellcError
 from cellc.mock.control.parameters.declaration import ParameterValue, scalar
 
 

@@ -15,8 +15,8 @@ from typing import BinaryIO
 import yaml
 
 from cellc.contract.contract import ContractQos
-from cellc.extras import EVIDENCE, gate
-from cellc.store.regular_file import own_text
+from cellc.contract.extras import EVIDENCE, gate
+from cellc.contract.store.regular_file import own_text
 
 _PRIMITIVES = ("byte", "float64", "int32", "string", "uint32")
 """Those that occur in the definitions here."""

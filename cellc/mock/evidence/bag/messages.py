@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.transforms import Pose
+from cellc.contract.vocabulary import Distro, Feature, features
 from cellc.mock.control import GripperGoal, Trajectory
 from cellc.mock.evidence.bag.cdr import CdrWriter, MessageRows
-from cellc.transforms import Pose
-from cellc.vocabulary import Distro, Feature, features
 
 JOINT_STATE = "sensor_msgs/msg/JointState"
 TF_MESSAGE = "tf2_msgs/msg/TFMessage"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from cellc.contract.vocabulary import Distro, Feature, features
 from cellc.mock.control.parameters import Parameter, ParameterSet, ParameterValue
 from cellc.mock.control.parameters.declaration import at_least, longer_than_zero, one_of, subset_of, unique
-from cellc.vocabulary import Distro, Feature, features
 
 _COMMANDS = (
     ("position",),

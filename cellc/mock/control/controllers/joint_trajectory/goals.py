@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cellc.contract.vocabulary import Feature, features
 from cellc.mock.control.controllers.base import Context, GoalMonitor
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
 from cellc.mock.control.controllers.joint_trajectory.motion import (
@@ -20,7 +21,6 @@ from cellc.mock.control.controllers.joint_trajectory.motion import (
 )
 from cellc.mock.control.interfaces import Array
 from cellc.mock.control.messages import ControlEvent, GoalStatus, TrajectoryEnded, TrajectoryFeedback, TrajectoryGoal
-from cellc.vocabulary import Feature, features
 
 
 class GoalBook:

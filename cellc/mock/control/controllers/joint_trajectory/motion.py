@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cellc.limits import limits
+from cellc.contract.limits import limits
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces
 from cellc.mock.control.controllers.joint_trajectory.spline import Indices, Spline, StartState
 from cellc.mock.control.interfaces import Array, Flags, Times

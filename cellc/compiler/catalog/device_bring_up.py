@@ -1,0 +1,182 @@
+"""What bring-up needs of a device: its network, its safety states, and what people do and read at it."""
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from cellc.compiler.catalog.catalog_model import CatalogModel, DistroName, GateName, Text, Token
+from cellc.compiler.catalog.robot_facts import DrivenBy, HumanStep, StepCondition
+from cellc.contract.vocabulary import GateCode
+
+
+class PortFacts(CatalogModel):
+    """One port of the network link between host and device.
+
+    Attributes:
+        port: Number of the port, such as ``30004``; the spec may move a port that the driver lets it move.
+        protocol: Transport of the port.
+        direction: Who opens the connection; on a port of ``device_to_host``, the host listens.
+        service: What the port is for, such as ``RTDE``.
+    """
+
+    port: int = Field(ge=1, le=65535)
+    protocol: Literal["tcp", "udp"]
+    direction: Literal["host_to_device", "device_to_host"]
+    service: Text
+
+
+class NetworkFacts(CatalogModel):
+    """What the device asks of its network.
+
+    Attributes:
+        ports: Ports that host and device use between them.
+        default_subnet: Subnet in which the vendor ships the device, such as ``172.16.0.0/24``.
+        dedicated_link: Whether the device needs a network card of the host for itself.
+        realtime: Whether the host needs a real-time kernel; ``required`` and ``recommended`` are checked against the
+            kernel of the host.
+        source: Document with its version from which these facts were read.
+    """
+
+    ports: tuple[PortFacts, ...] = ()
+    default_subnet: Text | None = None
+    dedicated_link: bool
+    realtime: Literal["required", "recommended", "not_needed"]
+    source: Text
+
+
+class SafetyStateFacts(CatalogModel):
+    """A state of the device's own safety controller and how its driver reports it.
+
+    Attributes:
+        name: Name of the state, such as ``protective_stop``.
+        stops: Whether the device stops in this state.
+        reported: How the state is seen, such as a value of a topic or a light.
+        gate: Gate of bring-up in which people look for the state; one that only an activation or an action shows cannot
+            be seen earlier.
+    """
+
+    name: Token
+    stops: bool
+    reported: Text | None = None
+    gate: GateName = GateCode.G4
+
+
+class StateTopicFacts(CatalogModel):
+    """A topic, below the node of a controller of this kind, that says in which state the device is.
+
+    Attributes:
+        controller: Kind of controller of this device that publishes the topic.
+        topic: Name of the topic below the node of the controller, such as ``safety_mode``.
+        source: Document or line of code from which this was read.
+    """
+
+    controller: Token
+    topic: Token
+    source: Text
+
+
+class RecoveryFacts(CatalogModel):
+    """The way out of one state.
+
+    Attributes:
+        state: Name of the state, one of ``states``.
+        by: Only what reaches the device in this way: ``driver`` for the ROS driver, ``adapter`` for an adapter on the
+            library of the vendor. Both if absent.
+        steps: Steps in order, those of people first.
+    """
+
+    state: Token
+    by: DrivenBy | None = None
+    steps: tuple[HumanStep, ...] = Field(min_length=1)
+
+
+class SafetyFacts(CatalogModel):
+    """The vendor's safety boundary; no software of the cell is part of it.
+
+    Attributes:
+        stop_authority: What has the authority to stop the device, such as its safety controller.
+        states: States of the device's own safety controller.
+        told: Topics that say in which state the device is.
+        modes: Operating modes of the device, by the vendor's names.
+        recovery: Recovery from the states that stop the device.
+        ending: What people do at the device when nothing is claimed any more, before its driver ends.
+        ended: What people do at the device after its driver has ended.
+        watchdog: What the device does when commands stop, and after how long, such as ``20 lost packets stop the arm``.
+        source: Documents with their versions from which these facts were read.
+    """
+
+    stop_authority: Text
+    states: tuple[SafetyStateFacts, ...] = ()
+    told: tuple[StateTopicFacts, ...] = ()
+    modes: tuple[Text, ...] = ()
+    recovery: tuple[RecoveryFacts, ...] = ()
+    ending: tuple[HumanStep, ...] = ()
+    ended: tuple[HumanStep, ...] = ()
+    watchdog: Text | None = None
+    source: Text
+
+
+class CommissioningStep(CatalogModel):
+    """What a person does at the real device in a gate, by its vendor's procedure.
+
+    Attributes:
+        gate: Gate of bring-up in which the step is done, such as ``G4``.
+        does: What the person does, in full sentences; placeholders such as ``{address}`` are filled.
+        log: Texts to look for in the log of the driver; of the lines that hold one of them, the newest counts.
+        run: Commands that only read; ``{address}`` in them becomes a word of the shell.
+        shows: Whether the step says what must be seen after the release of the gate.
+        powers: Whether the drives have power after the step, so that the stop can be tried.
+        only: Distributions on which the step is done; empty for all.
+        when: The step is done only if one of these holds for the device in the spec; empty for always.
+        by: Only if the device is reached in this way: ``driver`` for the ROS driver, ``adapter`` for an adapter. Both
+            if absent.
+        source: Document with its version from which the step was taken.
+    """
+
+    gate: GateName
+    does: Text
+    log: tuple[Text, ...] = ()
+    run: tuple[Text, ...] = ()
+    shows: bool = False
+    powers: bool = False
+    only: tuple[DistroName, ...] = ()
+    when: tuple[StepCondition, ...] = ()
+    by: DrivenBy | None = None
+    source: Text
+
+
+class RecordFacts(CatalogModel):
+    """Where the record of an attempt with the real device has a field from.
+
+    Attributes:
+        controller: Kind of controller of this device that publishes the value.
+        topic: Name of the topic below the node of the controller.
+        field: Field of the message that holds the value, such as ``data``.
+        read: Where a person reads the value if no topic has it; it excludes the other three keys.
+        source: Document or line of code from which this was read.
+    """
+
+    controller: Token | None = None
+    topic: Token | None = None
+    field: Token | None = None
+    read: Text | None = None
+    source: Text
+
+    @model_validator(mode="after")
+    def _by_a_topic_or_a_person(self) -> "RecordFacts":
+        told = (self.controller, self.topic, self.field)
+        if any(part is None for part in told) == (self.read is None) or (self.read and any(told)):
+            raise ValueError("must have `controller`, `topic` and `field`, or `read` alone")
+        return self
+
+
+class JogFacts(CatalogModel):
+    """How people move one joint where the driver cannot run meanwhile, so that positions are read at the device.
+
+    Attributes:
+        does: What people do, step by step, and where they read the position.
+        source: Document with its version from which this was read.
+    """
+
+    does: Text
+    source: Text

@@ -1,0 +1,265 @@
+"""What the controller of a robot can be told, and who can start the program on it."""
+
+from typing import Literal, Union
+
+from pydantic import Field
+
+from cellc.compiler.catalog.catalog_model import CatalogModel, FileName, NodeName, ParameterFact, PartName, Text, Token
+from cellc.compiler.spec.quantity import Position, RollPitchYaw, Voltage
+from cellc.compiler.spec.tool import BaudRate, Parity, StopBits
+
+
+class ProgramWay(CatalogModel):
+    """One way in which the program on the robot starts.
+
+    Attributes:
+        name: Name of the way: from the pendant, by the dashboard server, or headless.
+        by: Who starts the program; ``played_by`` of the spec chooses it.
+        mode: Whether the robot is in local or remote control; ``mode`` of the spec chooses it.
+        parameters: ``<param>`` values of the real plugin in this way.
+        node_parameters: Parameters of nodes of the driver in this way, by node.
+    """
+
+    name: Literal["pendant", "dashboard", "headless"]
+    by: Literal["person", "driver"]
+    mode: Literal["local", "remote"]
+    parameters: dict[Text, Text] = Field(default_factory=dict)
+    node_parameters: dict[NodeName, dict[Text, ParameterFact]] = Field(default_factory=dict)
+
+
+class ProgramFacts(CatalogModel):
+    """The program on the robot through which set points pass.
+
+    Attributes:
+        ways: Start modes; the first is used if the spec names none.
+        source: Document or line of code from which this was read.
+    """
+
+    ways: tuple[ProgramWay, ...] = Field(min_length=1)
+    source: Text
+
+    def way(self, by: str, mode: str) -> ProgramWay | None:
+        """Return the way of ``person`` or ``driver`` in a mode."""
+        return next((one for one in self.ways if (one.by, one.mode) == (by, mode)), None)
+
+
+class MountFacts(CatalogModel):
+    """How the vendor mounts the device on an arm, with a fixed transform.
+
+    Attributes:
+        on: Model of the arm in the catalog.
+        frame: Frame of the arm, by its own name.
+        xyz: Position of the base of the device in that frame, such as ``0 0 10 mm``; zero if absent.
+        rpy: Roll, pitch and yaw of the base of the device in that frame, such as ``0 0 -45 deg``; zero if absent.
+        source: Package or drawing with its version.
+    """
+
+    on: Token
+    frame: PartName
+    xyz: Position | None = None
+    rpy: RollPitchYaw | None = None
+    source: Text
+
+
+class CenterFacts(CatalogModel):
+    """Where the robot says where its TCP is.
+
+    Attributes:
+        controller: Kind of controller of this device that publishes the topic.
+        topic: Name of the topic below the node of the controller.
+        source: Document or line of code from which this was read.
+    """
+
+    controller: Token
+    topic: Token
+    source: Text
+
+
+class IdleFacts(CatalogModel):
+    """A silence that marks the end of a serial message, in characters.
+
+    Attributes:
+        least: Shortest silence that can be set, in characters.
+        most: Longest silence that can be set, in characters.
+        usual: Silence if the spec says nothing, in characters.
+    """
+
+    least: float
+    most: float
+    usual: float
+
+
+class ForwardFacts(CatalogModel):
+    """The program that gives a computer the serial line of a tool connector, as a device node; no node of ROS.
+
+    Attributes:
+        package: ROS package of the program.
+        program: Name of the program in the package.
+        arguments: Arguments of the program; placeholders are filled.
+        system: System packages that the program calls, by rosdep key, such as ``[socat]``.
+    """
+
+    package: Token
+    program: FileName
+    arguments: tuple[Text, ...] = ()
+    system: tuple[Token, ...] = ()
+
+
+class ToolSerialFacts(CatalogModel):
+    """The serial line of a tool connector, and the parameters of the plugin that set it up.
+
+    Attributes:
+        baud_rates: Baud rates that can be set, in bit/s.
+        parities: Parities that can be set, each with the plugin's word for it.
+        stop_bits: Numbers of stop bits that can be set.
+        rx_idle_chars: Silence after which a received message is complete.
+        tx_idle_chars: Silence after a message before the next one is sent.
+        tcp_port: TCP port of the robot that carries the line, if the spec says nothing.
+        parameters: ``<param>`` values of the real plugin that set the line up.
+        forward: Program that makes a device node of the line.
+        source: Document or line of code from which this was read.
+    """
+
+    baud_rates: tuple[BaudRate, ...] = Field(min_length=1)
+    parities: dict[Parity, Text] = Field(min_length=1)
+    stop_bits: tuple[StopBits, ...] = Field(min_length=1)
+    rx_idle_chars: IdleFacts
+    tx_idle_chars: IdleFacts
+    tcp_port: int = Field(ge=1, le=65535)
+    parameters: dict[Text, Text]
+    forward: ForwardFacts
+    source: Text
+
+
+class ToolConnectorFacts(CatalogModel):
+    """The connector at the tool frame of a robot.
+
+    Attributes:
+        voltages: Voltages that can be set, such as ``[0 V, 12 V, 24 V]``.
+        serial: Serial line of the connector; absent if it has none.
+        source: Manual with its version.
+    """
+
+    voltages: tuple[Voltage, ...] = Field(min_length=1)
+    serial: ToolSerialFacts | None = None
+    source: Text
+
+
+class SerialFacts(CatalogModel):
+    """Settings of the serial line of a device.
+
+    Attributes:
+        baud_rate: Baud rate in bit/s, such as ``115200``.
+        parity: Parity of the line.
+        stop_bits: Number of stop bits.
+    """
+
+    baud_rate: BaudRate
+    parity: Parity
+    stop_bits: StopBits
+
+
+class PlugFacts(CatalogModel):
+    """What a device takes from the tool connector of a robot.
+
+    Attributes:
+        voltage: Voltage that the device needs.
+        serial: Serial line of the device; absent if it has none.
+        source: Manual with its version.
+    """
+
+    voltage: Voltage
+    serial: SerialFacts | None = None
+    source: Text
+
+
+class StiffnessSpan(CatalogModel):
+    """The least and the most of a stiffness.
+
+    Attributes:
+        least: Smallest stiffness, in N/m for a translation and N m/rad for a rotation.
+        most: Largest stiffness, in N/m for a translation and N m/rad for a rotation.
+    """
+
+    least: float
+    most: float
+
+
+class ImpedanceFacts(CatalogModel):
+    """What impedance the robot's own controller takes.
+
+    Attributes:
+        joint: Stiffness of a joint, in N m/rad.
+        translation: Stiffness along an axis of the tool, in N/m.
+        rotation: Stiffness about an axis of the tool, in N m/rad.
+        acts_on: Command interfaces in which the robot's own controller is active, such as ``[position, velocity]``.
+        source: Document or line of code from which this was read.
+    """
+
+    joint: StiffnessSpan
+    translation: StiffnessSpan
+    rotation: StiffnessSpan
+    acts_on: tuple[Token, ...] = Field(min_length=1)
+    source: Text
+
+
+class RobotControllerFacts(CatalogModel):
+    """What can be set in the robot's own controller.
+
+    Attributes:
+        program: Program on the robot that passes set points on.
+        tcp: Topic that has the TCP as the robot knows it.
+        payload_service: Which service sets the payload, and when it works.
+        thresholds: Which service sets the thresholds of collisions.
+        load_service: Which service sets the load besides the tool that is installed.
+        impedance: Stiffnesses that the robot's own controller takes.
+        tool_connector: Connector at the tool frame.
+    """
+
+    program: ProgramFacts | None = None
+    tcp: CenterFacts | None = None
+    payload_service: Text | None = None
+    thresholds: Text | None = None
+    load_service: Text | None = None
+    impedance: ImpedanceFacts | None = None
+    tool_connector: ToolConnectorFacts | None = None
+
+
+StepCondition = Literal[
+    "pendant",
+    "dashboard",
+    "headless",
+    "payload_by_installation",
+    "payload_by_service",
+    "thresholds_stated",
+    "thresholds_open",
+    "load_stated",
+    "joint_impedance_stated",
+    "cartesian_impedance_stated",
+    "tool_power",
+    "tool_serial_pendant",
+    "tool_serial_dashboard",
+    "tool_serial_headless",
+    "through_tool",
+]
+"""What a spec may say of a device, so that people do one thing or the other."""
+
+
+DrivenBy = Literal["driver", "adapter"]
+"""What reaches a device: the driver of ROS, or an adapter on the library of its vendor."""
+
+
+class GuardedStep(CatalogModel):
+    """What people do only where one of these is so of the device.
+
+    Attributes:
+        when: What the spec may say of the device; one of them must hold.
+        does: What people do; placeholders are filled.
+    """
+
+    when: tuple[StepCondition, ...] = Field(min_length=1)
+    does: Text
+
+
+HumanStep = Union[Text, GuardedStep]
+"""What people do at a device, always or where something is so of it; placeholders are filled."""

@@ -1,0 +1,201 @@
+"""The cell: everything that the spec and the catalog say, bound and in SI."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.entity import Places
+from cellc.compiler.cell.frame import Frame, SceneBox, SharedArea
+from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface, InterfaceKind, Node, NodeSource
+from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
+from cellc.compiler.cell.site import (
+    TARGET_DEFAULTS,
+    Bringup,
+    Calibration,
+    HardwareStatement,
+    Host,
+    Kpis,
+    Network,
+    Owners,
+    Recording,
+    Safety,
+    Target,
+    Versions,
+)
+from cellc.compiler.cell.uncertainty import Uncertainty
+from cellc.compiler.cell.vendor import RecordSource
+from cellc.contract.diagnostics import Span
+from cellc.contract.vocabulary import Behaviour, Distro
+
+
+@dataclass(frozen=True, slots=True)
+class InterfaceEnd:
+    """An end of an interface; ``serves`` where it is a source: it publishes, answers or executes."""
+
+    interface: Interface
+    end: Endpoint
+    serves: bool
+
+
+# Without slots, so that what is asked for often is looked up once and kept.
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """A linked cell; every tuple is sorted as the user wrote it, derived entities after written ones.
+
+    Args:
+        places: where the user wrote what.
+        distro: the pinned distribution.
+        uncertainty: what sweeps draw; None where the cell says nothing of it.
+        mock_plugins: hardware plugin → what the user says of it.
+        mock_programs: package and executable of a device's node → what the user says of it.
+        harmless_plugins: plugins that the catalog or a signed statement knows to touch no hardware.
+        harmless_programs: the same of programs.
+        hardware_packages: packages that the catalog knows to reach hardware.
+        implied: what nodes have at the ROS graph by what they are.
+        behaviours: controller plugin type string → what it does, for the plugins in use.
+        packages: further folders in which packages lie, as the current folder sees them.
+    """
+
+    name: str
+    places: Places
+    distro: Distro
+    versions: Versions
+    summary: str = ""
+    hosts: Mapping[str, Host] = field(default_factory=dict)
+    network: Network = field(default_factory=Network)
+    calibrations: Mapping[str, Calibration] = field(default_factory=dict)
+    owners: Owners = field(default_factory=Owners)
+    safety: Safety = field(default_factory=Safety)
+    bringup: Bringup = field(default_factory=Bringup)
+    kpis: Kpis = field(default_factory=Kpis)
+    recording: Recording = field(default_factory=Recording)
+    targets: Mapping[str, Target] = field(default_factory=lambda: dict(TARGET_DEFAULTS))
+    mock_plugins: Mapping[str, HardwareStatement] = field(default_factory=dict)
+    mock_programs: Mapping[str, HardwareStatement] = field(default_factory=dict)
+    harmless_plugins: frozenset[str] = frozenset()
+    harmless_programs: frozenset[str] = frozenset()
+    hardware_packages: frozenset[str] = frozenset()
+    devices: tuple[Device, ...] = ()
+    frames: tuple[Frame, ...] = ()
+    scene: tuple[SceneBox, ...] = ()
+    areas: tuple[SharedArea, ...] = ()
+    nodes: tuple[Node, ...] = ()
+    interfaces: tuple[Interface, ...] = ()
+    managers: tuple[ControllerManager, ...] = ()
+    adapters: tuple[AdaptedDevice, ...] = ()
+    groups: tuple[PlanningGroup, ...] = ()
+    pipelines: tuple[Pipeline, ...] = ()
+    octomap: Octomap | None = None
+    servo: Servo | None = None
+    poses: tuple[NamedPose, ...] = ()
+    goals: tuple[CartesianGoal, ...] = ()
+    rehearsals: tuple[Rehearsal, ...] = ()
+    uncertainty: Uncertainty | None = None
+    implied: ImpliedEndpoints = field(default_factory=ImpliedEndpoints)
+    behaviours: Mapping[str, Behaviour] = field(default_factory=dict)
+    packages: tuple[str, ...] = ()
+
+    def locate(self, *path: str | int) -> Span:
+        """Return the place of a YAML path, or of its nearest ancestor that the user wrote.
+
+        Where a whole section is missing that is the cell's own name, not the first line of the file.
+        """
+        return self.places.locate(path if self.places.has(path[:1]) else ("cell",))
+
+    def states(self, *path: str | int) -> bool:
+        """Tell whether the user wrote something at a YAML path."""
+        return self.places.has(path)
+
+    def text(self, *path: str | int) -> str:
+        """Return the scalar at a YAML path as the user wrote it, such as ``5 deg``; empty where nothing is written."""
+        return self.places.texts.get(path, "")
+
+    def signed_for_mock(self) -> Iterator[tuple[Device, str, HardwareStatement]]:
+        """Yield the plugins and programs that devices run on the mock, of which somebody in the spec says something."""
+        for device in self.devices:
+            plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
+            if plugin in self.mock_plugins:
+                yield device, plugin, self.mock_plugins[plugin]
+            for program in self.programs_on_mock(device):
+                if program in self.mock_programs:
+                    yield device, program, self.mock_programs[program]
+
+    def programs_on_mock(self, device: Device) -> tuple[str, ...]:
+        """Return the programs that a device runs on every target, as ``package/executable``."""
+        own = (node for node in self.nodes_of.get(device.name, ()) if not node.real_only)
+        return tuple(f"{node.package}/{node.executable}" for node in own)
+
+    @cached_property
+    def nodes_of(self) -> Mapping[str, tuple[Node, ...]]:
+        """Nodes of each device that has some, by its name."""
+        found: dict[str, list[Node]] = {}
+        for node in self.nodes:
+            if node.device is not None:
+                found.setdefault(node.device, []).append(node)
+        return {name: tuple(nodes) for name, nodes in found.items()}
+
+    @cached_property
+    def ends_of(self) -> Mapping[str, tuple[InterfaceEnd, ...]]:
+        """Ends of interfaces at which a node stands, by its full name."""
+        found: dict[str, list[InterfaceEnd]] = {}
+        for interface in self.interfaces:
+            for serves, ends in ((True, interface.sources), (False, interface.sinks)):
+                for end in ends:
+                    found.setdefault(end.full_name, []).append(InterfaceEnd(interface, end, serves))
+        return {name: tuple(ends) for name, ends in found.items()}
+
+    @cached_property
+    def planners(self) -> tuple[Node, ...]:
+        """Nodes that are MoveIt's move_group."""
+        return tuple(node for node in self.nodes if node.is_planner)
+
+    @cached_property
+    def movers(self) -> tuple[Node, ...]:
+        """Nodes of the spec that call actions or command controllers, and serve no action themselves."""
+        actions = [one for one in self.interfaces if one.kind is InterfaceKind.ACTION]
+        asking = {one.client for one in self.controllers} | {end.node for one in actions for end in one.sinks}
+        moving = asking - {end.node for one in actions for end in one.sources}
+        written = (one for one in self.nodes if one.source is NodeSource.SPEC and not one.is_planner)
+        return tuple(one for one in written if one.name in moving)
+
+    @cached_property
+    def started_late(self) -> frozenset[str]:
+        """Full names of those that a person starts: the others are managed, and wait unactivated."""
+        return frozenset(node.full_name for node in self.movers if not node.lifecycle)
+
+    @cached_property
+    def mover_names(self) -> frozenset[str]:
+        """Full names of the same."""
+        return frozenset(node.full_name for node in self.movers)
+
+    @cached_property
+    def controllers(self) -> tuple[Controller, ...]:
+        """Controllers of all managers, in order."""
+        return tuple(controller for manager in self.managers for controller in manager.controllers)
+
+    def reporting(self, device: Device, source: RecordSource) -> Controller | None:
+        """Return the controller of a device that publishes a field of the record on the real target, if one does."""
+        kind = source.controller_kind
+        own = (one for one in self.controllers if one.device == device.name and one.kind == kind)
+        return next((one for one in own if one.active and "real" in one.targets), None)
+
+    def carried_mass_kg(self, device: Device) -> float:
+        """Return the mass of what a device carries, as the descriptions of those say; 0 where they say nothing."""
+        links = (link for name in device.carries for link in self.device(name).description.links)
+        return sum(link.inertial.mass for link in links if link.inertial is not None)
+
+    def device(self, name: str) -> Device:
+        """Return a device by its name in the spec.
+
+        Raises:
+            KeyError: there is none of that name.
+        """
+        return self._devices[name]
+
+    @cached_property
+    def _devices(self) -> Mapping[str, Device]:
+        return {device.name: device for device in reversed(self.devices)}

@@ -1,0 +1,84 @@
+"""Frames of a cell: links of devices, fixed frames, and dynamic ones; and its solid things."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from cellc.compiler.cell.entity import Entity
+from cellc.contract.transforms import Pose, Vector3
+
+WORLD = "world"
+"""Root of every cell's frame tree."""
+
+
+class FrameKind(str, Enum):
+    """Where a frame comes from."""
+
+    WORLD = "world"
+    LINK = "link"  # a link inside a device, joint poses apart
+    MOUNT = "mount"  # root link of a device
+    FIXED = "fixed"  # stated in the spec
+    SCENE = "scene"  # a solid thing
+    DYNAMIC = "dynamic"  # published by a node while the cell runs
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulatedPose:
+    """Where the mock puts what a dynamic frame follows."""
+
+    parent: str
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame(Entity):
+    """One TF frame and its edge to the parent.
+
+    Args:
+        parent: parent frame; empty for the world alone.
+        transform_to_parent: pose in the parent, at joint position zero for links; None for a dynamic frame.
+        authority: node that publishes the edge: ``robot_state_publisher`` or another.
+        calibration: id of the calibration that measured the edge.
+        designed: the edge is by design, no calibration is needed.
+        moving: the edge moves with a joint.
+    """
+
+    kind: FrameKind
+    parent: str
+    transform_to_parent: Pose | None
+    authority: str
+    device: str | None = None
+    calibration: str | None = None
+    designed: bool = False
+    moving: bool = False
+    rate_hz: float | None = None
+    buffer_s: float | None = None
+    reference_points: int = 0
+    simulated_pose: SimulatedPose | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SharedArea(Entity):
+    """A volume that several arms may stand in: full edge lengths in m, center pose in ``parent``.
+
+    Args:
+        granted_by: who lets one in at a time on the real cell.
+        released: why several may be in it at once; empty where they may not.
+    """
+
+    parent: str
+    transform_to_parent: Pose
+    size: Vector3
+    granted_by: str
+    released: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SceneBox(Entity):
+    """A box that planning avoids: full edge lengths in m, center pose in ``parent``."""
+
+    parent: str
+    transform_to_parent: Pose
+    size: Vector3
+    kind: str

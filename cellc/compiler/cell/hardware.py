@@ -1,0 +1,144 @@
+"""The hardware component of a device: its plugins and interfaces, and what it does in the world."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from cellc.compiler.cell.interface import InnerNode
+from cellc.contract.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InterfaceGroup:
+    """A ros2_control ``<sensor>`` or ``<gpio>``: prefixed name, interfaces, and values that a mock starts from.
+
+    One that is not ``declared`` is exported by the real hardware without a tag in the description.
+    """
+
+    name: str
+    command_interfaces: tuple[str, ...]
+    state_interfaces: tuple[str, ...]
+    initial: Mapping[str, float]
+    real_only: bool
+    declared: bool = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effect:
+    """What one moment in the life of a real device does in the world.
+
+    Args:
+        needs: what must hold before it → what happens otherwise, in the distribution of the cell.
+        drops_part: what a gripper holds falls.
+        leaves: the state of the component afterwards where it is not the one that was asked for.
+        does: the same as a sentence.
+        largest_step: distance, rad or m, of a set point from the device that it still follows; None without bound.
+    """
+
+    motion: Motion
+    authority: CommandAuthority
+    lock: ManagerLock
+    needs: Mapping[Need, Unmet]
+    drops_part: bool
+    leaves: str | None
+    does: str
+    largest_step: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Told:
+    """Where a cell hears whether a need holds: ``field`` of the newest message of a controller's topic is ``value``.
+
+    Args:
+        controller_kind: kind of the controller that publishes it.
+        topic: name of the topic below the controller's node.
+    """
+
+    controller_kind: str
+    topic: str
+    type: str
+    field: str
+    value: bool | int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommandModes:
+    """Ways of commanding the real device: interfaces of its joints, and full names of gpios.
+
+    Args:
+        together: pairs that may be commanded at once; every other switch to two is refused.
+    """
+
+    names: frozenset[str]
+    together: frozenset[frozenset[str]]
+
+    def of(self, claims: Iterable[str], joints: Container[str]) -> frozenset[str]:
+        """Return the modes that full names of claimed interfaces stand for; ``joints`` are those of the device."""
+        ends = (claim.rpartition("/") for claim in claims)
+        return self.names & {last if owner in joints else owner for owner, _, last in ends}
+
+    def allow(self, one: str, other: str) -> bool:
+        """Tell whether the plugin commands both at once."""
+        return one == other or frozenset((one, other)) in self.together
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HardwareComponent:
+    """A component of ros2_control; plugins and parameters by target (``mock``, ``real``).
+
+    Args:
+        kinds: system, sensor or actuator of ros2_control, by target.
+        targets: those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
+        effects: what the real component does at each moment that the catalog tells of.
+        initial_state: the state in which the real one is to come up.
+        at_once: from there it must become active in one call, without a stay in between.
+        enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
+        told: where the cell hears whether a need holds.
+        nodes: those that the real plugin makes in the process of the controller manager.
+        command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
+        modes: ways of commanding the real one that exclude each other; None where nobody told.
+        fixed_joint_names: the real plugin makes the names of its joints in its code.
+    """
+
+    name: str
+    targets: tuple[str, ...]
+    plugins: Mapping[str, str]
+    parameters: Mapping[str, Mapping[str, str]]
+    sensors: tuple[InterfaceGroup, ...]
+    gpios: tuple[InterfaceGroup, ...]
+    kinds: Mapping[str, str] = field(default_factory=dict)
+    effects: Mapping[Moment, Effect] = field(default_factory=dict)
+    initial_state: str = "active"
+    at_once: bool = False
+    enforce_command_limits: bool | None = None
+    command_timeout_s: float | None = None
+    told: Mapping[Need, Told] = field(default_factory=dict)
+    nodes: tuple[InnerNode, ...] = ()
+    modes: CommandModes | None = None
+    fixed_joint_names: bool = False
+
+    @property
+    def kept_by_a_claim(self) -> tuple[Need, ...]:
+        """Needs without which a claim keeps set points that are old, and are sent, once the need is met."""
+        claim = self.effects.get(Moment.CLAIM)
+        unmet = {} if claim is None else claim.needs
+        return tuple(need for need, otherwise in unmet.items() if otherwise is Unmet.KEEPS_SET_POINTS)
+
+    @property
+    def heard_before_a_claim(self) -> tuple[Told, ...]:
+        """Where the cell hears whether these needs hold, as far as the catalog tells."""
+        return tuple(self.told[need] for need in self.kept_by_a_claim if need in self.told)
+
+    @property
+    def is_activation_known(self) -> bool:
+        """Whether somebody says what the activation of the real one does."""
+        return "real" not in self.plugins or Moment.ACTIVATE in self.effects
+
+    @property
+    def moves_as_it_is_activated(self) -> bool:
+        """Whether its activation may move something or let a part fall, so that it is a release of its own."""
+        effect = self.effects.get(Moment.ACTIVATE)
+        if effect is None:
+            return not self.is_activation_known
+        return effect.drops_part or effect.motion not in (Motion.NONE, Motion.HOLDS)

@@ -1,0 +1,189 @@
+"""Nodes of a cell and the contracts between them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+
+from cellc.compiler.cell.entity import Entity
+from cellc.contract.diagnostics import Span, YamlPath
+
+ParameterValue = bool | int | float | str | tuple[bool | int | float | str, ...]
+"""What a ROS parameter can hold; an int where a double is declared is a mistake."""
+
+
+TARGETS = ("mock", "real")
+"""What the hardware interfaces of a cell reach."""
+
+
+class NodeSource(str, Enum):
+    """Who brings a node into the cell."""
+
+    SPEC = "spec"
+    DEVICE = "device"  # a driver of the catalog
+    STANDARD = "standard"  # robot_state_publisher, controller manager, controllers
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NodeEndpoints:
+    """What a program has at the ROS graph beside its offers, by its own names, ``~/`` below its own."""
+
+    publishes: tuple[str, ...] = ()
+    subscribes: tuple[str, ...] = ()
+    serves: tuple[str, ...] = ()
+    requests: tuple[str, ...] = ()
+    executes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InnerNode:
+    """A node in the process of another; ``full_name`` may end with ``*`` where it differs at every start."""
+
+    full_name: str
+    endpoints: NodeEndpoints
+    parameters: bool = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImpliedEndpoints:
+    """What nodes have by what they are, in the distribution of the cell: all, and those of a kind besides."""
+
+    node: NodeEndpoints = field(default_factory=NodeEndpoints)
+    lifecycle: NodeEndpoints = field(default_factory=NodeEndpoints)
+    controller: NodeEndpoints = field(default_factory=NodeEndpoints)
+    component: NodeEndpoints = field(default_factory=NodeEndpoints)
+    transforms: NodeEndpoints = field(default_factory=NodeEndpoints)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Node(Entity):
+    """A node; ``name`` is its bare name, ``namespace`` empty or with a leading slash.
+
+    ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock. ``host``
+    is the computer that runs it, empty where the cell names none. ``remaps``
+    are topics as the node's program names them → the names that they have in the cell. ``inside`` are further nodes of
+    its process.
+    """
+
+    source: NodeSource
+    package: str
+    executable: str
+    namespace: str = ""
+    host: str = ""
+    lifecycle: bool = False
+    owner: str = "UNKNOWN"
+    language: str = "UNKNOWN"
+    clock: str | None = None
+    respawn: bool = False
+    real_only: bool = False
+    device: str | None = None
+    parameters: Mapping[str, ParameterValue]
+    remaps: Mapping[str, str] = field(default_factory=dict)
+    endpoints: NodeEndpoints = field(default_factory=NodeEndpoints)
+    inside: tuple[InnerNode, ...] = ()
+
+    @property
+    def is_planner(self) -> bool:
+        """Whether it is MoveIt's move_group."""
+        return self.package == "moveit_ros_move_group" and self.executable == "move_group"
+
+    @property
+    def full_name(self) -> str:
+        """Fully qualified name, with a leading slash."""
+        return f"{self.namespace}/{self.name}"
+
+
+def node_labels(nodes: Sequence[Node]) -> tuple[str, ...]:
+    """Return a name for each node that no other of them has: the bare one, or the full one where several share it."""
+    times = Counter(node.name for node in nodes)
+    return tuple(node.name if times[node.name] == 1 else node.full_name for node in nodes)
+
+
+class InterfaceKind(str, Enum):
+    """The three interactions of ROS 2."""
+
+    TOPIC = "topic"
+    SERVICE = "service"
+    ACTION = "action"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Qos:
+    """A resolved profile; None for deadline, lifespan and lease means infinite."""
+
+    reliability: str = "reliable"
+    durability: str = "volatile"
+    history: str = "keep_last"
+    depth: int = 10
+    deadline_s: float | None = None
+    lifespan_s: float | None = None
+    liveliness: str = "automatic"
+    lease_duration_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Endpoint:
+    """One end of an interface: a node, controller or device, and the QoS it offers or requests.
+
+    Args:
+        node: what the spec calls it: a node, a controller or a device. No other end of the cell is called so: where
+            managers have controllers of one name, it is the full name.
+        full_name: fully qualified name of the node in the ROS graph.
+        targets: targets on which it stands there.
+    """
+
+    node: str
+    full_name: str
+    qos: Qos
+    path: YamlPath
+    span: Span
+    targets: tuple[str, ...] = TARGETS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulatedNetwork:
+    """What the mock's network does to each sample: seconds, and shares from 0 to 1."""
+
+    latency_s: float
+    jitter_s: float
+    loss: float
+    reordering: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Interface(Entity):
+    """A topic, service or action under its fully qualified name.
+
+    ``sources`` publish a topic or serve a service or action; ``sinks`` subscribe to it or are its clients.
+    ``derived`` interfaces follow from a device or controller and were not written by the user. ``timeout_s`` bounds a
+    response or a whole goal; ``goal_time_s`` is what a controller allows past the end of a trajectory.
+    """
+
+    kind: InterfaceKind
+    type: str
+    sources: tuple[Endpoint, ...]
+    sinks: tuple[Endpoint, ...]
+    derived: bool = False
+    frame: str | None = None
+    unit: str | None = None
+    time_source: str | None = None
+    owner: str | None = None
+    wants: str | None = None
+    rate_hz: float | None = None
+    max_age_s: float | None = None
+    transport_s: float | None = None
+    on_stale: str | None = None
+    timeout_s: float | None = None
+    goal_time_s: float | None = None
+    on_timeout: str | None = None
+    on_error: str | None = None
+    cancel_within_s: float | None = None
+    simulated: SimulatedNetwork | None = None
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        """Targets on which somebody publishes or serves it; every target where no source is declared."""
+        found = {target for source in self.sources for target in source.targets}
+        return tuple(target for target in TARGETS if target in found or not self.sources)

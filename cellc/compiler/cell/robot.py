@@ -1,0 +1,171 @@
+"""What the robot's own controller is told, and who starts its program."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from cellc.contract.transforms import Vector3
+
+Moments6 = tuple[float, float, float, float, float, float]
+"""ixx, iyy, izz, ixy, ixz, iyz in kg m^2."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load:
+    """The part of a payload that a service tells; center of mass in the tool frame in m, inertia about it."""
+
+    mass_kg: float
+    center_of_mass: Vector3
+    inertia: Moments6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Payload:
+    """Load that the robot controller is told of, as all that hangs on its tool frame.
+
+    Args:
+        center_of_mass: in the tool frame, m.
+        inertia: about the center of mass, in axes parallel to the tool frame; None where nobody states it.
+        told_by: installation or service.
+        load: the part of it that a service tells beside the tool; None where there is none.
+    """
+
+    mass_kg: float
+    center_of_mass: Vector3
+    inertia: Moments6 | None = None
+    told_by: str = "installation"
+    load: Load | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotProgram:
+    """Who starts the program on the robot's own controller, and in which mode; as written."""
+
+    played_by: str
+    mode: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Thresholds:
+    """Values at which a contact is seen, and those at which the robot stops; SI."""
+
+    lower: tuple[float, ...]
+    upper: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CollisionThresholds:
+    """Thresholds of collisions: torques of joints, forces and moments at the tool."""
+
+    torque: Thresholds
+    force: Thresholds
+    moment: Thresholds
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CartesianImpedance:
+    """Stiffness at the tool: N/m along the axes, N m/rad about them."""
+
+    translation: tuple[float, ...]
+    rotation: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Impedance:
+    """How stiff the robot's own controller holds what it is commanded; ``joint`` in N m/rad, None where unstated."""
+
+    joint: tuple[float, ...] | None = None
+    cartesian: CartesianImpedance | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ImpedanceFacts:
+    """What impedance a kind of robot takes: least and most of each, and the command interfaces on which it acts."""
+
+    joint: tuple[float, float]
+    translation: tuple[float, float]
+    rotation: tuple[float, float]
+    acts_on: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToolSerial:
+    """The serial line of a tool connector; ``port`` is the device node that it becomes on the driver's host.
+
+    ``tcp_port`` is the robot's; times of silence are in characters.
+    """
+
+    port: str
+    baud_rate: int
+    parity: str
+    stop_bits: int
+    rx_idle_chars: float | None = None
+    tx_idle_chars: float | None = None
+    tcp_port: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToolConnector:
+    """What the connector at the tool frame gives."""
+
+    voltage_v: float
+    serial: ToolSerial | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToolFacts:
+    """What the tool connector of a kind of robot can give; without a serial line there are no settings of one.
+
+    Args:
+        settings: values that a setting may have; ``spans`` are the least and the most of those that are numbers.
+    """
+
+    voltages_v: tuple[float, ...]
+    has_serial: bool = False
+    settings: Mapping[str, tuple[str | int, ...]] = field(default_factory=dict)
+    spans: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plug:
+    """What a device takes from the tool connector of a robot; ``serial`` are settings, None where it speaks none."""
+
+    voltage_v: float
+    serial: Mapping[str, str | int] | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HostProgram:
+    """A program on the host of a driver that is no node of ROS; ``system`` are packages by their keys of rosdep."""
+
+    name: str
+    package: str
+    program: str
+    arguments: tuple[str, ...] = ()
+    system: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotFacts:
+    """What the controller of a robot of this kind can be told.
+
+    Args:
+        ways: who can start its program in which mode, ``driver`` or ``person`` each with local or remote; empty where
+            set points pass through no program.
+        thresholds: whether it takes thresholds of collisions.
+        payload_service: whether a service tells it the payload; in local mode only while its program runs.
+        tcp_kind, tcp_topic: kind of controller that publishes where the TCP is, and the topic below its node.
+        load_service: whether a service tells it what it carries beside its tool.
+        impedance_facts: what impedance it takes; None where it takes none.
+        tool_facts: what the connector at its tool frame can give; None where it has none.
+    """
+
+    ways: tuple[tuple[str, str], ...] = ()
+    thresholds: bool = False
+    payload_service: bool = False
+    tcp_kind: str | None = None
+    tcp_topic: str | None = None
+    load_service: bool = False
+    impedance_facts: ImpedanceFacts | None = None
+    tool_facts: ToolFacts | None = None

@@ -1,0 +1,293 @@
+"""What surrounds the devices of a cell: computers, network, versions, owners, safety, bring-up, figures, records."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+
+from cellc.compiler.cell.entity import Entity
+from cellc.contract.pins import day_of
+from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES
+
+UNKNOWN = "UNKNOWN"
+"""The answer of a spec that does not guess; it blocks the real target and stands in the audit."""
+
+ATTEMPT_FIELDS = (
+    "attempt_id",
+    "version_tuple",
+    "calibration_id",
+    "goal_frame",
+    "goal_stamp",
+    "joint_state_age",
+    "tf_lookup_age",
+    "plan_result",
+    "controller_name",
+    "action_goal_id",
+    "speed_scaling",
+    "safety_state",
+    "fault_code",
+    "cancel/result",
+    "operator_intervention",
+)
+"""What every attempt records where the spec says ``standard``."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Clock:
+    """A clock with its bound to the others; the mock gives it ``simulated_offset_s`` and ``simulated_drift`` in s/s."""
+
+    domain: str = "ros"
+    synchronised_by: str | None = None
+    max_offset_s: float | None = None
+    simulated_offset_s: float = 0.0
+    simulated_drift: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class HardwareStatement:
+    """What somebody says of a plugin or a program that runs on the mock; ``by`` or ``date`` may be UNKNOWN."""
+
+    touches_no_hardware: bool
+    by: str
+    date: str
+
+    def is_signed(self) -> bool:
+        """Whether somebody says, with a date, that it touches no hardware."""
+        return self.touches_no_hardware and day_of(self.date) is not None and self.by.strip() not in ("", UNKNOWN)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NetworkCard:
+    """A card of a host: ``address`` with prefix length as written, ``interface`` as the operating system names it.
+
+    ``speed_bps`` is that of its link in bit/s, None where nobody says it.
+    """
+
+    address: str
+    interface: str | None = None
+    speed_bps: float | None = None
+    carries: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Host(Entity):
+    """A computer; ``scheduling`` is the preemption model of its kernel, ``nics`` are its cards by name."""
+
+    scheduling: str = UNKNOWN
+    clock: Clock = field(default_factory=Clock)
+    nics: Mapping[str, NetworkCard] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DiscoveryServer:
+    """A server of Fast DDS's discovery on a host; ``nic`` is None where the spec leaves the card open."""
+
+    host: str
+    nic: str | None
+    port: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Network:
+    """How the nodes of the cell find each other: ``discovery`` is multicast, unicast, server, localhost or off."""
+
+    domain_id: int = 0
+    discovery: str = "multicast"
+    peers: tuple[str, ...] = ()
+    servers: tuple[DiscoveryServer, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rollback:
+    """What to go back to when a new configuration fails."""
+
+    image: str = UNKNOWN
+    configuration: str = UNKNOWN
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Versions:
+    """The pinned tuple of the cell as written; devices add their own parts."""
+
+    ros: str
+    os: str = UNKNOWN
+    kernel: str = UNKNOWN
+    rmw: str = UNKNOWN
+    ros2_control: str = UNKNOWN
+    moveit: str = UNKNOWN
+    rollback: Rollback = field(default_factory=Rollback)
+
+    @property
+    def rmw_name(self) -> str:
+        """The middleware without its version, such as ``rmw_fastrtps_cpp``."""
+        return self.rmw.split()[0]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CalibrationFile:
+    """What a calibration tool wrote: its path from the spec's folder, and the hash of its bytes."""
+
+    path: str
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Calibration(Entity):
+    """A measurement that transforms rest on: ``measured`` as written, ``measured_on`` where that is a date.
+
+    ``file`` is what the transforms are taken from; None where the spec states them.
+    """
+
+    revision: int
+    measured: str = UNKNOWN
+    measured_on: datetime.date | None = None
+    method: str = UNKNOWN
+    samples: int | None = None
+    residual_m: float | None = None
+    owner: str = UNKNOWN
+    file: CalibrationFile | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ResponsibilityOwners:
+    """Owner of each responsibility."""
+
+    frames: str = UNKNOWN
+    time: str = UNKNOWN
+    limits: str = UNKNOWN
+    watchdogs: str = UNKNOWN
+    command: str = UNKNOWN
+    logging: str = UNKNOWN
+    vendor_safety: str = UNKNOWN
+    physical_stop: str = UNKNOWN
+
+    def items(self) -> Iterator[tuple[str, str]]:
+        """Yield each responsibility with its owner."""
+        return ((one.name, getattr(self, one.name)) for one in fields(self))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ApprovalOwners:
+    """Owner of each approval area."""
+
+    graph: str = UNKNOWN
+    time_tf: str = UNKNOWN
+    controller: str = UNKNOWN
+    vendor: str = UNKNOWN
+    network: str = UNKNOWN
+    safety: str = UNKNOWN
+    data: str = UNKNOWN
+
+    def items(self) -> Iterator[tuple[str, str]]:
+        """Yield each area with its owner."""
+        return ((one.name, getattr(self, one.name)) for one in fields(self))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Owners:
+    """Who answers for what."""
+
+    responsibilities: ResponsibilityOwners = field(default_factory=ResponsibilityOwners)
+    approvals: ApprovalOwners = field(default_factory=ApprovalOwners)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stop:
+    """Who stops the machine; ``path`` is hardwired, safety_bus, software or UNKNOWN."""
+
+    authority: str = UNKNOWN
+    path: str = UNKNOWN
+    independent_of: tuple[str, ...] = ()
+    evidence: tuple[str, ...] = ()
+
+
+STOPPED = ("protective_stop", "emergency_stop", "fault")
+"""What every robot can be stopped by; others are its vendor's."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recovery:
+    """The states that need recovery, who acknowledges, and what becomes of an old goal."""
+
+    states: tuple[str, ...] = STOPPED
+    acknowledge: str = "operator"
+    on_reconnect: str = "discard_goal"
+    owner: str = UNKNOWN
+    observer: str = UNKNOWN
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Safety:
+    """The safety boundary, which cellc names and never implements."""
+
+    stop: Stop = field(default_factory=Stop)
+    recovery: Recovery = field(default_factory=Recovery)
+
+
+@dataclass(frozen=True, slots=True)
+class JointFigure:
+    """A position or speed of some joint: rad or rad/s, or m or m/s where the user wrote a length (``linear``)."""
+
+    value: float
+    linear: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FirstMotion:
+    """The single-joint move of gate G6; ``joint`` is ``device/joint`` as written."""
+
+    joint: str
+    direction: str
+    max_delta: JointFigure
+    velocity: JointFigure
+    timeout_s: float
+    stop_if: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bringup:
+    """The gates by name, in order, and the first motion where it is stated."""
+
+    gates: tuple[str, ...] = (*PROMOTION_GATES, *NETWORK_GATES)
+    first_motion: FirstMotion | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kpis:
+    """Targets that the evidence is held against; None where none is stated, shares from 0 to 1."""
+
+    plan_to_execute_s: float | None = None
+    cancel_s: float | None = None
+    missed_cycles: int | None = None
+    stale_state_rejection: float | None = None
+    protective_stops: int | None = None
+    recovery_time_s: float | None = None
+    wrong_owner_events: int | None = None
+
+    def without_target(self) -> tuple[str, ...]:
+        """Name the figures without a target by their keys in the spec."""
+        return tuple(one.name.removesuffix("_s") for one in fields(self) if getattr(self, one.name) is None)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recording:
+    """What every attempt leaves behind; ``topics`` are those beyond the motion path."""
+
+    attempt_fields: tuple[str, ...] = ATTEMPT_FIELDS
+    topics: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Target:
+    """What a target runs on: ``hardware`` is mock, sim or real, ``clock`` wall or sim."""
+
+    hardware: str
+    clock: str
+
+
+TARGET_DEFAULTS: Mapping[str, Target] = {
+    "mock": Target(hardware="mock", clock="wall"),
+    "real": Target(hardware="real", clock="wall"),
+}
+"""The targets of every cell where the spec says nothing of them."""

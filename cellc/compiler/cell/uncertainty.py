@@ -1,0 +1,33 @@
+"""What sweeps draw and judge, beside what calibrations, clocks and interfaces state themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from cellc.contract.transforms import Vector3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Region:
+    """Where an object may lie about its simulated pose, or a fixed frame: half edges in m, half a turn in rad."""
+
+    half_m: Vector3
+    half_yaw_rad: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Uncertainty:
+    """What the spec says of it.
+
+    Args:
+        rotations_rad: calibration → standard deviation about each axis.
+        regions: frame → where what lies there may lie.
+        repeatability_m: arm → pose repeatability as it was measured.
+        tolerances_m: goal → farthest that the tip may really be from it.
+    """
+
+    rotations_rad: Mapping[str, float]
+    regions: Mapping[str, Region]
+    repeatability_m: Mapping[str, float]
+    tolerances_m: Mapping[str, float]

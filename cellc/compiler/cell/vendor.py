@@ -1,0 +1,86 @@
+"""What the vendor of a device says of the real one: its safety boundary, what people do at it, what it reports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cellc.contract.vocabulary import GateCode
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SafetyState:
+    """A state of the device's safety controller, how its driver reports it, and the gate that looks for it."""
+
+    name: str
+    stops: bool
+    reported: str | None = None
+    gate: GateCode = GateCode.G4
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecoveryProcedure:
+    """The way out of one state: steps in order, the human ones first; ``by`` as of a step of commissioning."""
+
+    state: str
+    steps: tuple[str, ...]
+    by: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VendorSafety:
+    """The vendor's safety boundary; no software of the cell is part of it.
+
+    Args:
+        topics: what says in which state the device is, where the cell has the controller that publishes it.
+        ending, ended: what people do at the device once nothing is claimed, before and after its driver ends.
+    """
+
+    states: tuple[SafetyState, ...] = ()
+    topics: tuple[str, ...] = ()
+    ending: tuple[str, ...] = ()
+    ended: tuple[str, ...] = ()
+    modes: tuple[str, ...] = ()
+    recovery: tuple[RecoveryProcedure, ...] = ()
+    watchdog: str | None = None
+
+    @property
+    def recoverable_stops(self) -> tuple[str, ...]:
+        """The states that stop the device and that its vendor tells the way out of."""
+        led_out = {way.state for way in self.recovery}
+        return tuple(state.name for state in self.states if state.stops and state.name in led_out)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommissioningStep:
+    """What a person does at the real device in a gate, by its vendor's procedure.
+
+    ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
+    power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
+    which the newest counts. ``run`` are commands that read; ``{address}`` in them is that of the device. ``by`` is the
+    ``driver`` or the ``adapter`` where it belongs to one of both alone.
+    """
+
+    gate: GateCode
+    does: str
+    shows: bool = False
+    powers: bool = False
+    log: tuple[str, ...] = ()
+    run: tuple[str, ...] = ()
+    by: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordSource:
+    """Where the record of an attempt has a field from: a topic of a kind of controller, or what a person reads.
+
+    Args:
+        attempt_field: the field of the record.
+        controller_kind, topic, field: the controller of the device, the name below its node, the part of the message.
+        read: where a person reads it, where no topic has it.
+    """
+
+    attempt_field: str
+    controller_kind: str | None = None
+    topic: str | None = None
+    field: str | None = None
+    read: str | None = None

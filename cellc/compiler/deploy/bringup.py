@@ -1,0 +1,398 @@
+"""Bring-up by readiness: what each step asks for, the proof that it waits for, and the effect that it must show.
+
+Four phases: ``start`` configures and observes, ``activate`` takes hardware to active whose activation moves something,
+``claim`` gives command interfaces their owners, ``move`` starts what asks for motion. On the mock the launch file takes
+the first three at once. On the real target a person releases each at its gate: a claim before the robot listens holds a
+set point that is old when it does (Universal_Robots_ROS2_Driver issue 1084), and a claim of an FR3 starts motion mode.
+Starting the processes is discovery; what follows waits for proof, whatever order they came up in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.frame import WORLD, FrameKind
+from cellc.compiler.cell.interface import TARGETS, InterfaceKind, Node
+from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, motion_clients
+from cellc.compiler.deploy.versions import compared_on
+from cellc.compiler.graph.claims import crosses_an_adapter
+from cellc.compiler.graph.enclaves import bring_up_enclave
+from cellc.compiler.link.derived import JOINT_STATE_TYPE
+from cellc.contract.bring_up import (
+    CLAIM_WATCH,
+    ActionProof,
+    Activation,
+    AloneProof,
+    BringUp,
+    BringUpStep,
+    Comparison,
+    ControllerProof,
+    HardwareActivation,
+    HardwareProof,
+    HardwareState,
+    LifecycleProof,
+    ManagedState,
+    MockProof,
+    NodeProof,
+    Proof,
+    Request,
+    Restart,
+    Target,
+    TopicProof,
+    TransformProof,
+    Transition,
+    Watch,
+)
+from cellc.contract.vocabulary import PASSIVE, Behaviour, BringUpPhase, Moment, Need
+
+WATCH = "watch"
+"""What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
+
+DEADLINE_S = 60.0
+"""How long a step waits for its proof, and for its effect."""
+
+
+def bring_up(cell: Cell) -> BringUp:
+    """Return the plan of a cell: steps of both targets in the order of their phases, and what the stopper watches."""
+    real = tuple(_steps(cell, "real"))
+    return BringUp(
+        format=1,
+        cell=cell.name,
+        enclave=bring_up_enclave(cell),
+        mock=tuple(_steps(cell, "mock")),
+        real=(*_comparisons(cell, real), *real),
+        watches=tuple(watches(cell)),
+    )
+
+
+def phases(plan: BringUp, target: Target, host: str | None = None) -> tuple[BringUpPhase, ...]:
+    """Return the phases that have a step on a target, and on a host where one is given."""
+    found = {step.phase for step in plan.steps(target) if host is None or step.host in ("", host)}
+    return tuple(phase for phase in BringUpPhase if phase in found)
+
+
+def activation(node: Node) -> str:
+    """Return the command with which a person activates a managed node that asks for motion."""
+    return f"ros2 lifecycle set {node.full_name} activate"
+
+
+def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
+    """Yield the steps on a target; each waits for what an earlier one made, on whichever host that runs."""
+    managed = [node for node in cell.nodes if node.lifecycle]
+    yield from (_configure(cell, node, target) for node in managed)
+    for manager in cell.managers:
+        yield from _observe(cell, manager, target)
+    yield from (_activate(cell, node, target) for node in managed if not asks_for_motion(cell, node))
+    for manager in cell.managers:
+        yield from _activate_hardware(cell, manager, target)
+    for manager in cell.managers:
+        yield from _claim(cell, manager, target)
+    if motion_clients(cell):
+        yield _move(cell, target)
+
+
+def _comparisons(cell: Cell, steps: tuple[BringUpStep, ...]) -> Iterator[BringUpStep]:
+    """Yield what compares each computer with the tuple that every gate is passed with, before its other steps.
+
+    One that takes no other step runs no bring-up, and is left to the person at gate G0.
+    """
+    taking = {step.host for step in steps if step.phase is BringUpPhase.START}
+    for host, parts in compared_on(cell):
+        if parts and (host in taking or not host):
+            name = f"compare_versions{host and f'_on_{host}'}"
+            asked = Comparison(kind="versions", parts=parts)
+            yield _step(BringUpPhase.START, name, host, [*_mocked(cell, "real")], asked, [])
+
+
+def _configure(cell: Cell, node: Node, target: Target) -> BringUpStep:
+    return _step(
+        BringUpPhase.START,
+        f"configure_{node.name}",
+        node.host,
+        [NodeProof(kind="node", node=node.full_name), *_mocked(cell, target)],
+        Transition(kind="transition", node=node.full_name, transition="configure"),
+        [_lifecycle(node, "inactive")],
+    )
+
+
+def _activate(cell: Cell, node: Node, target: Target) -> BringUpStep:
+    parents = dict.fromkeys(
+        frame.parent for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name
+    )
+    return _step(
+        BringUpPhase.START,
+        f"activate_{node.name}",
+        node.host,
+        [
+            *_mocked(cell, target),
+            _lifecycle(node, "inactive"),
+            *(one for parent in parents for one in _transforms(cell, target, WORLD, parent)),
+        ],
+        Transition(kind="transition", node=node.full_name, transition="activate"),
+        [_lifecycle(node, "active")],
+    )
+
+
+def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
+    """Yield the step that activates what reads states; of hardware that a person activates it sees none yet."""
+    spawned = [one.name for one in manager.controllers if target in one.targets]
+    later = _activated_later(cell, manager, target)
+    observing = tuple(one.name for one in _active(manager, target) if not _claims(cell, one, later))
+    if spawned:
+        components = (
+            _hardware(manager, device, "active")
+            for device in _components(cell, manager, target)
+            if device not in later  # or a person was faster
+        )
+        yield _step(
+            BringUpPhase.START,
+            f"observe_{manager.name}",
+            manager.host,
+            [
+                *_mocked(cell, target),
+                *components,
+                *(_controller(manager, name, "inactive") for name in spawned),
+            ],
+            Activation(kind="controllers", manager=manager.node, controllers=observing) if observing else None,
+            [_controller(manager, name, "active") for name in observing],
+        )
+
+
+def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
+    """Yield what takes hardware to active that moves by it, and restarts what read its states before it was there."""
+    devices = _activated_later(cell, manager, target)
+    read = {None, *(device.name for device in devices)}  # a broadcaster of no device reads those of all
+    for device in devices:
+        yield _step(
+            BringUpPhase.ACTIVATE,
+            f"activate_{device.name}",
+            manager.host,
+            [*_mocked(cell, target), *(_silent(cell, device) if target == "real" else ())],
+            HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
+            [_hardware(manager, device, "active")],
+        )
+    readers = (one for one in _active(manager, target) if not one.command_interfaces)
+    observing = tuple(one.name for one in readers if one.device in read)
+    if devices and observing:
+        yield _step(
+            BringUpPhase.ACTIVATE,
+            f"observe_{manager.name}_again",
+            manager.host,
+            [*_mocked(cell, target), *(_controller(manager, name, "active") for name in observing)],
+            Restart(kind="restart", manager=manager.node, controllers=observing),
+            [_controller(manager, name, "active") for name in observing],
+        )
+
+
+def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
+    later = _activated_later(cell, manager, target)
+    claiming = tuple(one.name for one in _active(manager, target) if _claims(cell, one, later))
+    if claiming:
+        yield _step(
+            BringUpPhase.CLAIM,
+            f"claim_{manager.name}",
+            manager.host,
+            [
+                *_mocked(cell, target),
+                *(_hardware(manager, device, "active") for device in _components(cell, manager, target)),
+                *(_controller(manager, name, "inactive") for name in claiming),
+                *_joint_states(cell, manager),
+                *(one for group in cell.groups for one in _transforms(cell, target, group.base_link, group.tip_frame)),
+                *_managed_nodes(cell),
+                *(_heard(cell, manager) if target == "real" else ()),
+            ],
+            Activation(kind="controllers", manager=manager.node, controllers=claiming),
+            [_controller(manager, name, "active") for name in claiming],
+        )
+
+
+def _move(cell: Cell, target: Target) -> BringUpStep:
+    """Return what must show before a node that asks for motion is started: claims, actions of adapters too, states.
+
+    For the mock that no manager runs anything but the mock: a target is a word, and the description is what moves.
+    """
+    asking = {node.name for node in motion_clients(cell)}
+    claimed = (
+        _controller(manager, one.name, "active")
+        for manager in cell.managers
+        for one in _active(manager, target)
+        if _claims(cell, one, ())
+    )
+    adapted = tuple(one.action for one in cell.adapters)
+    asked = (
+        one.name
+        for one in cell.interfaces
+        if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
+    )
+    names = (name for name in asked if name not in adapted)
+    actions = (ActionProof(kind="action", action=name) for name in (*(adapted if target == "real" else ()), *names))
+    proof: list[Proof] = [*_mocked(cell, target), *claimed, *actions, *_managed_nodes(cell)]
+    return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
+
+
+def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
+    """Yield the proofs that one cell answers, and on the mock that it is the mock.
+
+    The mock and the real cell have the same names and domain, so that one of them that nobody ended hears every request
+    of the other: what is asked, and what describes the robot, is there once.
+    """
+    describing = tuple(description_nodes(cell))
+    asked = (*(manager.node for manager in cell.managers), *(one.full_name for one in cell.nodes if one.lifecycle))
+    if nodes := tuple(dict.fromkeys((*describing, *asked))):
+        yield AloneProof(kind="alone", nodes=nodes)
+    if target == "mock":
+        hardware = (one.hardware for one in cell.devices if _on(one, "mock"))
+        plugins = tuple(sorted({one.plugins["mock"] for one in hardware if one is not None}))
+        yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in describing)
+
+
+def _step(
+    phase: BringUpPhase, name: str, host: str, proof: list[Proof], request: Request | None, effect: list[Proof]
+) -> BringUpStep:
+    return BringUpStep(
+        name=name,
+        phase=phase,
+        host=host,
+        proof=tuple(proof),
+        request=request,
+        effect=tuple(effect),
+        deadline_s=DEADLINE_S,
+    )
+
+
+def _active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
+    return (one for one in manager.controllers if one.active and target in one.targets)
+
+
+def _claims(cell: Cell, controller: Controller, later: tuple[Device, ...]) -> bool:
+    """Whether a controller is activated with those that command joints, not before them.
+
+    One that answers services is wanted before anybody claims: it says what mode the robot is in. It waits where its
+    hardware comes up later, or where it claims a joint itself, whatever its kind is called.
+    """
+    joints = {joint.name for device in cell.devices for joint in device.joints}
+    served_early = controller.behaviour in PASSIVE and controller.device not in {device.name for device in later}
+    moves = any(one.rpartition("/")[0] in joints for one in controller.command_interfaces)
+    return bool(controller.command_interfaces) and (moves or not served_early)
+
+
+def _components(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Device]:
+    return (device for device in map(cell.device, manager.devices) if _on(device, target))
+
+
+def _on(device: Device, target: str) -> bool:
+    return device.hardware is not None and target in device.hardware.targets
+
+
+def _activated_later(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
+    """Return what does not come up active: its activation moves something, or must be one call, or the spec says so."""
+    return tuple(one for one in _components(cell, manager, target) if one.comes_up != "active")
+
+
+def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device, TopicProof]]:
+    """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
+    for device in _components(cell, manager, "real"):
+        for told in () if device.hardware is None else device.hardware.heard_before_a_claim:
+            for one in manager.controllers:
+                if (one.kind, one.device) == (told.controller_kind, device.name):
+                    topic = f"{one.full_name}/{told.topic}"
+                    proof = TopicProof(kind="topic", topic=topic, type=told.type, field=told.field, value=told.value)
+                    yield device, proof
+
+
+def _heard(cell: Cell, manager: ControllerManager) -> Iterator[Proof]:
+    """Yield that a robot listens, and that the node is there which takes the claim when it no longer does."""
+    listening = tuple(proof for _, proof in _listening(cell, manager))
+    yield from listening
+    if listening:
+        yield NodeProof(kind="node", node=CLAIM_WATCH)
+
+
+def _silent(cell: Cell, device: Device) -> Iterator[TopicProof]:
+    """Yield that no program plays which would end while a device holds up its controller manager."""
+    effect = None if device.hardware is None else device.hardware.effects.get(Moment.ACTIVATE)
+    if effect is not None and Need.PROGRAM_STOPPED in effect.needs:
+        for manager in cell.managers:
+            for _, proof in _listening(cell, manager) if device.name in manager.devices else ():
+                if isinstance(proof.value, bool):
+                    yield proof.model_copy(update={"value": not proof.value})
+
+
+def watches(cell: Cell) -> Iterator[Watch]:
+    """Yield who loses a claim when a device follows no set points: of both targets, as only what is active loses it."""
+    for manager in cell.managers:
+        for device, proof in _listening(cell, manager):
+            own = {joint.name for joint in device.joints}
+            claiming = tuple(
+                one.name
+                for one in manager.controllers
+                if _claims(cell, one, ())
+                if own & set(one.joints) or (one.behaviour is Behaviour.OWN_MOTION and one.device == device.name)
+            )
+            yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
+
+
+def _component(device: Device) -> str:
+    assert device.hardware is not None
+    return device.hardware.name
+
+
+def _hardware(manager: ControllerManager, device: Device, state: HardwareState) -> HardwareProof:
+    return HardwareProof(kind="hardware", manager=manager.node, component=_component(device), state=state)
+
+
+def _controller(manager: ControllerManager, name: str, state: ManagedState) -> ControllerProof:
+    return ControllerProof(kind="controller", manager=manager.node, controller=name, state=state)
+
+
+def _lifecycle(node: Node, state: ManagedState) -> LifecycleProof:
+    return LifecycleProof(kind="lifecycle", node=node.full_name, state=state)
+
+
+def _transforms(cell: Cell, target: Target, parent: str, child: str) -> Iterator[TransformProof]:
+    """Yield the proof of a transform; on the mock none over joints behind an adapter, whose states nobody says."""
+    if target == "real" or not crosses_an_adapter(cell, parent, child):
+        yield TransformProof(kind="transform", parent=parent, child=child)
+
+
+def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:
+    own = {controller.full_name for controller in manager.controllers}
+    for interface in cell.interfaces:
+        published = any(end.full_name in own for end in interface.sources)
+        if interface.type == JOINT_STATE_TYPE and interface.sinks and published:
+            yield TopicProof(kind="topic", topic=interface.name, type=interface.type)
+
+
+def _managed_nodes(cell: Cell) -> Iterator[LifecycleProof]:
+    return (_lifecycle(node, "active") for node in cell.nodes if node.lifecycle and not asks_for_motion(cell, node))
+
+
+@dataclass(frozen=True, slots=True)
+class Spawning:
+    """What one spawner loads and configures; alternates too.
+
+    Args:
+        controllers: all that the spawner is given.
+        only: the one target on which they are spawned; None for every target. On the others their hardware is no
+            component, or lacks what they need, and a spawner would fail.
+    """
+
+    controllers: tuple[str, ...]
+    only: str | None
+
+
+def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
+    """Yield what the spawners of a manager are given, in order; the first failure in a list stops the rest of it."""
+    for only in (None, *TARGETS):
+        controllers = tuple(one.name for one in manager.controllers if _only_target(one) == only)
+        if controllers:
+            yield Spawning(controllers, only)
+
+
+def _only_target(controller: Controller) -> str | None:
+    """Return the one target on which a controller is spawned, or None for one that is spawned on every target."""
+    return controller.targets[0] if len(controller.targets) == 1 else None

@@ -1,0 +1,168 @@
+"""Which configuration this is: its id, the version tuple, what nobody has answered, and the header of its files."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from enum import Enum
+from typing import Any
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.formats.escape import shell_word
+from cellc.compiler.formats.header import Header
+from cellc.compiler.formats.numbers import rounded
+from cellc.compiler.formats.urdf.robot import robot_description
+from cellc.compiler.formats.xml_text import render
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.diagnostics import YamlPath
+from cellc.contract.manifest import ConfigurationInputs
+
+_DIGITS = 12
+
+_NOT_RESTED_ON = frozenset(
+    {
+        *("name", "places", "summary", "owners"),  # who answers is no part of what was tried
+        "packages",  # where a description was found; what it says is that of the devices
+        *("implied", "behaviours", "harmless_plugins", "harmless_programs", "hardware_packages"),  # the catalog's lists
+    }
+)
+"""Fields of a cell that leave evidence as it is."""
+_NOT_OF_AN_ENTITY = frozenset(
+    {
+        *("span", "places", "declared", "owner"),
+        *("endpoints", "inside", "version_rows", "commissioning", "mock_cannot_prove"),  # the catalog's
+        "vendor_mounts",  # the catalog's
+        "vendor_description",  # its shapes are those of the links
+        "fixed_joint_names",  # a fact of the driver, which the names of the cell follow
+        *("plug", "tool_facts", "load_service", "impedance_facts"),  # what a tool and its connector could be told
+    }
+)
+"""Fields of any part of it that do."""
+_IN_ORDER = frozenset({"joints", "pipelines", "positions", "steps"})
+"""Fields in which the order says something; elsewhere the user may write things in any order."""
+
+_OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
+_OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
+
+
+def configuration_inputs(cell: Cell) -> ConfigurationInputs:
+    """Gather what the id is taken over; the same cell on another host gives the same."""
+    urdf = render(robot_description(cell, "real"))
+    return ConfigurationInputs(
+        calibrations={name: written.revision for name, written in cell.calibrations.items()},
+        tf_publishers={frame.name: frame.authority for frame in cell.frames if frame.parent},
+        urdf_sha256=hashlib.sha256(urdf.encode()).hexdigest(),
+        cell_sha256=_digest(_settled(cell, _NOT_RESTED_ON)),
+    )
+
+
+def _digest(settled: object) -> str:
+    text = json.dumps(settled, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> object:
+    """Return a linked value as plain data: without its places, what is at its default, and order that says nothing."""
+    if is_dataclass(value) and not isinstance(value, type):
+        told = {one.name: getattr(value, one.name) for one in fields(value) if one.name not in left_out}
+        place = "path" if isinstance(told.get("path"), tuple) else None  # a stop has a path too, and that is a text
+        stated = {name: one for name, one in told.items() if name != place and one != _default(value, name)}
+        return {name: _settled(one) if name in _IN_ORDER else _unordered(_settled(one)) for name, one in stated.items()}
+    if isinstance(value, Mapping):
+        return {str(name): _settled(one) for name, one in value.items()}
+    if isinstance(value, frozenset):
+        return _unordered([_settled(one) for one in value])
+    if isinstance(value, tuple):
+        return [_settled(one) for one in value]
+    if isinstance(value, float):
+        return rounded(value)
+    if isinstance(value, Enum):
+        return str(value.value)
+    return value if isinstance(value, (str, int)) or value is None else str(value)
+
+
+def _unordered(value: object) -> object:
+    """Return a list in one order, unless it is one of numbers."""
+    if isinstance(value, list) and not all(isinstance(one, (int, float)) for one in value):
+        return sorted(value, key=lambda one: json.dumps(one, sort_keys=True))
+    return value
+
+
+def _default(value: Any, name: str) -> object:
+    of: Field[Any] = value.__dataclass_fields__[name]
+    return of.default if of.default_factory is MISSING else of.default_factory()
+
+
+def configuration_id(inputs: ConfigurationInputs) -> str:
+    """Return ``cfg-`` and 12 hexadecimal digits; the text of the URDF follows from the rest, but for its order."""
+    return "cfg-" + _digest(inputs.model_dump(exclude={"urdf_sha256"}))[:_DIGITS]
+
+
+def version_tuple(cell: Cell) -> dict[str, str]:
+    """Return every part by name: ``kernel``, ``rollback.image``, ``arm.firmware``."""
+    versions = cell.versions
+    parts = {name: str(getattr(versions, name)) for name in _OF_CELL}
+    parts |= {
+        "rollback.image": versions.rollback.image,
+        "rollback.configuration": versions.rollback.configuration,
+    }
+    for device in cell.devices:
+        names = _OF_DEVICE[:2] if device.is_only_switched else _OF_DEVICE
+        parts |= {f"{device.name}.{name}": device.versions.part(name) for name in names}
+    return parts
+
+
+@dataclass(frozen=True, slots=True)
+class OpenQuestion:
+    """One UNKNOWN: what is not known, and where the answer belongs."""
+
+    subject: str
+    path: YamlPath
+
+
+def open_questions(graph: CellGraph) -> tuple[OpenQuestion, ...]:
+    """Return the questions that block the real target, versions first."""
+    return (*_versions(graph.cell), *_owners(graph), *_safety(graph.cell), *_effects(graph.cell))
+
+
+def _versions(cell: Cell) -> Iterator[OpenQuestion]:
+    for name, value in version_tuple(cell).items():
+        if value == UNKNOWN:
+            of, _, part = name.rpartition(".")
+            device = of in {device.name for device in cell.devices}
+            path = ("devices", of, part) if device else ("versions", *name.split("."))
+            yield OpenQuestion(f"{part} of {of}" if of else name, path)
+    for one in cell.devices:
+        if one.kinematics is not None and one.kinematics.calibration is None:
+            yield OpenQuestion(f"kinematic calibration of {one.name}", (*one.path, "calibration"))
+
+
+def _owners(graph: CellGraph) -> Iterator[OpenQuestion]:
+    for item in graph.responsibilities.items:
+        if item.open:
+            yield OpenQuestion(f"owner of {item.kind} {item.name}", item.path)
+
+
+def _safety(cell: Cell) -> Iterator[OpenQuestion]:
+    stop = cell.safety.stop
+    for name, value in (("authority", stop.authority), ("path", stop.path)):
+        if value == UNKNOWN:
+            yield OpenQuestion(f"stop {name}", ("safety", "stop", name))
+
+
+def _effects(cell: Cell) -> Iterator[OpenQuestion]:
+    for device in cell.devices:
+        if device.unknown_effects:
+            yield OpenQuestion(f"motion of {device.name} at its start", (*device.path, "model"))
+
+
+def header_of(cell: Cell) -> Header:
+    """Build the header of a cell's files.
+
+    The user may have named the spec from anywhere, so that the command names it from where cells are kept.
+    """
+    file = cell.places.file_name
+    return Header(cell.name, f"cellc build {shell_word(f'cells/{cell.name}/{file}')}")

@@ -1,0 +1,375 @@
+"""Subjects of gate lines: the things of a cell, each with the fields that a text may name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.deploy.bringup import watches
+from cellc.compiler.deploy.configuration import version_tuple
+from cellc.compiler.deploy.files import is_servo
+from cellc.compiler.deploy.gate_motion import (
+    Values,
+    cancels,
+    endpoint_command,
+    first_motion,
+    guided,
+    jogged,
+    missing_first_motion,
+    real_actions,
+    released,
+    small_goal,
+    stop_reasons,
+    unguarded,
+)
+from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
+from cellc.compiler.deploy.recording import record_command
+from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_mock, start_real
+from cellc.compiler.deploy.versions import installed_parts
+from cellc.compiler.formats.escape import shell_word
+from cellc.compiler.formats.header import Header
+from cellc.compiler.formats.numbers import positive_zero, shortest
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.link.derived import JOINT_STATE_TYPE
+from cellc.contract.bring_up import CLAIM_WATCH
+from cellc.contract.pins import is_commit, last_word
+from cellc.contract.vocabulary import BringUpPhase, Feature, GateCode, features
+
+Row = Mapping[str, str]
+CELL = "cell"
+"""The subject of a line that is written once."""
+
+
+def cell_row(cell: Cell, header: Header, code: str) -> Row:
+    """Return what every text and command may name; ``record`` is for a bag of one gate."""
+    stop = cell.safety.stop
+    return {
+        "gate": code,
+        "cell": cell.name,
+        "build": header.command,
+        "description": f"generated/{cell.name}/urdf/{cell.name}.real.urdf",
+        "start_mock": start_mock(cell),
+        "record": " \\\n  ".join(record_command(cell, f"{code}-bag")),
+        "domain": str(cell.network.domain_id),
+        "stop_authority": stop.authority,
+        "stop_path": stop.path,
+        "observer": cell.safety.recovery.observer,
+        "attempt_fields": ", ".join(cell.recording.attempt_fields),
+    }
+
+
+def _installed(graph: CellGraph) -> Iterator[Values]:
+    for part in installed_parts(graph.cell):
+        if not is_commit(last_word(part.text)):
+            yield part.name, part.text, part.command
+
+
+def _built(graph: CellGraph) -> Iterator[Values]:
+    """Yield what is pinned to a commit, which the source that was built shows and no version of a package."""
+    for part in installed_parts(graph.cell):
+        if is_commit(last_word(part.text)):
+            yield part.name, part.text, part.command
+
+
+def _visible(graph: CellGraph) -> Iterator[Values]:
+    shown = {part.name for part in installed_parts(graph.cell)}
+    for name, value in version_tuple(graph.cell).items():
+        if value != UNKNOWN and name not in shown:
+            yield name, value
+
+
+def _unknown(graph: CellGraph) -> Iterator[Values]:
+    return ((name,) for name, value in version_tuple(graph.cell).items() if value == UNKNOWN)
+
+
+def _calibrated_frames(graph: CellGraph) -> Iterator[Values]:
+    return ((one.name, one.calibration) for one in graph.cell.frames if one.calibration is not None)
+
+
+def _success(graph: CellGraph) -> Iterator[Values]:
+    """Yield the rehearsals that must succeed often enough, with least share and confidence."""
+    for one in graph.cell.rehearsals:
+        if one.success is not None:
+            yield one.name, f"{one.success:.6g}", f"{one.confidence:.6g}"
+
+
+def _mock_statements(graph: CellGraph) -> Iterator[Values]:
+    return ((device.name, name, said.by, said.date) for device, name, said in graph.cell.signed_for_mock())
+
+
+def _managers(graph: CellGraph) -> Iterator[Values]:
+    return ((f"{manager.namespace}/controller_manager",) for manager in graph.cell.managers)
+
+
+def _mock_actions(graph: CellGraph) -> Iterator[Values]:
+    return ((one.action,) for one in graph.cell.controllers if one.action and "mock" in one.targets)
+
+
+def _joint_states(graph: CellGraph) -> Iterator[Values]:
+    return ((one.name,) for one in _on_real(graph) if one.type == JOINT_STATE_TYPE and one.sinks)
+
+
+def _components(graph: CellGraph) -> Iterator[Values]:
+    """Yield the startup state of each component of the real target, and who sets it."""
+    for manager in graph.cell.managers:
+        for device in map(graph.cell.device, manager.devices):
+            if device.hardware is not None and "real" in device.hardware.targets:
+                whose = "vendor default" if device.initial_state is None else "set in the spec"
+                yield device.hardware.name, device.comes_up, whose
+
+
+def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
+    for node in graph.cell.nodes:
+        if node.lifecycle:
+            yield node.full_name, "inactive" if asks_for_motion(graph.cell, node) else "active"
+
+
+def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
+    for device in graph.cell.devices:
+        for gate in GateCode:
+            stops = [one for one in device.safety.states if one.stops and one.gate is gate]
+            if stops:
+                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(one)}" for one in device.safety.topics)
+                states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
+                yield device.name, states, "\n".join(echoes), gate
+
+
+def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
+    text = graph.cell.text
+    for device in graph.cell.devices:
+        if device.payload is not None:
+            payload = (*device.path, "payload")
+            moments = text(*payload, "inertia")
+            inertia = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
+            stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), inertia
+            yield *stated, device.tool_frame or device.root_link, device.payload.told_by
+
+
+def _tool_centers(graph: CellGraph) -> Iterator[Values]:
+    """Yield the TCP that the robot's own controller must have, and the command that shows it."""
+    for device in graph.cell.devices:
+        if device.tcp is None or device.tool_frame is None:
+            continue
+        pose = graph.frames.pose_in(device.tcp, device.tool_frame)
+        if pose is not None:
+            xyz = _figures((1000.0 * one for one in pose.position), 2)
+            turn = _figures(pose.rotation_vector(), 4)
+            rpy = _figures(map(math.degrees, pose.rpy()), 2)
+            yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph.cell, device)
+
+
+def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
+    for device in graph.cell.devices:
+        if device.tool_connector is not None:
+            voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
+            links = ((one.name, one.connection) for one in graph.cell.devices)
+            tools = (name for name, link in links if link is not None and link.through == device.name)
+            yield device.name, voltage, ", ".join(tools) or "every connected tool"
+
+
+def _servo(graph: CellGraph) -> Iterator[Values]:
+    """Yield what MoveIt Servo commands, what starts it, and the command that shows the ends of its topic."""
+    servo = graph.cell.servo
+    if servo is not None:
+        (node,) = (one for one in graph.cell.nodes if is_servo(graph.cell, one))
+        service = "switch_command_type" if Feature.PLUGIN_LISTS in features(graph.cell.distro) else "start_servo"
+        speeds = (graph.cell.text("motion", "servo", name) for name in ("linear", "rotational", "joint"))
+        timeout = shortest(servo.command_timeout_s)
+        command = endpoint_command(graph.cell, InterfaceKind.TOPIC, servo.topic)
+        yield node.full_name, f"{node.full_name}/{service}", servo.controller, *speeds, timeout, command
+
+
+def _figures(values: Iterable[float], digits: int) -> str:
+    return " ".join(f"{positive_zero(round(value, digits)):.{digits}f}" for value in values)
+
+
+def _shows_center(cell: Cell, device: Device) -> str:
+    """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
+    kind = device.robot.tcp_kind
+    telling = (one for one in cell.controllers if (one.kind, one.device) == (kind, device.name) and one.active)
+    one = next(telling, None)
+    return "" if one is None else f"timeout 10 ros2 topic echo --once {one.full_name}/{device.robot.tcp_topic}"
+
+
+def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) -> Iterator[Values]:
+    """Yield the vendors' steps for people in the gates, or the signs that must show there after a release.
+
+    Steps that power the drives are yielded separately: a stop is tested on powered drives.
+    """
+    for device in graph.cell.devices:
+        for step in device.commissioning:
+            if (step.shows, step.powers) == (shows, powers):
+                commands = (*(_addressed(device, command) for command in step.run), *_of_this_launch(step.log))
+                yield device.name, step.does, "\n".join(commands), step.gate
+
+
+def _addressed(device: Device, command: str) -> str:
+    address = UNKNOWN if device.connection is None else device.connection.address or UNKNOWN
+    return command.replace("{address}", shell_word(address))
+
+
+def _of_this_launch(lines: tuple[str, ...]) -> Iterator[str]:
+    """Yield commands that print the last line with one of these texts in the log of the newest hardware launch.
+
+    Each launch has a folder of its own below that of the logs. An earlier run's line would be taken for this one's, so
+    that no line is an answer too, and the name of the file, with its time, is printed above it.
+    """
+    if lines:
+        wanted = " ".join(f"-e {shell_word(line)}" for line in lines)
+        managers = 'grep -lF -e ros2_control_node "$(printenv ROS_LOG_DIR || echo ~/.ros/log)"/*/launch.log'
+        newest = f"{managers} | xargs -r -d '\\n' ls -t | head -n 1 | xargs -r -d '\\n'"
+        yield f"{newest} ls -l"
+        yield f"{newest} grep -hF {wanted} | tail -n 1"
+
+
+def _nominal_devices(graph: CellGraph) -> Iterator[Values]:
+    for device in graph.cell.devices:
+        if device.kinematics is not None and device.kinematics.calibration is None:
+            file = f"{graph.cell.name}/{device.name}_calibration.yaml"
+            target = f'"$(pwd)"/{shell_word(f"cells/{file}")}'
+            command = _addressed(device, device.kinematics.command).replace("FILE", target)
+            yield device.name, device.kinematics.state, f"cells/{file}", command
+
+
+def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
+    for device in graph.cell.devices:
+        one = None if device.kinematics is None else device.kinematics.calibration
+        if one is not None:
+            path = f"cells/{graph.cell.name}/{one.name}"
+            yield device.name, one.name, one.hash, one.measured, one.owner, one.sha256, path
+
+
+def _cards(graph: CellGraph) -> Iterator[Values]:
+    return ((nic.full_name, nic.text, ", ".join(nic.carries) or "no declared traffic") for nic in graph.network.nics)
+
+
+def _reached_devices(graph: CellGraph) -> Iterator[Values]:
+    for one in graph.network.devices:
+        if one.text is not None:
+            yield one.host, one.device, one.nic or "not stated", one.text
+
+
+def _devices(graph: CellGraph) -> Iterator[Values]:
+    for one in graph.cell.devices:
+        safety = " and its safety state" if one.safety.states else ""
+        yield one.name, one.versions.serial, one.versions.firmware, safety
+
+
+def _interfaces(graph: CellGraph) -> Iterator[Values]:
+    for one in _on_real(graph):
+        starts, ends = _ends_on_real(graph.cell, one)
+        command = endpoint_command(graph.cell, one.kind, one.name)
+        yield one.name, ", ".join(starts) or "none", ", ".join(ends) or "none", command
+
+
+def _ends_on_real(cell: Cell, interface: Interface) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the full names of publishers or servers, and of subscribers or clients, on the real target.
+
+    A driver's node listens to the controllers of its robot, the stopper of claims to what it watches, and a planner has
+    a client of each action that it executes on. A person who compares the graph with the page finds them all.
+    """
+
+    def named(ends: tuple[Endpoint, ...]) -> Iterator[str]:
+        for end in ends:
+            if "real" in end.targets:
+                yield end.full_name + (" (from G7 on)" if end.full_name in cell.started_late else "")
+
+    sinks = dict.fromkeys((*named(interface.sinks), *_beside(cell, interface)))
+    return tuple(dict.fromkeys(named(interface.sources))), tuple(sinks)
+
+
+def _beside(cell: Cell, interface: Interface) -> Iterator[str]:
+    """Yield subscribers and clients that the spec does not name."""
+    for node in cell.nodes if interface.kind is not InterfaceKind.ACTION else ():
+        asked = node.endpoints.requests if interface.kind is InterfaceKind.SERVICE else node.endpoints.subscribes
+        if interface.name in {node.remaps.get(one, one) for one in asked}:
+            yield node.full_name
+    if any(watch.while_holds.topic == interface.name for watch in watches(cell)):
+        yield CLAIM_WATCH
+
+
+def _streams(graph: CellGraph) -> Iterator[Values]:
+    for one in _on_real(graph):
+        if one.kind is InterfaceKind.TOPIC and one.rate_hz is not None:
+            # What is measured is the sum of all sources, and the interface has the rate of the slowest manager.
+            several = f" or more ({len(one.sources)} sources)" if len(one.sources) > 1 else ""
+            age = "no age limit" if one.max_age_s is None else f"no sample older than {shortest(one.max_age_s)} s"
+            yield one.name, f"{shortest(one.rate_hz)} Hz{several}", age
+
+
+def _bounded_clocks(graph: CellGraph) -> Iterator[Values]:
+    for host in graph.cell.hosts.values():
+        if host.clock.max_offset_s is not None:
+            yield host.name, graph.cell.text(*host.path, "clock", "max_offset")
+
+
+def _on_real(graph: CellGraph) -> Iterator[Interface]:
+    return (interface for interface in graph.cell.interfaces if "real" in interface.targets)
+
+
+def _each(values: tuple[str, ...]) -> Iterator[Values]:
+    return ((value,) for value in values)
+
+
+_FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name", "si")
+_SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
+    "installed_part": (("part", "version", "command"), _installed),
+    "built_part": (("part", "version", "command"), _built),
+    "visible_part": (("part", "version"), _visible),
+    "unknown_part": (("part",), _unknown),
+    "nominal_device": (("device", "state", "file", "command"), _nominal_devices),
+    "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
+    "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
+    "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
+    "success": (("rehearsal", "share", "confidence"), _success),
+    "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
+    "manager": (("manager",), _managers),
+    "component": (("component", "state", "whose"), _components),
+    "mock_action": (("action",), _mock_actions),
+    "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),
+    "joint_states": (("topic",), _joint_states),
+    "managed_node": (("node", "state"), _managed_nodes),
+    "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
+    "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "told_by"), _loaded_devices),
+    "tool_center": (("device", "tcp", "frame", "xyz", "turn", "rpy", "command"), _tool_centers),
+    "tool_connector": (("device", "voltage", "tools"), _tool_connectors),
+    "servo": (("node", "starts", "controller", "linear", "rotational", "joint", "timeout", "command"), _servo),
+    "stop_evidence": (("evidence",), lambda graph: _each(graph.cell.safety.stop.evidence)),
+    "first_motion": (_FIRST_MOTION, first_motion),
+    "small_goal": ((*_FIRST_MOTION, "command", "cancel"), small_goal),
+    "jogged": (_FIRST_MOTION, jogged),
+    "guided": ((*_FIRST_MOTION, "does"), guided),
+    "missing_first_motion": ((), missing_first_motion),
+    "stop_reason": (("reason",), stop_reasons),
+    "vendor_step": (("device", "does", "command", "gate"), _by_vendors),
+    "vendor_power": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, powers=True)),
+    "vendor_sign": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, shows=True)),
+    "real_activation": (("command",), lambda graph: released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
+    "real_claim": (("command",), lambda graph: released(graph, CLAIM, BringUpPhase.CLAIM)),
+    "real_motion": (("where", "command"), lambda graph: move_real(graph.cell)),
+    "real_action": (("action",), real_actions),
+    "cancel": (("action", "seconds", "service"), cancels),
+    "unguarded": (("device", "name", "type", "does", "command"), unguarded),
+    "card": (("card", "address", "carries"), _cards),
+    "reached_device": (("host", "device", "card", "address"), _reached_devices),
+    "device": (("device", "serial", "firmware", "safety"), _devices),
+    "interface": (("interface", "starts", "ends", "command"), _interfaces),
+    "stream": (("topic", "rate", "age"), _streams),
+    "bounded_clock": (("host", "offset"), _bounded_clocks),
+    "group": (("tip", "base"), lambda graph: ((one.tip_frame, one.base_link) for one in graph.cell.groups)),
+    "described_node": (("node",), lambda graph: _each(description_nodes(graph.cell))),
+}
+_OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")
+
+FIELDS: Mapping[str, Values] = {
+    CELL: ("gate", *_OF_CELL, "observer", "attempt_fields"),
+    **{name: fields for name, (fields, _) in _SUBJECTS.items()},
+}
+"""Fields that a text of each subject may name. Every text may name those of the cell."""
+
+ROWS: Mapping[str, Callable[[CellGraph], Iterator[Values]]] = {name: rows for name, (_, rows) in _SUBJECTS.items()}
+"""The values of the fields, once for each subject that a cell has."""

@@ -1,0 +1,200 @@
+"""Gates G0 to G7 and layers L1 to L6 for a cell: the prose of ``gates.yaml`` with what the cell fills in."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from string import Formatter
+from typing import Annotated
+
+from pydantic import Field, Strict, field_validator, model_validator
+
+from cellc.compiler.catalog.catalog_model import CatalogModel, Text
+from cellc.compiler.catalog.read_model import read_model
+from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_row
+from cellc.compiler.formats.escape import code, shell_word
+from cellc.compiler.formats.header import Header
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.vocabulary import GateCode
+
+_FIELD = re.compile(r"`\{(\w+)\}`|\{(\w+)\}")
+_COMMANDS = ("build", "cancel", "command", "record", "start_mock")
+"""Fields that are commands; every other is one word of a command."""
+
+FILE = Path(__file__).with_name("gates.yaml")
+_STARTS = ("ros2 launch ", "ros2 bag record ")
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One line to tick; ``commands`` read and never change anything at the cell, or start what its gate releases."""
+
+    text: str
+    commands: tuple[str, ...] = ()
+
+    @property
+    def starts(self) -> bool:
+        """Whether it starts a part of the cell that stays in its shell, rather than reads and ends."""
+        return any(command.startswith(_STARTS) for command in self.commands)
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """One gate of a cell.
+
+    Args:
+        shows: what the passed gate proves, in one phrase.
+        state: state that the robot or its drives are in.
+        evidence: name of the file that the gate must leave.
+        owner: who signs, from the spec.
+        stop: conditions that stop the gate.
+        measured: values that are measured or read back, and recorded.
+    """
+
+    code: GateCode
+    title: str
+    shows: str
+    state: str
+    checks: tuple[Check, ...]
+    evidence: str
+    owner: str
+    stop: tuple[str, ...]
+    measured: tuple[str, ...] = ()
+
+    @property
+    def key_command(self) -> str:
+        """The first command that reads and has no pipe; empty for a gate without one."""
+        read = (command for check in self.checks if not check.starts for command in check.commands)
+        return next((command for command in read if "|" not in command), "")
+
+
+class Line(CatalogModel):
+    """A text that is written once for each subject, with its commands."""
+
+    of: str = CELL
+    text: Text
+    each: str | None = None
+    run: tuple[Text, ...] = ()
+
+    @field_validator("of", "each")
+    @classmethod
+    def _exists(cls, subject: str | None) -> str | None:
+        if subject is not None and subject not in FIELDS:
+            raise ValueError(f"expected one of {', '.join(FIELDS)}, got `{subject}`")
+        return subject
+
+    @model_validator(mode="after")
+    def _names_its_subject(self) -> Line:
+        of_text = {*FIELDS[CELL], *FIELDS[self.of]}
+        of_commands = {*of_text, *FIELDS[self.each or CELL]}
+        for text, known in ((self.text, of_text), *((command, of_commands) for command in self.run)):
+            unknown = {name for _, name, _, _ in Formatter().parse(text) if name is not None} - known
+            if unknown:
+                raise ValueError(f"`{self.of}` has no {', '.join(sorted(unknown))}")
+        return self
+
+
+class GateText(CatalogModel):
+    """The prose of a gate; ``signed_by`` names the field of the spec with its owner."""
+
+    code: Annotated[GateCode, Strict(False)]
+    title: Text
+    shows: Text
+    state: Text
+    evidence: Text
+    signed_by: Text
+    checks: tuple[Line, ...] = Field(min_length=1)
+    stop: tuple[Line, ...] = Field(min_length=1)
+    measured: tuple[Text, ...] = ()
+
+
+class GateTexts(CatalogModel):
+    """All gates: from the powered-off manifest to a trajectory, and from the cable to the command path."""
+
+    promotion: tuple[GateText, ...]
+    network: tuple[GateText, ...]
+
+
+@cache
+def gate_texts() -> GateTexts:
+    """Return the prose of all gates.
+
+    Raises:
+        ValueError: the file of the package is not what its model says; tests hold that it is.
+    """
+    read = read_model(FILE, FILE.name, GateTexts)
+    if read.value is None:
+        raise ValueError("; ".join(f"{found.span}: {found.message}" for found in read.diagnostics))
+    return read.value[0]
+
+
+def promotion_gates(graph: CellGraph, header: Header) -> tuple[Gate, ...]:
+    """Return gates G0 to G7 in order."""
+    return tuple(_gate(text, graph, header) for text in gate_texts().promotion)
+
+
+def network_gates(graph: CellGraph, header: Header) -> tuple[Gate, ...]:
+    """Return layers L1 to L6 in order."""
+    return tuple(_gate(text, graph, header) for text in gate_texts().network)
+
+
+def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
+    base = cell_row(graph.cell, header, text.code)
+    return Gate(
+        code=text.code,
+        title=text.title,
+        shows=text.shows,
+        state=text.state,
+        checks=tuple(check for line in text.checks for check in _checks(line, graph, base)),
+        evidence=text.evidence,
+        owner=_owners(graph)[text.signed_by],
+        stop=tuple(check.text for line in text.stop for check in _checks(line, graph, base)),
+        measured=text.measured,
+    )
+
+
+def _owners(graph: CellGraph) -> Mapping[str, str]:
+    owners = graph.cell.owners
+    return {
+        **{f"approvals.{name}": owner for name, owner in owners.approvals.items()},
+        **{f"responsibilities.{name}": owner for name, owner in owners.responsibilities.items()},
+        "recovery.observer": graph.cell.safety.recovery.observer,
+    }
+
+
+def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
+    repeated = tuple(_rows(line.each or CELL, graph, base["gate"]))
+    for row in _rows(line.of, graph, base["gate"]) if repeated else ():
+        filled = {**base, **row}
+        words = ({name: _word(name, value) for name, value in {**filled, **other}.items()} for other in repeated)
+        commands = (command.format_map(known) for known in words for command in line.run)
+        yield Check(_said(line.text, filled), tuple(command for command in commands if command))
+
+
+def _said(text: str, row: Row) -> str:
+    """Return a text with its fields filled in; text between backticks is code."""
+    return _FIELD.sub(lambda found: code(row[found[1]]) if found[1] else row[found[2]], text)
+
+
+def _word(field: str, value: str) -> str:
+    return value if field in _COMMANDS else shell_word(value)
+
+
+def _rows(subject: str, graph: CellGraph, gate: str) -> Iterator[Row]:
+    """Yield what a subject fills in, once for each of it; the cell itself is one, and people act gate by gate."""
+    if subject == CELL:
+        yield {}
+        return
+    for values in graph.once(_listed(subject)):
+        row = dict(zip(FIELDS[subject], values, strict=True))
+        if row.get("gate", gate) == gate:
+            yield row
+
+
+@cache
+def _listed(subject: str) -> Callable[[CellGraph], tuple[tuple[str, ...], ...]]:
+    """Return what lists a subject; the lines of all gates ask for the same few."""
+    return lambda graph: tuple(ROWS[subject](graph))

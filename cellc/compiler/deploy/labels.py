@@ -1,0 +1,221 @@
+"""Labels of the arrows in the cell's graph: interfaces, claims, drivers and the physical stop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.cell.device import Device, DeviceDriver
+from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.formats.numbers import shortest
+from cellc.contract.vocabulary import PASSIVE, Behaviour
+
+TF_RATE_HZ = 20.0
+"""Default of robot_state_publisher's ``publish_frequency``; the launch file states it."""
+
+_TRANSFORMS = "tf2_msgs/msg/TFMessage"
+# What a type says where the spec need not: TF names two frames in each transform, joints have none.
+_FRAMES = {
+    _TRANSFORMS: "in each transform",
+    "sensor_msgs/msg/JointState": "joints",
+    "control_msgs/action/FollowJointTrajectory": "joints",
+    "control_msgs/action/GripperCommand": "joints",
+    "control_msgs/action/ParallelGripperCommand": "joints",
+    "std_msgs/msg/String": "none",
+    "sensor_msgs/msg/Image": "of its header",
+    "sensor_msgs/msg/PointCloud2": "of its header",
+    "sensor_msgs/msg/CameraInfo": "of its header",
+}
+_UNSTAMPED = ("std_msgs/msg/",)
+_PLAIN_TEXT = "std_msgs/msg/String"
+_NOT_STATED = "not stated"
+# REP-103: SI and radians; by the joint's type.
+_UNITS = {
+    "position": ("rad", "m"),
+    "velocity": ("rad/s", "m/s"),
+    "acceleration": ("rad/s^2", "m/s^2"),
+    "effort": ("Nm", "N"),
+}
+
+_NOTHING = "no driver in the catalog"
+
+
+def interface_facts(interface: Interface) -> Iterator[str]:
+    """Yield type, frame, unit, rate, time source, owner and failure behavior; what is not stated says so."""
+    yield f"{interface.kind.value} {interface.type}, {rate_label(interface)}"
+    yield f"frame {frame_label(interface)}, unit {_unit(interface)}, time {_time(interface)}"
+    yield f"owner {interface.owner or _NOT_STATED}; {failure_label(interface)}"
+
+
+def unused(cell: Cell) -> tuple[tuple[Interface, ...], ...]:
+    """Return interfaces without a reader or client in the cell, grouped by server and owner."""
+    found: dict[tuple[object, ...], list[Interface]] = {}
+    for one in cell.interfaces:
+        if one.sources and not one.sinks:
+            offered_by = frozenset(end.full_name for end in one.sources)
+            found.setdefault((offered_by, one.kind, one.owner), []).append(one)
+    return tuple(map(tuple, found.values()))
+
+
+def unused_title(group: tuple[Interface, ...]) -> str:
+    """Return the title of interfaces without a user in the cell."""
+    kind, use = group[0].kind, "reads" if group[0].kind is InterfaceKind.TOPIC else "calls"
+    return f"{len(group)} {kind.value}{'s' if len(group) > 1 else ''} that no node of this cell {use}"
+
+
+def unused_facts(group: tuple[Interface, ...]) -> Iterator[str]:
+    """Yield the names of interfaces without a user, and their owner; the contract has the rest."""
+    yield ", ".join(one.name for one in group)
+    yield f"owner {group[0].owner or _NOT_STATED}"
+
+
+def frame_label(interface: Interface) -> str:
+    """Return the frame of an interface: the stated one, otherwise what its type says."""
+    return interface.frame or _FRAMES.get(interface.type, _NOT_STATED)
+
+
+def _unit(interface: Interface) -> str:
+    return interface.unit or ("none" if interface.type == _PLAIN_TEXT else "per message type")
+
+
+def _time(interface: Interface) -> str:
+    return interface.time_source or ("none, unstamped" if interface.type.startswith(_UNSTAMPED) else _NOT_STATED)
+
+
+def rate_label(interface: Interface) -> str:
+    """Return how often an interface is used."""
+    if interface.rate_hz is not None:
+        return f"{shortest(interface.rate_hz)} Hz"
+    if interface.kind is not InterfaceKind.TOPIC:
+        return "on request"
+    if _latched(interface):
+        return "once, latched"
+    if interface.type == _TRANSFORMS:
+        others = ", dynamic frames at their own rate" if len(interface.sources) > 1 else ""
+        return f"{shortest(TF_RATE_HZ)} Hz{others}"
+    return "rate not stated"
+
+
+def _latched(interface: Interface) -> bool:
+    return bool(interface.sources) and all(one.qos.durability == "transient_local" for one in interface.sources)
+
+
+def failure_label(interface: Interface) -> str:
+    """Return what happens on each failure that the spec speaks of."""
+    return ", ".join(_failures(interface)) or "failure not stated"
+
+
+def _failures(interface: Interface) -> Iterator[str]:
+    if interface.on_stale is not None:
+        age = "" if interface.max_age_s is None else f" after {shortest(interface.max_age_s)} s"
+        yield f"stale{age}: {interface.on_stale}"
+    elif interface.kind is InterfaceKind.TOPIC and _latched(interface):
+        yield "missing: readers wait"
+    if interface.timeout_s is not None:
+        yield f"timeout after {shortest(interface.timeout_s)} s: {interface.on_timeout or _NOT_STATED}"
+    elif interface.kind is InterfaceKind.ACTION:
+        yield "no timeout stated"
+    if interface.goal_time_s is not None:
+        yield f"ends at most {shortest(interface.goal_time_s)} s after its trajectory"
+    if interface.cancel_within_s is not None:
+        yield f"cancel holds within {shortest(interface.cancel_within_s)} s"
+    if interface.on_error is not None:
+        yield f"error: {interface.on_error}"
+
+
+def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) -> Iterator[str]:
+    """Yield interfaces, frame, unit, rate, time source, owner, failure behavior and hardware of a claim."""
+    device = cell.device(controller.device) if controller.device is not None else None
+    rate = controller.update_rate_hz or manager.update_rate_hz
+    yield "; ".join(_claims(controller))
+    yield (
+        f"frame joints, unit {units(cell, controller)}, {shortest(rate)} Hz, time of the update loop on "
+        f"{manager.host or 'its host'}"
+    )
+    owner = cell.owners.responsibilities.command
+    yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(cell, controller)}"
+    if device is not None:
+        state = "active from startup" if controller.active else "alternate, inactive at startup"
+        through = f"through {real_driver(device)}" if "real" in controller.targets else "only on the mock"
+        yield f"{through}; {state}; architecture: {device.architecture}"
+
+
+def _claims(controller: Controller) -> Iterator[str]:
+    """Yield what is claimed, for each target by itself where they differ."""
+    by_target = {target: ", ".join(folded(controller.claims(target))) for target in controller.targets}
+    if len(set(by_target.values())) == 1:
+        yield from dict.fromkeys(by_target.values())
+    else:
+        yield from (f"{claims} on {ON_TARGET[target]}" for target, claims in by_target.items())
+
+
+ON_TARGET = {"mock": "the mock", "real": "real hardware"}
+"""Names of the targets for people."""
+
+
+def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[str]:
+    """Yield program, goals, owner and watchdog of what moves a device past every controller on real hardware."""
+    goals = ", ".join(action for action, _ in driver.actions.values()) or "none declared"
+    yield f"{driver.program}, on real hardware; no controller claims anything there"
+    yield f"goals: {goals}; frame joints, on request, time of the driver"
+    watched = watched_stream(cell, device) or device.safety.watchdog or _NOT_STATED
+    yield f"owner {cell.owners.responsibilities.vendor_safety}; watchdog: {watched}"
+    yield f"architecture: {device.architecture}"
+
+
+def watched_stream(cell: Cell, device: Device) -> str | None:
+    """Return what an adapter does when commands stop arriving; None for a device without an adapter."""
+    adapted = next((one for one in cell.adapters if one.device == device.name), None)
+    if adapted is None:
+        return None
+    silence, stop = shortest(adapted.command_timeout_s), shortest(adapted.stop_time_s)
+    return f"stops after {silence} s without commands, standstill within {stop} s"
+
+
+def stop_facts(cell: Cell) -> Iterator[str]:
+    """Yield path, independence and owner of the physical stop, which is no message."""
+    stop, recovery = cell.safety.stop, cell.safety.recovery
+    independent = ", ".join(stop.independent_of) or "nothing stated"
+    yield f"path {stop.path}, independent of {independent}; no message, frame or clock"
+    yield (
+        f"owner {cell.owners.responsibilities.physical_stop}; recovery acknowledged by {recovery.acknowledge}, "
+        f"owned by {recovery.owner}"
+    )
+
+
+def units(cell: Cell, controller: Controller) -> str:
+    """Return the units of what a controller commands, each once."""
+    types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
+    found = (
+        _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
+        for joint, _, kind in (name.rpartition("/") for name in controller.all_claims)
+    )
+    if controller.behaviour in PASSIVE:
+        return "per service type"
+    return "per device" if controller.behaviour is Behaviour.OWN_MOTION else ", ".join(dict.fromkeys(found))
+
+
+def folded(names: Iterable[str]) -> Iterator[str]:
+    """Yield names with those that count up under one stem as one, such as ``output_[0..17]``."""
+    for stem, numbered in groupby(names, key=lambda name: name.rstrip("0123456789")):
+        counts = [name.removeprefix(stem) for name in numbered]
+        if len(counts) > 1 and counts[0] and counts == [str(int(counts[0]) + step) for step in range(len(counts))]:
+            yield f"{stem}[{counts[0]}..{counts[-1]}]"
+        else:
+            yield from (stem + count for count in counts)
+
+
+def watchdog(cell: Cell, controller: Controller) -> str:
+    """Return the vendor's watchdog of the device, which stops it when commands stop arriving."""
+    stated = None if controller.device is None else cell.device(controller.device).safety.watchdog
+    return stated or _NOT_STATED
+
+
+def real_driver(device: Device) -> str:
+    """Return the plugin that moves a device on the real target, or the node with its program."""
+    plugin = None if device.hardware is None else device.hardware.plugins.get("real")
+    if plugin is not None:
+        return plugin
+    return _NOTHING if device.driver is None else f"{device.driver.node} ({device.driver.program})"

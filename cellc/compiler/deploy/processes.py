@@ -1,0 +1,74 @@
+"""Which processes a cell starts: where each runs, which ask for motion, and the security enclave of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import ControllerManager
+from cellc.compiler.cell.device import Device, OfferedInterface
+from cellc.compiler.cell.interface import Node
+from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
+from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
+from cellc.contract.bring_up import CLAIM_WATCH, TARGETS, BringUp
+from cellc.contract.vocabulary import BringUpPhase, Feature, Motion, features
+
+
+def launch_hosts(cell: Cell) -> tuple[str, ...]:
+    """Return the hosts on which something is started, in the order of the spec; empty where all runs in one place."""
+    used = {node.host for node in cell.nodes} | {manager.host for manager in cell.managers}
+    hosts = tuple(host for host in cell.hosts if host in used)
+    return hosts if len(hosts) > 1 else ()
+
+
+def description_nodes(cell: Cell) -> tuple[str, ...]:
+    """Return the nodes whose parameter ``robot_description`` is what the managers run, each once.
+
+    Managers may have been started on several hosts, each with a target of its own: one answer does not tell of all.
+    """
+    return tuple(dict.fromkeys(_node(cell, manager) for manager in cell.managers))
+
+
+def _node(cell: Cell, manager: ControllerManager) -> str:
+    if Feature.DESCRIPTION_TOPIC not in features(cell.distro):  # the manager has it as a parameter
+        return manager.node
+    if len(cell.managers) > 1:
+        return f"{description_home(manager)}/{DESCRIPTION_PUBLISHER}"
+    return f"/{ROBOT_STATE_PUBLISHER}"
+
+
+def asks_for_motion(cell: Cell, node: Node) -> bool:
+    """Tell whether a node of the spec sends goals or commands without being asked.
+
+    One that serves an action itself, such as a planner, acts when it is told to; one with neither moves nothing.
+    """
+    return node.full_name in cell.mover_names
+
+
+def started_by_a_person(cell: Cell, node: Node) -> bool:
+    """Tell whether a node runs only from the gate before motion on; a managed mover runs earlier, unactivated."""
+    return asks_for_motion(cell, node) and not node.lifecycle
+
+
+def motion_clients(cell: Cell) -> tuple[Node, ...]:
+    """Return the nodes that a person starts or activates before anything moves."""
+    return cell.movers
+
+
+def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str]]:
+    """Yield what a driver offers that moves its device past every controller, with what a call does.
+
+    What the cell names has its clients in the spec; of the rest nobody in the cell is one.
+    """
+    named = {interface.name for interface in cell.interfaces}
+    for device in cell.devices:
+        for one in device.offers:
+            if one.effect is not None and one.effect.motion is Motion.MOVES and one.name not in named:
+                yield device, one, one.effect.does
+
+
+def bring_up_nodes(plan: BringUp) -> tuple[str, ...]:
+    """Return the names that the program of the bring-up gives its node: after the last phase that it takes."""
+    taken = {step.phase for target in TARGETS for step in plan.steps(target)}
+    named = (f"bring_up_{phase}" for phase in BringUpPhase if phase in taken)
+    return (*named, *((CLAIM_WATCH.removeprefix("/"),) if plan.watches else ()))

@@ -1,0 +1,50 @@
+"""What an attempt records: topics with a QoS that suits every publisher, and the command that does it."""
+
+from __future__ import annotations
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.interface import Interface, InterfaceKind, Qos
+from cellc.compiler.deploy.files import RECORDING
+from cellc.compiler.formats.escape import shell_word
+from cellc.contract.qos import recorder_depth, weakest
+from cellc.contract.vocabulary import Feature, features
+
+
+def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
+    """Return the command that records an attempt, in parts of one line each; it goes on until it is interrupted.
+
+    Args:
+        bag: name of the folder below that of the attempt, ``$E``; there must be none of it yet.
+    """
+    return (
+        "ros2 bag record --storage mcap --include-hidden-topics",
+        f"--qos-profile-overrides-path generated/{cell.name}/{RECORDING}",
+        f'--output "$E/{bag}"',
+        *(("--topics",) if Feature.RECORD_TOPICS_OPTION in features(cell.distro) else ()),
+        *map(shell_word, recorded_topics(cell)),
+    )
+
+
+def recorded_topics(cell: Cell) -> dict[str, Qos]:
+    """Return every recorded topic with a profile that each of its publishers satisfies; none of the mock alone."""
+    found = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
+    # Goals and results of actions are hidden services; feedback and status tell what became of them.
+    for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION and "real" in i.targets):
+        found[f"{action.name}/_action/feedback"] = Qos()
+        found[f"{action.name}/_action/status"] = Qos(durability="transient_local", depth=1)
+    for name in ("/diagnostics", *cell.recording.topics):
+        found.setdefault(name, Qos())
+    return found
+
+
+def _on_the_path(interface: Interface) -> bool:
+    on_real = "real" in interface.targets
+    return on_real and interface.kind is InterfaceKind.TOPIC and not interface.type.endswith(("/Image", "/PointCloud2"))
+
+
+def _offered(interface: Interface) -> Qos:
+    """Return a profile that every publisher satisfies, the weakest that one of them offers, with a queue for all."""
+    offered = [source.qos for source in interface.sources]
+    reliability, durability = weakest(offered)
+    depth = recorder_depth((qos.depth for qos in offered), interface.rate_hz)
+    return Qos(reliability=reliability, durability=durability, depth=depth)

@@ -1,0 +1,87 @@
+"""The parts of the version tuple that a computer can show: where each is read, and on which computer it is compared.
+
+Gate G0 has a person look at them; the bring-up of the real target compares them once more before it observes anything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.deploy.configuration import version_tuple
+from cellc.compiler.deploy.processes import launch_hosts
+from cellc.compiler.formats.escape import shell_word
+from cellc.compiler.graph.versions import compatibility
+from cellc.contract.pins import is_commit, last_word
+
+_OF_SYSTEM = {"os": "lsb_release -ds", "kernel": "uname -r", "ros": "printenv ROS_DISTRO"}
+_PACKAGES = {"ros2_control": "controller_manager", "moveit": "moveit_ros_move_group"}
+# Pinned as a package and its version; the rest is read on the device or its panel.
+_INSTALLED = ("rmw", "driver", "sdk", "description")
+_GENERIC = "generic"
+
+
+@dataclass(frozen=True, slots=True)
+class Installed:
+    """A part of the tuple that a computer shows.
+
+    Args:
+        name: such as ``arm.driver``.
+        text: the pin as written.
+        package: the package whose version it is; empty for what the system itself says.
+        source: the folder of the source that a commit is of; empty where it is pinned by a number.
+    """
+
+    name: str
+    text: str
+    package: str = ""
+    source: str = ""
+
+    @property
+    def command(self) -> str:
+        """What shows it to a person; empty for a commit whose source no page names."""
+        if is_commit(last_word(self.text)):
+            return f"git -C {shell_word(self.source)} rev-parse HEAD" if self.source else ""
+        part = self.name.rpartition(".")[2]
+        return _OF_SYSTEM.get(part) or f"ros2 pkg xml -t version {shell_word(self.package)}"
+
+
+def installed_parts(cell: Cell) -> Iterator[Installed]:
+    """Yield what a computer shows of the tuple, in the order of the tuple."""
+    sources = {
+        (judged.pin.holder, judged.pin.part): f"src/{judged.built_from[0].name}"
+        for judged in compatibility(cell)
+        if judged.built_from
+    }
+    for name, text in version_tuple(cell).items():
+        holder, _, part = name.rpartition(".")
+        words = text.split()
+        if text == UNKNOWN:
+            continue
+        if part in _OF_SYSTEM and not holder:
+            yield Installed(name, text)
+        elif part in _PACKAGES and not holder:
+            yield Installed(name, text, _PACKAGES[part])
+        elif part in _INSTALLED and len(words) == 2:
+            yield Installed(name, text, words[0], sources.get((holder or cell.name, part), ""))
+
+
+def compared_on(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield each computer that starts something, with the parts that it must show; an empty name for the only one."""
+    parts = tuple(one.name for one in installed_parts(cell))
+    for host in launch_hosts(cell) or ("",):
+        yield host, tuple(name for name in parts if not host or _is_on(cell, name, host))
+
+
+def _is_on(cell: Cell, part: str, host: str) -> bool:
+    """Tell whether a computer must show a part: drivers run where devices hang, real time has the kernel."""
+    holder, _, name = part.rpartition(".")
+    if holder:
+        return cell.device(holder).host in (host, "")
+    if name == "kernel":
+        return cell.hosts[host].scheduling != _GENERIC
+    if name == "ros2_control":
+        return any(manager.host == host for manager in cell.managers)
+    return name != "moveit" or any(node.host == host for node in cell.planners)

@@ -1,0 +1,241 @@
+"""``audit.md``: version tuple, expected nodes and interfaces, command owners, and open questions.
+
+Markdown for the people who approve the cell; ``cellc audit`` prints the same. Left
+out: findings of ``cellc check``, which change with its version; the audit holds what follows from the spec alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.interface import InterfaceKind
+from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.deploy.configuration import OpenQuestion
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.processes import motion_clients
+from cellc.compiler.emit.audit.tables import (
+    calibration_section,
+    command_section,
+    drivers_section,
+    interfaces_section,
+    nodes_section,
+    owners_section,
+    record_section,
+    shapes_section,
+    signals_section,
+    tf_section,
+)
+from cellc.compiler.formats.escape import code, markdown, markdown_comment
+from cellc.compiler.formats.markdown_table import table
+from cellc.compiler.formats.parameter_file import spec_path
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.versions import Answer, Judgement, compatibility
+
+_QUESTIONS = {
+    "graph": "Is there one command publisher or action server?",
+    "time_tf": "Which stamp and calibration produced the goal?",
+    "controller": "Are joints, interfaces, tolerance and hold defined?",
+    "vendor": "Are firmware, driver, mode and scaling pinned?",
+    "network": "Do discovery and data use controlled paths?",
+    "safety": "Are stop, recovery and observer independent?",
+    "data": "Can failures be replayed by layer?",
+}
+_SPEC_AUTHOR = "author of the spec"
+# The owner of a device reads what is printed on it; only the supplier knows what is released.
+_READ_ON_THE_DEVICE = ("revision", "serial", "firmware")
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the audit."""
+    cell = graph.cell
+    measured = cell.calibrations.values()
+    sections = {
+        "Open questions": _questions_section(graph, plan),
+        "Version tuple": _version_section(cell),
+        "Shapes": shapes_section(cell),
+        "Command owners": owners_section(graph),
+        "Command paths": command_section(graph),
+        **({"Digital signals": signals_section(cell)} if any(one.switched for one in cell.devices) else {}),
+        "Expected nodes": nodes_section(cell),
+        "Expected topics": interfaces_section(cell, InterfaceKind.TOPIC),
+        "Expected services": interfaces_section(cell, InterfaceKind.SERVICE),
+        "Expected actions": interfaces_section(cell, InterfaceKind.ACTION),
+        "Expected of drivers": drivers_section(cell),
+        "Expected TF publishers": tf_section(cell),
+        "Attempt record": record_section(cell),
+        **({"Calibration files": calibration_section(cell)} if any(one.file for one in measured) else {}),
+        "Approvals": table(("area", "question", "owner"), approvals(cell)),
+        "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
+        "Ending": _numbered(ending(cell)),
+        "Recovery": "\n".join(recovery(cell)),
+        "After a loss": "\n".join(_after_a_loss(cell)) or "None.",
+        "What the mock cannot prove": "\n".join(_not_provable(cell)),
+    }
+    blocks = [markdown_comment(plan.header.text), f"# {cell.name}: audit"]
+    blocks += [f"## {title}\n\n{text}" for title, text in sections.items()]
+    yield Artifact("audit.md", "\n\n".join(blocks) + "\n")
+
+
+def approvals(cell: Cell) -> Iterator[tuple[str, ...]]:
+    """Yield the seven approval areas with the question that each answers."""
+    return ((area, _QUESTIONS[area], owner) for area, owner in cell.owners.approvals.items())
+
+
+def responsibilities(cell: Cell) -> Iterator[tuple[str, ...]]:
+    """Yield the responsibilities with their owners."""
+    return cell.owners.responsibilities.items()
+
+
+def ending(cell: Cell) -> Iterator[str]:
+    """Yield the steps from motion to power-off; a device is ended before the one that carries it."""
+    yield "Make sure that nothing is held, and that no person and no object is below a tool or a part that may fall"
+    if motion_clients(cell):
+        yield "End move.launch.xml on each computer, which ends all motion clients"
+    joints = {joint.name for device in cell.devices for joint in device.joints}
+    for manager in cell.managers:
+        claiming = " ".join(
+            one.name
+            for one in manager.controllers
+            if any(name.rpartition("/")[0] in joints for name in one.claims("real") if "real" in one.targets)
+        )
+        command = f"ros2 control switch_controllers --deactivate {claiming} -c {manager.node}"
+        if claiming:
+            yield f"Release the claims by {code(command)}"
+    for device in _outermost_first(cell):
+        yield from (f"{device.name}: {step}" for step in device.safety.ending)
+    yield "End cell.launch.xml by Ctrl-C on each computer. ros2 node list must show no node of this cell."
+    for device in _outermost_first(cell):
+        yield from (f"{device.name}: {step}" for step in device.safety.ended)
+    yield "End the recording and sign the evidence"
+
+
+def _outermost_first(cell: Cell) -> list[Device]:
+    """Return the devices, each before the one that carries it, in whatever order the spec names them."""
+    carrier = {name: device.name for device in cell.devices for name in device.carries}
+
+    def depth(name: str) -> int:
+        return 0 if name not in carrier else 1 + depth(carrier[name])
+
+    return sorted(cell.devices, key=lambda device: (-depth(device.name), device.name))
+
+
+def _losses(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the recovery from a loss that no device reports: of a manager or a computer."""
+    seen = "Check each robot and each tool. Without its controller manager a tool may have dropped its part."
+    ended = (
+        "End every launch file of the cell by Ctrl-C on each computer. Any part left waits forever for its services."
+    )
+    alone = "Check by ros2 node list that no node of this cell is left. A second launch would start it twice."
+    begin = "Repeat from gate G3. Authorize activation and claims again"
+    if cell.managers:
+        yield "A controller manager ended", (seen, ended, alone, begin)
+    if len(cell.hosts) > 1:
+        yield "A computer, or the network between two, was lost", (seen, ended, "Repeat layers L1 to L5", begin)
+
+
+def _after_a_loss(cell: Cell) -> Iterator[str]:
+    for number, (title, steps) in enumerate(_losses(cell)):
+        yield from (*([""] if number else []), markdown(f"{title}:"), "", _numbered(steps))
+
+
+def recovery(cell: Cell) -> Iterator[str]:
+    """Yield who acknowledges a stop, and the steps of every device."""
+    recovery = cell.safety.recovery
+    yield markdown(f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}.")
+    yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
+    for device in cell.devices:
+        for procedure in device.safety.recovery:
+            yield from ("", markdown(f"{device.name}, {procedure.state}:"), "", _numbered(procedure.steps))
+
+
+def _numbered(steps: Iterable[str]) -> str:
+    return "\n".join(f"{number}. {markdown(step)}" for number, step in enumerate(steps, 1))
+
+
+def _not_provable(cell: Cell) -> Iterator[str]:
+    """Yield what the mock cannot prove by the catalog, by device and vendor."""
+    for device in cell.devices:
+        of = f"{device.name} ({device.vendor} {device.model})"
+        yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock_cannot_prove)
+    if cell.groups and not cell.scene and cell.octomap is None:
+        yield "- collisions with the surroundings: `scene` is empty, so paths are planned through table and fence"
+    if cell.octomap is not None:
+        yield f"- the occupancy map of {code(cell.octomap.source)}: the mock plans without it"
+    if cell.servo is not None:
+        yield f"- {code(cell.servo.node)} (MoveIt Servo): the mock does not execute it and sends it no command"
+    for device, name, said in cell.signed_for_mock():
+        signed = f"that {code(name)} touches no hardware: only {said.by} states it, {said.date}"
+        yield f"- {markdown(f'{device.name}: {signed}')}"
+
+
+def _questions_section(graph: CellGraph, plan: Deployment) -> str:
+    """Write every UNKNOWN of the spec, and every part that no compatibility matrix covers."""
+    return table(("ask", "question", "answer in the spec"), [*_open(graph, plan), *_untested(graph.cell)])
+
+
+def _open(graph: CellGraph, plan: Deployment) -> Iterator[tuple[str, ...]]:
+    for question in plan.questions:
+        asked, text = _asked(graph.cell, question)
+        yield asked, text, code(spec_path(question.path))
+
+
+def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
+    approvals = cell.owners.approvals
+    section, part = question.path[0], str(question.path[-1])
+    if section == "devices":
+        return _asked_of_device(cell, cell.device(str(question.path[1])), part)
+    if section == "versions":
+        if "rollback" in question.path:
+            return _person(approvals.data), f"To which {part} does the cell roll back when a new one fails?"
+        return _person(approvals.graph), f"What is the {question.subject} of the machine that runs the cell?"
+    if section == "safety":
+        return _person(approvals.safety), f"What is the {question.subject}?"
+    return _SPEC_AUTHOR, f"Who is the {question.subject}?"
+
+
+def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
+    if part == "calibration" and device.kinematics is not None:
+        tool = code(device.kinematics.tool)
+        return _person(cell.owners.approvals.vendor), f"Which kinematics does {device.name} have? {tool} reads them."
+    if part in _READ_ON_THE_DEVICE:
+        owner = _person(cell.owners.approvals.vendor)
+        return owner, f"Which {part} does {device.name} have, by its nameplate or panel?"
+    if part == "model":
+        moments = " and ".join(device.unknown_effects)
+        return f"supplier {device.vendor}", f"What moves, or falls, at {moments} of {device.model}?"
+    text = f"Which {part} of {device.model} do you release for ROS 2 {cell.distro}, or is there none?"
+    return f"supplier {device.vendor}", text
+
+
+def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
+    devices = {device.name: device for device in cell.devices}
+    for judged in compatibility(cell):
+        if judged.built_from:
+            continue  # `sources.repos` answers it
+        # No supplier's matrix has hardware revisions or kernels; the mock and the gates cover them.
+        if judged.answer is Answer.UNKNOWN and judged.pin.known and judged.pin.part not in ("revision", "kernel"):
+            yield _asked_for_matrix(cell, devices.get(judged.pin.holder), judged)
+
+
+def _asked_for_matrix(cell: Cell, device: Device | None, judged: Judgement) -> tuple[str, ...]:
+    asked = _person(cell.owners.approvals.graph) if device is None else f"supplier {device.vendor}"
+    pin = f"{judged.pin.part} {code(judged.pin.text)}"
+    text = f"Is {pin} supported with ROS 2 {cell.distro}? Known so far: {judged.evidence}"
+    return asked, text, code(spec_path(judged.pin.path))
+
+
+def _person(owner: str) -> str:
+    return _SPEC_AUTHOR if owner == UNKNOWN else owner
+
+
+def _version_section(cell: Cell) -> str:
+    """Write the tuple as a table."""
+    return table(("holder", "part", "pinned", "answer", "reason"), _rows(cell))
+
+
+def _rows(cell: Cell) -> Iterator[tuple[str, ...]]:
+    for judged in compatibility(cell):
+        yield judged.pin.holder, judged.pin.part, judged.pin.text, judged.answer.value, judged.evidence

@@ -1,0 +1,191 @@
+"""Devices of the contract: what the mock needs of each, adapters with their bounds, joints that lag or have noise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import AdaptedDevice
+from cellc.compiler.cell.device import Device, SimulatedJoint
+from cellc.compiler.cell.frame import FrameKind
+from cellc.compiler.cell.hardware import HardwareComponent
+from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.formats.numbers import rounded
+from cellc.compiler.formats.urdf.robot import start_positions
+from cellc.contract.contract import (
+    ContractAdapter,
+    ContractCamera,
+    ContractDevice,
+    ContractDriver,
+    ContractEffect,
+    ContractGripper,
+    ContractSimulatedJoint,
+    ContractSwitched,
+)
+from cellc.contract.vocabulary import Moment
+
+
+def devices(cell: Cell) -> dict[str, ContractDevice]:
+    """Return every device by its name in the spec."""
+    return {device.name: _device(cell, device) for device in cell.devices}
+
+
+def _device(cell: Cell, device: Device) -> ContractDevice:
+    hardware = None if _adapted(cell, device) else device.hardware
+    return ContractDevice(
+        model=device.model,
+        kind=device.kind,
+        prefix=device.prefix,
+        root_link=device.root_link,
+        architecture=device.architecture,
+        hardware_component=None if hardware is None else hardware.name,
+        driver=_driver(device),
+        speed_scaling_interface=None if _adapted(cell, device) else device.speed_scaling,
+        gripper=_gripper(cell, device),
+        camera=_camera(cell, device),
+        switched=_switched(device),
+        effects=_effects(hardware),
+        at_once=hardware is not None and hardware.at_once,
+        command_timeout_s=None if hardware is None else hardware.command_timeout_s,
+    )
+
+
+_PLAYED = (Moment.ACTIVATE, Moment.CLAIM, Moment.PROGRAM_START)
+"""Moments that the mock plays."""
+
+
+def _effects(hardware: HardwareComponent | None) -> dict[Moment, ContractEffect]:
+    """Return what the hardware does at the moments that the mock plays; a moment of nothing is left out."""
+    told = {} if hardware is None else hardware.effects
+    effects = {
+        moment: ContractEffect(
+            motion=told[moment].motion,
+            lock=told[moment].lock,
+            needs=dict(told[moment].needs),
+            largest_step=told[moment].largest_step,
+        )
+        for moment in _PLAYED
+        if moment in told
+    }
+    return {moment: effect for moment, effect in effects.items() if effect != ContractEffect()}
+
+
+def _adapted(cell: Cell, device: Device) -> bool:
+    """Tell whether an adapter drives a device, so that no controller manager ever loads its hardware."""
+    return any(adapted.device == device.name for adapted in cell.adapters)
+
+
+def _driver(device: Device) -> ContractDriver | None:
+    driver = device.driver
+    if driver is None:
+        return None
+    return ContractDriver(node=driver.node, program=driver.program, joint_states=driver.joint_states)
+
+
+def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
+    gripper = device.gripper
+    if gripper is None:
+        return None
+    controllers = (c.label for c in cell.controllers if gripper.joint in c.joints and c.action and c.active)
+    return ContractGripper(
+        joint=gripper.joint,
+        controller=next(controllers, None),
+        open=gripper.open,
+        closed=gripper.closed,
+        max_effort=gripper.max_force,
+        max_velocity=None if gripper.max_velocity is None else rounded(gripper.max_velocity),
+    )
+
+
+def _camera(cell: Cell, device: Device) -> ContractCamera | None:
+    """Return the stream that the spec uses, the catalog's first where it names none."""
+    if device.camera is None:
+        return None
+    streams = {stream.topic: stream for stream in device.camera.streams}
+    used = _used_stream(cell, device, tuple(stream.type for stream in streams.values()))
+    topic = next(iter(streams)) if used is None else used.name
+    stream = streams.get(topic, next(iter(streams.values())))
+    return ContractCamera(
+        topic=topic,
+        frame=(None if used is None else used.frame) or stream.frame,
+        rate_hz=(None if used is None else used.rate_hz) or stream.rate_hz,
+        exposure_s=device.camera.exposure_s,
+        clock=UNKNOWN if device.stamp is None else device.stamp.clock.domain,
+    )
+
+
+def _switched(device: Device) -> ContractSwitched | None:
+    one = device.switched
+    if one is None:
+        return None
+    return ContractSwitched(
+        states={name: dict(state.sensors) for name, state in one.states.items()},
+        starts=one.starts,
+        time_s=one.time_s,
+        within_s=one.within_s,
+        holds=one.holds,
+        outputs=dict(one.outputs),
+        inputs=dict(one.inputs),
+    )
+
+
+def _used_stream(cell: Cell, device: Device, types: tuple[str, ...]) -> Interface | None:
+    """Return the stream in which something is detected, the first where none is: the mock has one for each camera."""
+    used = [
+        interface
+        for interface in cell.interfaces
+        if interface.kind is InterfaceKind.TOPIC
+        and interface.type in types
+        and any(source.node == device.name for source in interface.sources)
+    ]
+    detecting = {frame.authority for frame in cell.frames if frame.kind is FrameKind.DYNAMIC}
+    looked_at = (one for one in used if detecting & {sink.node for sink in one.sinks})
+    return next(looked_at, next(iter(used), None))
+
+
+def adapters(cell: Cell) -> dict[str, ContractAdapter]:
+    """Return every adapted device by its name."""
+    start = start_positions(cell)
+    return {adapted.device: _adapter(cell.device(adapted.device), adapted, start) for adapted in cell.adapters}
+
+
+def _adapter(device: Device, adapted: AdaptedDevice, start: dict[str, float]) -> ContractAdapter:
+    joints = device.actuated_joints
+    return ContractAdapter.model_validate(
+        {
+            "joints": adapted.joints,
+            "units": tuple("m" if joint.type == "prismatic" else "rad" for joint in joints),
+            "action": adapted.action,
+            "state_topic": adapted.state_topic,
+            "client": adapted.client,
+            "command_period_s": adapted.command_period_s,
+            "command_timeout_s": adapted.command_timeout_s,
+            "stop_time_s": adapted.stop_time_s,
+            "goal_time_s": adapted.goal_time_s,
+            "path_tolerance": adapted.path_tolerance,
+            "start_positions": tuple(start.get(joint.name, 0.0) for joint in joints),
+        }
+    )
+
+
+def simulated_joints(cell: Cell) -> dict[str, ContractSimulatedJoint]:
+    """Return what the spec adds to joints, by joint; what it says of one joint counts before what it says of all."""
+    found: dict[str, ContractSimulatedJoint] = {}
+    for device in cell.devices:
+        for joint in device.actuated_joints:
+            if stated := device.simulated(joint.name):
+                found[joint.name] = _simulated(stated)
+    return found
+
+
+def _simulated(stated: Sequence[SimulatedJoint]) -> ContractSimulatedJoint:
+    return ContractSimulatedJoint(
+        lag_s=_first(one.lag_s for one in stated) or 0.0,
+        noise=_first(None if one.noise is None else one.noise.value for one in stated) or 0.0,
+        max_velocity=_first(None if one.velocity is None else one.velocity.value for one in stated),
+    )
+
+
+def _first(values: Iterable[float | None]) -> float | None:
+    return next((value for value in values if value is not None), None)

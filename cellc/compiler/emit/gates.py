@@ -1,0 +1,78 @@
+"""``gates/promotion.md`` and ``gates/network.md``: G0–G7 and L1–L6 for this cell.
+
+Markdown checklists for the people at the cell. Commands read, or start what is authorized at that gate; steps of a
+vendor's procedure, which enable or move anything, are words. The page is copied into the evidence folder of an attempt,
+filled in there and signed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST
+from cellc.compiler.deploy.gates import Check, Gate
+from cellc.compiler.formats.escape import markdown, markdown_comment
+from cellc.compiler.graph.cell_graph import CellGraph
+
+_PROMOTION = (
+    "Pass the gates in order, each with its evidence. Skip none. If a gate fails, repeat it from its first line."
+)
+_NETWORK = (
+    "Pass the layers from the cable up, with drives disabled. Fix a failure at its own layer. Do not weaken a "
+    "firewall, a watchdog or a limit to pass."
+)
+_WHERE = (
+    "Run commands in the folder with `cells/` and `generated/`, in a shell set up as in `README.md`. Set `E` to the "
+    "folder of the attempt. Keep the shell of a launch or recording open. If a command times out or finds no node, run "
+    "it once more before its answer counts. Write an evidence file by hand where no command writes it."
+)
+
+
+_RESULT = "Result (passed or stopped): ________ Name: ________________ Date, time: ________________ Signature: ________"
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield both checklists."""
+    name = graph.cell.name
+    promotion = _page(plan, f"{name}: From the manifest to a trajectory", _PROMOTION, plan.promotion)
+    network = _page(plan, f"{name}: From the cable to the command path", _NETWORK, plan.network)
+    yield Artifact(PROMOTION_CHECKLIST, promotion)
+    yield Artifact(NETWORK_CHECKLIST, network)
+
+
+def _page(plan: Deployment, title: str, text: str, gates: tuple[Gate, ...]) -> str:
+    blocks = [markdown_comment(plan.header.text), f"# {title}", f"{text} {_WHERE}", *(_gate(gate) for gate in gates)]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _gate(gate: Gate) -> str:
+    passed = f"*{gate.state[0].upper()}{gate.state[1:]}.* Passed when {markdown(gate.shows)}."
+    signed = (
+        f"Evidence `{gate.evidence}`, signed by {markdown(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
+    )
+    checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
+    measured = ". ".join(f"{markdown(one[0].upper() + one[1:])}: ________" for one in gate.measured)
+    blocks = (f"## {gate.code} {gate.title}", passed, checks, signed, measured, _RESULT)
+    return "\n\n".join(block for block in blocks if block)
+
+
+def _check(check: Check, evidence: str) -> Iterator[str]:
+    yield f"- [ ] {markdown(check.text)}"
+    if check.commands:
+        lines = [line for command in check.commands for line in command.splitlines()]
+        yield ""
+        yield "  ```sh"
+        yield from (f"  {line}" for line in (lines if check.starts else _kept(lines, evidence)))
+        yield "  ```"
+        yield ""
+
+
+def _kept(lines: list[str], evidence: str) -> Iterator[str]:
+    """Also write the output of commands into the evidence of the gate."""
+    into = f'2>&1 | tee -a "$E/{evidence}"'
+    if len(lines) == 1:
+        yield f"{{ {lines[0]}; }} {into}" if "|" in lines[0] else f"{lines[0]} {into}"
+        return
+    yield from ("{", *(f"  {line}" for line in lines), f"}} {into}")

@@ -1,0 +1,202 @@
+"""``launch/*.launch.xml``: starts the cell on the mock, or on real hardware up to where a human takes over.
+
+Launch XML for ``ros2 launch``, Humble to Lyrical: only actions and substitutions that all of them know.
+``cell.launch.xml`` discovers, configures and observes, and on the mock claims; it enables no drive and starts nothing
+that asks for motion, on any target. With several hosts it includes the file of the one that it is told.
+``activate.launch.xml`` and ``claim.launch.xml`` are released by a person on the real target: hardware that moves as it
+is activated, and claims. ``move.launch.xml`` starts what sends goals. The real target passes a gate in each: an
+argument without a default and with one choice. Left out: enabling, which is a step of the vendor's procedure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree.ElementTree import Element
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.bringup import phases
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.first_goal import NODE, FirstGoal, first_goal
+from cellc.compiler.deploy.processes import started_by_a_person
+from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, GOAL, MOVE, START, Release
+from cellc.compiler.emit.launch.processes import HOST, ON_REAL, enclave, moving_node, on_host, share
+from cellc.compiler.emit.launch.stages import before_motion, bring_up, programs_and_plan, stages
+from cellc.compiler.formats.escape import launch_text, launch_words
+from cellc.compiler.formats.header import Header
+from cellc.compiler.formats.numbers import decimal
+from cellc.compiler.formats.parameter_file import spec_path
+from cellc.compiler.formats.xml_text import comment, element, render
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.enclaves import first_goal_enclave
+from cellc.contract.vocabulary import BringUpPhase
+
+_VERSION = {"version": "0.1.1"}
+_CELL = "launch/cell.launch.xml"
+_MOVE = "launch/move.launch.xml"
+
+_EVERYWHERE = "all"
+"""The choice of ``host`` that starts the whole cell on one computer, which only the mock allows."""
+
+_NOT_YET = "no"
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the launch files, the gates before their real targets, and what their steps wait for."""
+    cell = graph.cell
+    yield _file(plan.header, _CELL, _by_host(cell, plan.hosts) if plan.hosts else _whole(cell, plan))
+    for host in plan.hosts:
+        actions = [*_arguments(cell), *_gate(cell, {"host": host}), *stages(cell, plan, host)]
+        yield _file(plan.header, _host_file(host), actions)
+    demanded = [_stated_host_argument(plan.hosts)] if plan.hosts else []
+    yield _file(plan.header, _gate_file(START), [_gate_argument(START), *demanded])
+    yield from programs_and_plan(cell, plan)
+    released = phases(plan.bring_up, "real")
+    for release, phase in ((ACTIVATE, BringUpPhase.ACTIVATE), (CLAIM, BringUpPhase.CLAIM)):
+        if phase in released:
+            yield _file(plan.header, f"launch/{release.file}.launch.xml", _released(cell, release, phase))
+    if (goal := first_goal(cell)) is not None:
+        yield _file(plan.header, f"launch/{GOAL.file}.launch.xml", _sending(cell, goal))
+    if plan.motion_clients:
+        yield _file(plan.header, _MOVE, _moving(cell, plan))
+        yield _file(plan.header, _gate_file(MOVE), [_gate_argument(MOVE)])
+
+
+def _file(header: Header, path: str, actions: Iterator[Element] | list[Element]) -> Artifact:
+    return Artifact(path, render(element("launch", _VERSION, actions), header.text))
+
+
+def _gate_file(release: Release) -> str:
+    return f"launch/{'real' if release is START else release.file}_gate.launch.xml"
+
+
+def _released(cell: Cell, release: Release, phase: BringUpPhase) -> Iterator[Element]:
+    yield _gate_argument(release)
+    yield comment(
+        "proves preconditions, sends the request once, checks the effect and ends; run on one computer for all"
+    )
+    yield bring_up(cell, "real", [phase], conditional=False)
+
+
+def _host_file(host: str) -> str:
+    return f"launch/{host}.launch.xml"
+
+
+def _arguments(cell: Cell) -> Iterator[Element]:
+    yield _target_argument()
+    yield _release_argument(START)
+    yield from _address_arguments(cell)
+
+
+def _gate(cell: Cell, more: dict[str, str]) -> Iterator[Element]:
+    yield comment("gate before real hardware: nothing below starts until a person confirms it")
+    yield _include(cell, _gate_file(START), {START.argument: f"$(var {START.argument})"} | more, {"if": ON_REAL})
+
+
+def _whole(cell: Cell, plan: Deployment) -> Iterator[Element]:
+    yield from _arguments(cell)
+    yield from _gate(cell, {})
+    yield from stages(cell, plan, None)
+
+
+def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
+    yield from _arguments(cell)
+    yield _host_argument(hosts)
+    yield from _gate(cell, {"host": HOST})
+    yield comment("the part of each computer; its steps wait for the others")
+    passed = {name: f"$(var {name})" for name in ("target", START.argument, *addresses(cell))}
+    for host in hosts:
+        yield _include(cell, _host_file(host), passed, {"if": on_host(host)})
+
+
+def _include(cell: Cell, path: str, arguments: dict[str, str], condition: dict[str, str]) -> Element:
+    # An include is refused for an argument without a default that it is not given itself, whatever its parent has.
+    given = [element("arg", {"name": name, "value": value}) for name, value in arguments.items()]
+    return element("include", {"file": share(cell, path), **condition}, given)
+
+
+def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
+    yield _target_argument()
+    yield _release_argument(MOVE)
+    if plan.hosts:
+        yield _host_argument(plan.hosts)
+    yield comment("gate before motion on real hardware: nothing below starts until a person confirms it")
+    yield _include(cell, _gate_file(MOVE), {MOVE.argument: f"$(var {MOVE.argument})"}, {"if": ON_REAL})
+    yield comment("motion clients: each waits for claims, actions and states; on the mock also for the mock")
+    for node in plan.motion_clients:
+        if started_by_a_person(cell, node):
+            yield comment(spec_path(node.path))
+            yield moving_node(cell, node, plan.hosts, before_motion(cell))
+
+
+def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
+    """Yield the first goal of the real target, behind the proof of everything that may ask for motion."""
+    yield _gate_argument(GOAL)
+    yield _argument("then", "end", "Wait for the end of the goal, or cancel it half way.", "end", "cancel")
+    told = (
+        f"--by={decimal(goal.delta)}",
+        f"--seconds={decimal(goal.duration_s)}",
+        f"--timeout={decimal(goal.timeout_s)}",
+    )
+    named = ("--action", goal.action, "--states", goal.topic, "--joint", goal.joint)
+    absent = (f"--absent={node}" for node in goal.absent)
+    words = launch_words(*named, *told, *absent, *goal.joints)
+    yield comment("one small motion of one joint from its current position; no motion client may run")
+    yield element(
+        "node",
+        {
+            "pkg": cell.name,
+            "exec": NODE,
+            "name": NODE,
+            "output": "both",
+            "args": f"--then $(var then) {words}",
+            "launch-prefix": before_motion(cell, "real"),
+            **enclave(first_goal_enclave(cell)),
+        },
+    )
+
+
+def _target_argument() -> Element:
+    """Return the choice between the mock and real hardware."""
+    return _argument("target", "mock", "Hardware that the interfaces reach: mock or real.", "mock", "real")
+
+
+def _release_argument(release: Release) -> Element:
+    """Return the argument with which a person releases something; alone it releases nothing."""
+    return _argument(release.argument, _NOT_YET, f"{release.about} Not needed on the mock.", _NOT_YET, release.word)
+
+
+def _gate_argument(release: Release) -> Element:
+    """Return the same argument as a gate demands it: without a default, and with its only accepted word."""
+    return _argument(release.argument, None, release.about, release.word)
+
+
+def _host_argument(hosts: tuple[str, ...]) -> Element:
+    """Return the choice of the computer on which this is launched."""
+    text = "The computer of this launch. Only the mock runs the whole cell on one computer."
+    return _argument("host", _EVERYWHERE, text, _EVERYWHERE, *hosts)
+
+
+def _stated_host_argument(hosts: tuple[str, ...]) -> Element:
+    """Return the same argument as the gate before real hardware demands it."""
+    return _argument("host", None, "The computer of this launch: each reaches its own hardware.", *hosts)
+
+
+def _address_arguments(cell: Cell) -> Iterator[Element]:
+    """Yield an argument for each device with an address; the launch refuses any other than that of the URDF."""
+    for name, address in addresses(cell).items():
+        device = name.removesuffix("_address")
+        text = f"Address of device {device}, fixed by the URDF. To change it, change the spec and build."
+        yield _argument(name, address, text, address)
+
+
+def addresses(cell: Cell) -> dict[str, str]:
+    """Return the argument of each device with an address."""
+    connections = ((device.name, device.connection) for device in cell.devices)
+    return {f"{name}_address": one.address for name, one in connections if one is not None and one.address is not None}
+
+
+def _argument(name: str, default: str | None, description: str, *choices: str) -> Element:
+    stated = {} if default is None else {"default": launch_text(default)}
+    attributes = {"name": launch_text(name), **stated, "description": launch_text(description)}
+    return element("arg", attributes, [element("choice", {"value": launch_text(choice)}) for choice in choices])

@@ -1,0 +1,146 @@
+"""The stages of bring-up as actions of a launch file, and the program and plan with which their steps are taken.
+
+The processes are started at once and prove nothing by that. ``lib/<package>/bring_up`` takes the steps of
+``config/bring_up.json`` one after the other, each with its proof, its deadline and a last word. One process lives
+through them: each call of a command-line tool is a new participant of the network that must be discovered first. None
+of its steps enables a drive or asks for motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.interface import Node, NodeSource
+from cellc.compiler.deploy.bringup import WATCH, phases
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.files import BRING_UP
+from cellc.compiler.deploy.first_goal import programs
+from cellc.compiler.deploy.processes import started_by_a_person
+from cellc.compiler.emit.launch.processes import (
+    TARGET,
+    cell_node,
+    control,
+    driver_node,
+    enclave,
+    ends_launch,
+    host_program,
+    only_on,
+    robot_state_publisher,
+    share,
+    spawners,
+)
+from cellc.compiler.formats.json_text import render
+from cellc.compiler.formats.parameter_file import spec_path
+from cellc.compiler.formats.xml_text import comment, element
+from cellc.compiler.graph.enclaves import bring_up_enclave
+from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
+from cellc.contract.bring_up import Target
+from cellc.contract.store.regular_file import own_text
+from cellc.contract.vocabulary import BringUpPhase
+
+PROGRAM = "bring_up"
+
+
+def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
+    """Yield the actions of one host, or of all of them."""
+    yield comment("discover: processes start in any order; later steps wait for proof")
+    yield from _discover(cell, host)
+    if spawned := [*_spawners(cell, host)]:
+        yield comment("configure: load and configure every controller, activate none")
+        yield from spawned
+    if mock := [one for one in phases(plan.bring_up, "mock", host) if one is not BringUpPhase.MOVE]:
+        yield comment("configure and observe; on the mock also claim")
+        yield bring_up(cell, "mock", mock, host)
+    if BringUpPhase.START in phases(plan.bring_up, "real", host):
+        yield bring_up(cell, "real", [BringUpPhase.START], host)
+    if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
+        yield comment("deactivate claims when the robot ignores commands; only a person activates them again")
+        yield bring_up(cell, "real", [WATCH], host, required=True)
+    yield comment("a person authorizes the rest: gates/promotion.md, G5 to G7")
+
+
+def bring_up(
+    cell: Cell,
+    target: Target,
+    taken: Sequence[str],
+    host: str | None = None,
+    *,
+    conditional: bool = True,
+    required: bool = False,
+) -> Element:
+    """Return the process that takes phases on a target, started on that target alone unless the file is for one.
+
+    Where it is required, the launch ends with it: nothing else takes claims from a robot that no longer listens.
+    """
+    words = [*_words(cell, target), *([] if host is None else ["--host", host]), *taken]
+    return element(
+        "node",
+        {
+            "pkg": cell.name,
+            "exec": PROGRAM,
+            "args": " ".join(words),
+            "output": "both",
+            **(ends_launch(cell) if required else {}),
+            **enclave(bring_up_enclave(cell)),
+            **(only_on(target) if conditional else {}),
+        },
+    )
+
+
+def before_motion(cell: Cell, target: str = TARGET) -> str:
+    """Return the prefix of a node that asks for motion: it is started when all shows, and ended when a claim goes."""
+    program = f"$(find-pkg-prefix {cell.name})/lib/{cell.name}/{PROGRAM}"
+    return " ".join([program, *_words(cell, target), BringUpPhase.MOVE, "--"])
+
+
+def _words(cell: Cell, target: str) -> tuple[str, ...]:
+    return ("--plan", share(cell, BRING_UP), "--target", target)
+
+
+def _discover(cell: Cell, host: str | None) -> Iterator[Element]:
+    for node in cell.nodes:
+        if node.source is NodeSource.STANDARD and node.name == ROBOT_STATE_PUBLISHER and _here(host, node.host):
+            yield robot_state_publisher(cell, node)
+    for manager in cell.managers:
+        if _here(host, manager.host):
+            yield comment(spec_path(manager.path))
+            yield from control(cell, manager)
+    for node in cell.nodes:
+        if _here(host, node.host):
+            yield from _node(cell, node)
+    for device in cell.devices:
+        if device.programs and _here(host, device.host):
+            yield comment(f"no nodes: programs of {spec_path(device.path)}")
+            yield from map(host_program, device.programs)
+
+
+def _node(cell: Cell, node: Node) -> Iterator[Element]:
+    if node.source is NodeSource.SPEC and not started_by_a_person(cell, node):
+        yield comment(spec_path(node.path))
+        yield cell_node(cell, node)
+    elif node.source is NodeSource.DEVICE:
+        yield comment(f"driver of {spec_path(node.path)}")
+        yield driver_node(cell, node)
+
+
+def _spawners(cell: Cell, host: str | None) -> Iterator[Element]:
+    for manager in cell.managers:
+        if _here(host, manager.host):
+            yield from spawners(cell, manager)
+
+
+def _here(host: str | None, of: str) -> bool:
+    return host is None or host == of
+
+
+def programs_and_plan(cell: Cell, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the programs of the package, and the steps that the bring-up takes."""
+    yield Artifact(BRING_UP, render(plan.bring_up))
+    for path in programs(cell):
+        source = own_text(Path(__file__).with_name(f"{path.rpartition('/')[2]}_program.py"))
+        first, _, rest = source.partition("\n")
+        yield Artifact(path, f"{first}\n{plan.header.commented('#')}{rest}", executable=True)

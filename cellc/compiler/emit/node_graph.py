@@ -1,0 +1,292 @@
+"""``graph/nodes.svg``: who talks to whom as a graph, each node once, with the list of what the arrows carry below it.
+
+SVG 1.1 without scripts, styles or fonts from elsewhere. From left to right goes what commands: nodes, controllers,
+devices; what is told back goes from right to left, and is drawn lighter. Interfaces between the same ends share an
+arrow and its number in the list. Vendor control and physical safety are boundaries of their own, drawn bold. Left out:
+what nobody of the cell uses, and what each arrow promises, which ``graph/responsibility.svg`` has.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from xml.etree.ElementTree import Element
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.interface import InterfaceKind
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.labels import unused
+from cellc.compiler.formats.escape import one_line
+from cellc.compiler.formats.layered import Box, Columns, Layout, Line, Point, layout
+from cellc.compiler.formats.xml_text import element, render
+from cellc.compiler.graph.cell_graph import CellGraph
+
+_SIZE, _LINE = 13, 17  # height of letters, and of a line of text
+_BOX, _CHARACTERS = 126, 17  # width of a box, and how many characters it holds
+_GAP = 84  # between two layers, where lines cross
+_MARGIN, _TITLE = 14, 50
+_BAND = 20  # between a box and the boundary around it
+_INK, _BACK, _STOP = "#30363d", "#5b87b0", "#b3310a"
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the picture."""
+    yield Artifact("graph/nodes.svg", render(_sheet(graph.cell), plan.header.text))
+
+
+@dataclass(frozen=True, slots=True)
+class Exchange:
+    """Interfaces of one kind between the same ends, which share an arrow; data or goals go from starts to ends."""
+
+    kind: InterfaceKind
+    starts: tuple[str, ...]
+    ends: tuple[str, ...]
+    names: tuple[str, ...]
+
+    @property
+    def commands(self) -> bool:
+        """Whether it asks for something to be done."""
+        return self.kind is not InterfaceKind.TOPIC
+
+
+def _exchanges(cell: Cell) -> tuple[Exchange, ...]:
+    alone = {one.name for group in unused(cell) for one in group}
+    found: dict[tuple[InterfaceKind, tuple[str, ...], tuple[str, ...]], list[str]] = {}
+    for one in cell.interfaces:
+        ends = [tuple(dict.fromkeys(end.node for end in side)) for side in (one.sources, one.sinks)]
+        if one.name not in alone and all(ends):
+            starts, ends_ = ends if one.kind is InterfaceKind.TOPIC else ends[::-1]
+            found.setdefault((one.kind, starts, ends_), []).append(one.name)
+    return tuple(Exchange(*key, tuple(names)) for key, names in found.items())
+
+
+def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
+    """Return the layer of each box: nodes by who commands whom, then controllers, devices and the stop."""
+    controllers = {one.label for one in cell.controllers}
+    devices = [one.name for one in cell.devices]
+    ends = dict.fromkeys(name for one in exchanges for name in (*one.starts, *one.ends))
+    drivers = dict.fromkeys(one.driver.node for one in cell.devices if one.driver is not None)
+    nodes = [name for name in (ends | drivers) if name not in controllers and name not in devices]
+    asks: dict[str, set[str]] = {name: set() for name in nodes}
+    for one in exchanges:
+        for end in one.ends if one.commands else ():
+            asks.get(end, set()).update(name for name in one.starts if name in asks)
+    layers = {name: _depth(name, asks, ()) for name in nodes}
+    for name in nodes:
+        heard = [
+            layers[end] for one in exchanges if name in one.starts for end in one.ends if end in asks and end != name
+        ]
+        asked = any(name in (*one.starts, *one.ends) for one in exchanges if one.commands)
+        if heard and not asked:
+            layers[name] = min(heard) - 1
+    first = min(layers.values(), default=0)
+    after = max(layers.values(), default=0) - first + 1
+    used = [one.label for one in cell.controllers if one.label in ends or one.device is not None]
+    column = 1 if used else 0
+    return {
+        **{name: layer - first for name, layer in layers.items()},
+        **dict.fromkeys(used, after),
+        **dict.fromkeys(devices, after + column),
+        _stop(cell): after + column + 1,
+    }
+
+
+def _stop(cell: Cell) -> str:
+    # A node may be called like the authority of the stop.
+    return f"\n{cell.safety.stop.authority}"
+
+
+def _depth(name: str, asks: Mapping[str, set[str]], above: tuple[str, ...]) -> int:
+    """Return how many nodes command one another before this one; a circle is cut where it closes."""
+    inner = (*above, name)
+    return max((_depth(one, asks, inner) + 1 for one in sorted(asks[name]) if one not in inner), default=0)
+
+
+def _arrows(cell: Cell, exchanges: Sequence[Exchange]) -> Iterator[tuple[Line, str]]:
+    """Yield every line with what kind it is."""
+    for number, one in enumerate(exchanges, start=1):
+        for start in one.starts:
+            yield from ((Line(start, end, str(number)), "tells") for end in one.ends if end != start)
+    for controller in cell.controllers:
+        if controller.device is not None and controller.command_interfaces:
+            yield Line(controller.label, controller.device, "claims"), "claims"
+    for device in cell.devices:
+        if device.driver is not None:
+            yield Line(device.driver.node, device.name, "moves"), "moves"
+        if device.is_driven:
+            yield Line(_stop(cell), device.name, "stops"), "stops"
+
+
+def _sheet(cell: Cell) -> Element:
+    exchanges = _exchanges(cell)
+    layers = _layers(cell, exchanges)
+    count = max(layers.values()) + 1
+    columns = Columns(tuple(_BAND * 1.5 + number * (_BOX + _GAP) for number in range(count)), _BOX)
+    arrows = tuple(_arrows(cell, exchanges))
+    boxes = [Box(key, layer, len(_wrapped(key)) * _LINE + 9.0) for key, layer in layers.items()]
+    placed = layout(boxes, [line for line, _ in arrows], columns)
+    width = columns.lefts[-1] + _BOX + _BAND * 1.5
+    bottom = _MARGIN + _TITLE + placed.height + _MARGIN
+    listed, below = _list(exchanges, width, bottom + 2 * _MARGIN + _LINE)
+    drawn = [
+        *_bands(cell, layers, columns, bottom),
+        element(
+            "g",
+            {"transform": f"translate(0 {_MARGIN + _TITLE})"},
+            [*_lines(arrows, placed, layers), *_boxes(placed, layers, columns)],
+        ),
+        *_legend(bottom + _MARGIN + 6),
+        *listed,
+    ]
+    attributes = {
+        "xmlns": "http://www.w3.org/2000/svg",
+        "viewBox": f"0 0 {width:g} {below:g}",
+        "font-family": "sans-serif",
+        "font-size": str(_SIZE),
+    }
+    background = element("rect", {"width": "100%", "height": "100%", "fill": "#ffffff"})
+    return element("svg", attributes, [_heads(), background, *drawn])
+
+
+def _bands(cell: Cell, layers: Mapping[str, int], columns: Columns, bottom: float) -> Iterator[Element]:
+    """Draw the boundaries: what software of the cell is, what the vendor's control is, and what stops physically."""
+    owners = cell.owners.responsibilities
+    stop = layers[_stop(cell)]
+    devices = stop - 1
+    titles = (
+        (0, devices - 1, "ROS 2 graph", ""),
+        (devices, devices, "Vendor control", f"owner {owners.vendor_safety}"),
+        (stop, stop, "Physical safety", f"owner {owners.physical_stop}"),
+    )
+    for first, last, title, owner in titles:
+        left, right = columns.lefts[first] - _BAND, columns.lefts[last] + columns.width + _BAND
+        place = {
+            "x": f"{left:g}",
+            "y": f"{_MARGIN / 2:g}",
+            "width": f"{right - left:g}",
+            "height": f"{bottom - _MARGIN / 2:g}",
+        }
+        line = {"rx": "6", "fill": "none", "stroke": "#000000", "stroke-width": "4" if owner else "1"}
+        yield element("rect", place | line)
+        yield _text(left + 12, _MARGIN + 16, title, {"font-weight": "bold"})
+        yield _text(left + 12, _MARGIN + 32, owner, {})
+
+
+_HALO = {"stroke": "#ffffff", "stroke-width": "3", "paint-order": "stroke"}
+_STYLES = {
+    "tells": {"stroke": _INK, "stroke-width": "1.2", "marker-end": "url(#ink)"},
+    "back": {"stroke": _BACK, "stroke-width": "1.2", "marker-end": "url(#back)"},
+    "claims": {"stroke": _INK, "stroke-width": "3"},
+    "moves": {"stroke": _INK, "stroke-width": "3", "stroke-dasharray": "7 4"},
+    "stops": {"stroke": _STOP, "stroke-width": "3", "marker-end": "url(#stop)"},
+}
+
+
+def _lines(arrows: Sequence[tuple[Line, str]], placed: Layout, layers: Mapping[str, int]) -> Iterator[Element]:
+    numbers: dict[Point, tuple[str, str, bool]] = {}
+    for (line, kind), route in zip(arrows, placed.routes, strict=True):
+        back = kind == "tells" and layers[line.end] <= layers[line.start]
+        yield element("path", {"d": _path(route), "fill": "none"} | _STYLES["back" if back else kind])
+        if kind == "tells":
+            for at, towards in ((route[0], route[1]), (route[-1], route[-2])):
+                right = towards[0] > at[0] or (layers[line.start] == layers[line.end])
+                numbers[at] = (line.group, _BACK if back else _INK, right)
+    for (x, y), (number, color, right) in numbers.items():
+        style = {"font-size": "10", "fill": color, "text-anchor": "start" if right else "end"} | _HALO
+        yield _text(x + (9 if right else -9), y - 2, number, style)
+
+
+def _path(route: Sequence[Point]) -> str:
+    """Return a way that leaves and enters boxes level, and crosses layers straight."""
+    (x, y), *rest = route
+    pieces = [f"M{x:g} {y:g}"]
+    for number, (x2, y2) in enumerate(rest):
+        if number % 2:
+            pieces.append(f"H{x2:g}")
+        elif x == x2:  # both in one layer: out and back
+            pieces.append(f"C{x + 44:g} {y:g} {x + 44:g} {y2:g} {x2:g} {y2:g}")
+        else:
+            middle = (x + x2) / 2
+            pieces.append(f"C{middle:g} {y:.1f} {middle:g} {y2:.1f} {x2:g} {y2:.1f}")
+        x, y = x2, y2
+    return "".join(pieces)
+
+
+def _boxes(placed: Layout, layers: Mapping[str, int], columns: Columns) -> Iterator[Element]:
+    for key, (center, height) in placed.boxes.items():
+        left, top = columns.lefts[layers[key]], center - height / 2
+        place = {"x": f"{left:g}", "y": f"{top:.1f}", "width": f"{columns.width:g}", "height": f"{height:.1f}"}
+        yield element("rect", place | {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"})
+        lines = _wrapped(key)
+        first = center - (len(lines) - 1) * _LINE / 2 + _SIZE / 3
+        for number, said in enumerate(lines):
+            style = {"text-anchor": "middle"}
+            yield _text(left + columns.width / 2, first + number * _LINE, said, style)
+
+
+def _wrapped(name: str) -> list[str]:
+    """Return a name in lines that a box holds; it breaks behind an underscore or a slash where it can."""
+    words = one_line(name.strip()).replace("_", "_ ").replace("/", "/ ").split()
+    lines, line = [], ""
+    for word in words:
+        if line and len(line) + len(word) > _CHARACTERS:
+            lines.append(line)
+            line = ""
+        line += word
+    return [part for one in [*lines, line] for part in textwrap.wrap(one, _CHARACTERS)] or [""]
+
+
+def _legend(y: float) -> Iterator[Element]:
+    x = float(_MARGIN)
+    words = {
+        "tells": "publishes, requests",
+        "back": "returns data",
+        "claims": "claims",
+        "moves": "moves without a controller",
+        "stops": "stops",
+    }
+    for kind, said in words.items():
+        yield element("path", {"d": f"M{x:g} {y - 4:g}h34", "fill": "none"} | _STYLES[kind])
+        yield _text(x + 42, y, said, {})
+        x += 60 + len(said) * 7.5
+
+
+def _list(exchanges: Sequence[Exchange], width: float, top: float) -> tuple[list[Element], float]:
+    """Return the list of what each number carries in two columns, and where the sheet ends."""
+    room = int((width / 2 - 2 * _MARGIN - 26) / 7.2)
+    entries = [(str(number), _said(one, room)) for number, one in enumerate(exchanges, start=1)]
+    total = sum(len(lines) for _, lines in entries)
+    drawn, row, column = [], 0, 0
+    deepest = 0
+    for number, lines in entries:
+        if column == 0 and row * 2 >= total:
+            row, column = 0, 1
+        x = _MARGIN + column * width / 2
+        y = top + row * _LINE
+        drawn.append(_text(x + 20, y, number, {"text-anchor": "end", "font-weight": "bold"}))
+        drawn += [_text(x + 28, y + index * _LINE, line, {}) for index, line in enumerate(lines)]
+        row += len(lines)
+        deepest = max(deepest, row)
+    return drawn, top + deepest * _LINE + _MARGIN / 2
+
+
+def _said(one: Exchange, room: int) -> list[str]:
+    return textwrap.wrap(", ".join(map(one_line, one.names)), room, break_long_words=True, break_on_hyphens=False)
+
+
+def _text(x: float, y: float, said: str, style: Mapping[str, str]) -> Element:
+    """Return a line of text; ``y`` is its base line."""
+    return element("text", {"x": f"{x:g}", "y": f"{y:.1f}"} | dict(style), text=one_line(said))
+
+
+def _heads() -> Element:
+    return element("defs", children=[_head(*one) for one in (("ink", _INK), ("back", _BACK), ("stop", _STOP))])
+
+
+def _head(name: str, color: str) -> Element:
+    """Return the head of an arrow; its size does not follow the width of the line."""
+    size = {"markerWidth": "8", "markerHeight": "8", "markerUnits": "userSpaceOnUse", "orient": "auto"}
+    attributes = {"id": name, "viewBox": "0 0 8 8", "refX": "7", "refY": "4"} | size
+    return element("marker", attributes, [element("path", {"d": "M0 0 L8 4 L0 8 Z", "fill": color})])

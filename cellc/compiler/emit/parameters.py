@@ -1,0 +1,106 @@
+"""``config/*.yaml``: ROS parameter files of controller managers, nodes and drivers, and the overrides of QoS.
+
+``controllers.yaml`` tells a manager its rate and the plugin of each controller, then each controller its parameters;
+there is one file for each manager (``<manager>.controllers.yaml`` where there are several, ``controllers.mock.yaml``
+and ``controllers.real.yaml`` where a controller commands real hardware otherwise) and one for each node, because each
+is read by another process. ``qos_overrides.yaml`` has the QoS of the contract with the names of rclcpp's
+QosOverridingOptions; a node whose author passed no such options ignores it without a word: gate L4 looks at what the
+endpoints really offer. ``recording_qos.yaml`` is the override file of rosbag2: what an attempt records, with the QoS
+that every publisher offers, below the command that records it; raw images on the control path are recorded only where
+the spec asks for them, since their volume belongs on another card. Left out: what is a matter of launching, such as
+which controllers are active; nodes without parameters; overrides of controllers and the controller manager, which allow
+none, and of interfaces that the spec does not write.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.cell.interface import TARGETS, NodeSource, ParameterValue, Qos
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.files import QOS_OVERRIDES, RECORDING, control_path, controllers_file, node_file
+from cellc.compiler.deploy.recording import record_command
+from cellc.compiler.formats.header import Header
+from cellc.compiler.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
+from cellc.compiler.formats.yaml_text import Tree, render
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.vocabulary import Feature, features
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the files of controller managers, of nodes, of QoS overrides, and of the recording."""
+    yield from _of_managers(graph, plan.header)
+    yield from _of_nodes(graph, plan.header)
+    yield from _qos_overrides(graph, plan.header)
+    yield _recording(graph, plan)
+
+
+def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    cell = graph.cell
+    for manager in cell.managers:
+        for file, target in {controllers_file(cell, manager, target): target for target in TARGETS}.items():
+            yield Artifact(file, parameter_file(header, _sections(cell, manager, target)))
+
+
+def _sections(cell: Cell, manager: ControllerManager, target: str) -> Iterator[NodeParameters]:
+    yield NodeParameters(f"{manager.namespace}/controller_manager", manager.path, _of_manager(cell, manager))
+    for controller in manager.controllers:
+        yield _of_controller(manager, controller, target)
+
+
+def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterValue]:
+    # An update_rate with a decimal point makes the manager abort.
+    rate: dict[str, ParameterValue] = {"update_rate": round(manager.update_rate_hz)}
+    for state in ("unconfigured", "inactive"):
+        devices = (cell.device(name) for name in manager.devices)
+        if named := tuple(one.hardware.name for one in devices if one.hardware and one.comes_up == state):
+            rate[f"hardware_components_initial_state.{state}"] = named
+    hardware = [cell.device(name).hardware for name in manager.devices]
+    if Feature.LIMITED_COMMANDS in features(cell.distro) and any(
+        one is not None and one.enforce_command_limits is False for one in hardware
+    ):
+        rate["enforce_command_limits"] = False
+    return rate | {f"{controller.name}.type": controller.plugin for controller in manager.controllers}
+
+
+def _of_controller(manager: ControllerManager, controller: Controller, target: str) -> NodeParameters:
+    return NodeParameters(f"{manager.namespace}/{controller.name}", controller.path, controller.told(target))
+
+
+def _of_nodes(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    for node in graph.cell.nodes:
+        if node.parameters:
+            section = NodeParameters(node.full_name, node.path, node.parameters)
+            yield Artifact(node_file(node), parameter_file(header, [section]))
+
+
+def _qos_overrides(graph: CellGraph, header: Header) -> Iterator[Artifact]:
+    sections = [
+        NodeParameters(node.full_name, node.path, parameters)
+        for node in graph.cell.nodes
+        if node.source is NodeSource.SPEC and (parameters := qos_parameters(graph.cell, node))
+    ]
+    if sections:
+        yield Artifact(QOS_OVERRIDES, parameter_file(header, sections))
+
+
+def _recording(graph: CellGraph, plan: Deployment) -> Artifact:
+    # As a comment, so that the override file says what it is used with; E is the folder of the attempt. Durations are
+    # left at their defaults, which match any publisher.
+    command = "# " + " \\\n#   ".join(record_command(graph.cell, "bag")) + "\n\n"
+    text = render({name: _profile(qos) for name, qos in plan.recorded.items()})
+    places = dict.fromkeys(("interfaces", ".".join(map(str, control_path(graph.cell))), "recording.topics"))
+    origin = f"# {', '.join(places)}\n"
+    return Artifact(RECORDING, plan.header.commented("#") + command + origin + text)
+
+
+def _profile(qos: Qos) -> Tree:
+    return {
+        "history": "keep_last",
+        "depth": qos.depth,
+        "reliability": qos.reliability,
+        "durability": qos.durability,
+    }

@@ -1,0 +1,294 @@
+"""``README.md`` of the generated package: from power-off to a trajectory, and what is in the folder.
+
+Markdown for people who see the cell for the first time. The gates are first, because every reader needs them;
+each is written once, in ``gates/``, and linked from here. Left out: what another file of the package says better; the
+page names that file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller
+from cellc.compiler.cell.frame import FrameKind
+from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.deploy.bringup import phases
+from cellc.compiler.deploy.configuration import OpenQuestion
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.files import (
+    FIRST_GOAL_PROGRAM,
+    NETWORK_CHECKLIST,
+    PROMOTION_CHECKLIST,
+    REQUIRED_PROGRAM,
+    RVIZ,
+    SOURCES,
+    VERSIONS_PROGRAM,
+    plans,
+)
+from cellc.compiler.deploy.first_goal import programs
+from cellc.compiler.deploy.gates import Gate
+from cellc.compiler.deploy.labels import real_driver
+from cellc.compiler.deploy.releases import start_mock
+from cellc.compiler.formats.escape import code, markdown, markdown_comment
+from cellc.compiler.formats.parameter_file import spec_path
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.enclaves import commissioning_enclave, people_enclave
+from cellc.compiler.graph.versions import unreleased
+from cellc.contract.vocabulary import BringUpPhase
+
+_BAR = "\\|"
+_OPEN = "Before real hardware"
+_ANCHOR = "before-real-hardware"
+_HEAD = ("gate", "what it shows", "first command", "signed by")
+_NO_PLANNER = (
+    "No node of this cell plans. The SRDF is therefore the only MoveIt configuration here. Add `move_group` to the "
+    "nodes of the spec to get the rest."
+)
+_GOAL = "launch/goal.launch.xml"
+_FILES = (
+    ("urdf/", "the description for the mock and for real hardware"),
+    ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
+    (RVIZ, "RViz configuration, display only: `rviz2 -d` with it"),
+    ("config/moveit/", "the SRDF and the other parameters of move_group, with `config/joint_limits.yaml`"),
+    ("middleware/", "environment and profile of each host; source it before you start anything there"),
+    ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
+    ("launch/cell.launch.xml", "starts the cell; on real hardware it stops before claims and motion"),
+    ("launch/move.launch.xml", "starts the motion clients; on real hardware a person authorizes it"),
+    ("launch/activate.launch.xml", "activates hardware that moves on activation; a person authorizes it"),
+    ("launch/claim.launch.xml", "activates the controllers that claim joints on real hardware; a person authorizes it"),
+    (_GOAL, "sends one small goal to the controller on real hardware; a person authorizes it"),
+    ("config/bring_up.json", "steps of the bring-up, each with its proof, its request and the effect that must show"),
+    ("scripts/bring_up", "the program that runs these steps"),
+    (VERSIONS_PROGRAM, "the first of these steps: compares the version tuple with the installed packages"),
+    (FIRST_GOAL_PROGRAM, "sends that goal from the current position, and cancels one"),
+    (REQUIRED_PROGRAM, "ends the launch when a required program ends"),
+    (SOURCES, "repositories, pinned to commits, of packages that the distribution does not release"),
+    ("contract.json", "contract of each interface: type, QoS, rate, age, owner, failure behavior"),
+    ("rehearsals.json", "runs of the mock, each with its expected outcome"),
+    ("graph/cell.svg", "the cell from two sides"),
+    ("graph/nodes.svg", "who talks to whom: each node once, with a list of the arrows"),
+    ("graph/responsibility.svg", "contract and owner of each arrow; `.mmd` is the same graph"),
+    ("gates/promotion.md", "checklist of gates G0 to G7 for one attempt; `gates/network.md` has layers L1 to L6"),
+    ("audit.md", "open questions, version tuple, command paths, expected nodes and interfaces, owners"),
+    ("config/recording_qos.yaml", "what an attempt records, with the command"),
+    ("manifest.json", "version tuple, hash of every file, configuration ID"),
+)
+
+
+_RELEASED = {
+    "launch/activate.launch.xml": BringUpPhase.ACTIVATE,
+    "launch/claim.launch.xml": BringUpPhase.CLAIM,
+    "launch/move.launch.xml": BringUpPhase.MOVE,
+}
+
+
+_POLICY = "generated/{}/security/policy.xml"
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the page."""
+    cell = graph.cell
+    blocks = [
+        markdown_comment(plan.header.text),
+        f"# {cell.name}",
+        markdown(cell.summary),
+        f"A ROS 2 package for {cell.distro}, generated from the spec. Make changes in the spec. The configuration ID "
+        "is in `manifest.json`.",
+        f"![{cell.name} from two sides, with its frames](graph/cell.svg)",
+        *_gates(plan),
+        "## Every shell, once",
+        "From the folder that holds `cells/` and `generated/`, with ROS 2 sourced:",
+        _shell_of(cell),
+        *_enforced(cell),
+        "To try it on the mock, in three commands:",
+        _fenced((plan.header.command, f"cellc mock generated/{cell.name}", start_mock(cell))),
+        *_questions(plan.questions),
+        "## The cell in one sentence",
+        markdown(_sentence(cell)),
+        f"![Who talks to whom in {cell.name}](graph/nodes.svg)",
+        f"![Every arrow of {cell.name} with its owner](graph/responsibility.svg)",
+        "`audit.md` lists what the mock cannot prove, by device and vendor. Only the gates can show it.",
+        "## What is here",
+        "\n".join(f"- `{name}`: {text}" for name, text in _FILES if _present(cell, plan, name)),
+        "" if plans(cell) else _NO_PLANNER,
+    ]
+    yield Artifact("README.md", "\n\n".join(block for block in blocks if block) + "\n")
+
+
+def _gates(plan: Deployment) -> Iterator[str]:
+    yield "## From power-off to a trajectory"
+    yield (
+        "Pass the gates from top to bottom, each with its evidence and a signature. If a gate fails, repeat it from "
+        "the start. People at the cell enable the drives (G5) and start motion (G6, G7); no file here does. For "
+        "power-off see Ending in `audit.md`. After a stop see Recovery."
+    )
+    yield _table(PROMOTION_CHECKLIST, plan.promotion)
+    yield "Pass G3 layer by layer, from the cable to the command path:"
+    yield _table(NETWORK_CHECKLIST, plan.network)
+    number = len(plan.questions)
+    if number:
+        yield f"**Missing in the spec: {number}.** Each stops gate G0. See [{_OPEN}](#{_ANCHOR})."
+
+
+def _table(file: str, gates: tuple[Gate, ...]) -> str:
+    rows = (_HEAD, ("---",) * len(_HEAD), *(_row(file, gate) for gate in gates))
+    return "\n".join(f"| {' | '.join(cell.replace('|', _BAR) for cell in cells)} |" for cells in rows)
+
+
+def _row(file: str, gate: Gate) -> tuple[str, ...]:
+    anchor = f"{gate.code} {gate.title}".lower().replace(",", "").replace(" ", "-")
+    # Up to a pipe: what shows is the first program.
+    command = markdown(code(gate.key_command.partition(" | ")[0])) if gate.key_command else "by people"
+    return f"[{gate.code}]({file}#{anchor}) {gate.title}", markdown(gate.shows), command, markdown(gate.owner)
+
+
+def _shell_of(cell: Cell) -> str:
+    """Return the setup of a shell: the built package, the host's environment, the folder of the attempt."""
+    environments = [f"source generated/{cell.name}/middleware/{host}.sh  # on {host}" for host in cell.hosts]
+    return _fenced(
+        (
+            *_sources(cell),
+            "rosdep install --from-paths generated --ignore-src  # once",
+            f"colcon build --base-paths generated --packages-select {cell.name}  # once",
+            "source install/setup.bash",
+            *environments,
+            *_servers(cell),
+            'export E=evidence/attempt-001 && mkdir -p "$E"  # a new folder for each attempt',
+        )
+    )
+
+
+def _servers(cell: Cell) -> Iterator[str]:
+    """Yield the commands that start the discovery servers, which every node needs."""
+    for number, server in enumerate(cell.network.servers if cell.network.discovery == "server" else ()):
+        start = f"generated/{cell.name}/middleware/{server.host}.discovery_server_{number}"
+        yield f"{start}  # on {server.host}, first, in its own shell"
+
+
+def _sources(cell: Cell) -> Iterator[str]:
+    """Yield the commands that fetch and build unreleased packages at their pinned commits."""
+    if unreleased(cell):
+        yield f"mkdir -p src && vcs import src < generated/{cell.name}/{SOURCES}  # once"
+        yield "rosdep install --from-paths src --ignore-src  # once"
+        yield "colcon build --base-paths src && source install/setup.bash  # once"
+
+
+def _enforced(cell: Cell) -> Iterator[str]:
+    """Yield how the access policy is enforced: sros2 0.10 to 0.15, for a middleware that is DDS."""
+    if cell.versions.rmw.startswith("rmw_zenoh"):
+        return
+    yield (
+        "To enforce access, make the keys in a shell as above. They hold for its domain and middleware; make new keys "
+        "after a change of either. A process then starts only in its enclave of `security/policy.xml`. The launch "
+        "files name it. Copy to each host only its own enclaves, and keep `private/` away from the cell. For manual "
+        "commands, set the enclave in a shell that launches nothing. Use the enclave below to look, and "
+        f"{code(commissioning_enclave(cell))} for a command by which a gate or a recovery acts:"
+    )
+    yield _fenced(
+        (
+            "export ROS_SECURITY_KEYSTORE=~/keystore",
+            'ros2 security create_keystore "$ROS_SECURITY_KEYSTORE"  # once, and the next line after each build',
+            f'ros2 security generate_artifacts -k "$ROS_SECURITY_KEYSTORE" -p {_POLICY.format(cell.name)}',
+            "export ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce",
+            f"export ROS_SECURITY_ENCLAVE_OVERRIDE={people_enclave(cell)}  # only to look, never to launch",
+        )
+    )
+
+
+def _fenced(lines: Iterable[str]) -> str:
+    return "\n".join(["```sh", *lines, "```"])
+
+
+def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
+    if questions:
+        yield f"## {_OPEN}"
+        yield "Answer each of these in the spec, at the path in brackets. `audit.md` says whom to ask:"
+        yield "\n".join(
+            f"- {markdown(f'{question.subject} ({code(spec_path(question.path))})')}" for question in questions
+        )
+
+
+def _present(cell: Cell, plan: Deployment, name: str) -> bool:
+    if name == "config/moveit/":
+        return bool(cell.groups)
+    if name == "middleware/":
+        return bool(cell.hosts)
+    if name in (REQUIRED_PROGRAM, FIRST_GOAL_PROGRAM, _GOAL):
+        return (FIRST_GOAL_PROGRAM if name == _GOAL else name) in programs(cell)
+    if name == SOURCES:
+        return bool(unreleased(cell))
+    phase = _RELEASED.get(name)
+    return phase is None or phase in phases(plan.bring_up, "real")
+
+
+def _sentence(cell: Cell) -> str:
+    """Return the data flow as one sentence, from the sensors to the drives and the stop."""
+    clauses = [
+        *_streams(cell),
+        *_dynamic_frames(cell),
+        *_actions(cell),
+        *_managers(cell),
+        *_drives(cell),
+        _stop(cell),
+    ]
+    text = "; ".join(clauses)
+    return text[0].upper() + text[1:] + "."
+
+
+def _written(cell: Cell, kind: InterfaceKind) -> Iterator[Interface]:
+    return (interface for interface in cell.interfaces if interface.kind is kind and not interface.derived)
+
+
+def _streams(cell: Cell) -> Iterator[str]:
+    for topic in _written(cell, InterfaceKind.TOPIC):
+        frame = f" in {topic.frame}" if topic.frame else ""
+        yield f"{_names(topic, 'sources')} publishes {code(topic.name)}{frame} to {_names(topic, 'sinks')}"
+
+
+def _dynamic_frames(cell: Cell) -> Iterator[str]:
+    for frame in cell.frames:
+        if frame.kind is FrameKind.DYNAMIC:
+            yield f"{frame.authority} publishes {frame.name} in {frame.parent}, stamped at its observation"
+
+
+def _actions(cell: Cell) -> Iterator[str]:
+    for action in _written(cell, InterfaceKind.ACTION):
+        yield f"{_names(action, 'sinks')} sends goals to {_names(action, 'sources')} through {code(action.name)}"
+    for controller in cell.controllers:
+        if controller.action is not None:
+            client = controller.client or "a client that the spec does not name"
+            yield f"{client} sends goals to {controller.label} through {code(controller.action)}{_instead(controller)}"
+
+
+def _instead(controller: Controller) -> str:
+    """Return the destination of goals on real hardware, for a controller that runs only on the mock."""
+    other = controller.stand_in
+    return "" if other is None else f", on real hardware to {other.node} through {code(other.action)}"
+
+
+def _managers(cell: Cell) -> Iterator[str]:
+    for manager in cell.managers:
+        for device in map(cell.device, manager.devices):
+            through = real_driver(device)
+            if device.hardware is not None and "real" in device.hardware.targets:
+                yield f"controller manager {manager.name} writes to {device.name} through {through}"
+            else:
+                yield f"no controller manager writes to {device.name} on real hardware, where {through} moves it"
+
+
+def _drives(cell: Cell) -> Iterator[str]:
+    for device in cell.devices:
+        if device.is_driven:
+            yield f"the vendor controller of {device.name} decides what reaches the drives"
+
+
+def _stop(cell: Cell) -> str:
+    stop = cell.safety.stop
+    return f"{stop.authority} stops the cell by a path ({stop.path}) without software"
+
+
+def _names(interface: Interface, side: str) -> str:
+    ends = interface.sources if side == "sources" else interface.sinks
+    return " and ".join(end.node for end in ends) or "no node"

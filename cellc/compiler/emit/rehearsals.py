@@ -1,0 +1,70 @@
+"""``rehearsals.json``: what the mock executes, and the outcome that each run must end in.
+
+Format 2, ``cellc.contract.rehearsals``: every name resolved, times in simulated seconds. Read by ``cellc.mock``. Left
+out: ``use``; a rehearsal that takes another's steps carries its own copy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.cell.motion import Fault, Rehearsal, Step
+from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.files import REHEARSALS
+from cellc.compiler.formats.json_text import render
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, Rehearsals, StepEntry
+
+
+def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the rehearsals."""
+    entries = tuple(map(_rehearsal, graph.cell.rehearsals))
+    model = Rehearsals(format=2, rehearsals=entries)
+    yield Artifact(REHEARSALS, render(model))
+
+
+def _rehearsal(rehearsal: Rehearsal) -> RehearsalEntry:
+    return RehearsalEntry.model_validate(
+        {
+            "name": rehearsal.name,
+            "steps": tuple(map(_step, rehearsal.steps)),
+            "faults": tuple(map(_fault, rehearsal.faults)),
+            "expect": rehearsal.expect,
+            "within_s": rehearsal.within_s,
+            "timeout_s": rehearsal.timeout_s,
+            "bring_up": rehearsal.bring_up,
+        }
+    )
+
+
+def _step(step: Step) -> StepEntry:
+    return StepEntry.model_validate(
+        {
+            "kind": step.kind,
+            "target": step.name,
+            "command": step.command,
+            "state": step.state,
+            "duration_s": step.duration_s,
+        }
+    )
+
+
+def _fault(fault: Fault) -> FaultEntry:
+    event = fault.event
+    return FaultEntry.model_validate(
+        {
+            "kind": fault.kind,
+            "target": fault.name,
+            "at_s": fault.at_s,
+            "event": None if event is None else {"step": event.step, "when": event.when, "after_s": event.after_s},
+            "phase": fault.phase,
+            "lasting_s": fault.lasting_s,
+            "cycles": fault.cycles,
+            "delay_s": fault.delay_s,
+            "jump_s": fault.jump_s,
+            "displacement": fault.displacement,
+            "velocity": fault.velocity,
+            "factor": fault.factor,
+        }
+    )

@@ -1,0 +1,36 @@
+"""What a cell's shapes and joints allow, computed with the planner and kept in the cache.
+
+The robot library is imported where an answer has to be computed and not before: a warm check does without.
+"""
+
+from cellc.compiler.feasibility.answers import (
+    MARGIN_M,
+    RNG_SEED,
+    BodyContact,
+    DisabledAnswer,
+    DisabledLinks,
+    GoalAnswer,
+    HoldingAnswer,
+    MotionAnswer,
+    PoseAnswer,
+    ViewAnswer,
+)
+from cellc.compiler.feasibility.feasibility import disabled_links, motion_answer
+from cellc.compiler.feasibility.meshes import MeshFault, mesh_faults
+
+__all__ = [
+    "MARGIN_M",
+    "RNG_SEED",
+    "BodyContact",
+    "DisabledAnswer",
+    "DisabledLinks",
+    "GoalAnswer",
+    "HoldingAnswer",
+    "MeshFault",
+    "MotionAnswer",
+    "PoseAnswer",
+    "ViewAnswer",
+    "disabled_links",
+    "mesh_faults",
+    "motion_answer",
+]

@@ -1,0 +1,100 @@
+"""The ``<ros2_control>`` tag of a device: plugin, parameters and interfaces for one target.
+
+Limits are not repeated here: ros2_control takes those of the URDF's joints. Only the mock gets initial values, real
+hardware tells its own.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from xml.etree.ElementTree import Element
+
+from cellc.compiler.cell.device import Device, DeviceJoint
+from cellc.compiler.cell.hardware import HardwareComponent, InterfaceGroup
+from cellc.compiler.formats.escape import xacro_text
+from cellc.compiler.formats.numbers import shortest
+from cellc.compiler.formats.xml_text import element
+
+# Only an installed workspace knows the folder; xacro puts it in when the launch file reads the description.
+_SHARE = re.compile(r"\{share:([A-Za-z_][A-Za-z0-9_]*)\}")
+
+
+def ros2_control(device: Device, hardware: HardwareComponent, target: str, start: Mapping[str, float]) -> Element:
+    """Return the tag of one hardware component.
+
+    Args:
+        target: ``mock`` or ``real``.
+        start: position of each joint when the mock begins, rad or m; empty for real hardware, which tells its own.
+    """
+    groups = [("sensor", group) for group in hardware.sensors] + [("gpio", group) for group in hardware.gpios]
+    return element(
+        "ros2_control",
+        {"name": hardware.name, "type": hardware.kinds.get(target, "system")},
+        [
+            _hardware(hardware, target),
+            *_joints(device, start),
+            *(_group(tag, group, target) for tag, group in groups if _has_tag(group, target)),
+        ],
+    )
+
+
+def _has_tag(group: InterfaceGroup, target: str) -> bool:
+    return group.declared and (target == "real" or not group.real_only)
+
+
+def share_folders(device: Device) -> tuple[str, ...]:
+    """Return the packages whose share folders the real hardware's parameters name; xacro stops where one is missing."""
+    if device.hardware is None:
+        return ()
+    parameters = device.hardware.parameters.get("real", {})
+    return tuple(package for value in parameters.values() for package in _SHARE.findall(value))
+
+
+def for_xacro(root: Element) -> Element:
+    """Return a description whose texts xacro leaves as they are, but for share folders, which it puts in."""
+    for node in root.iter():
+        node.attrib.update({name: xacro_text(value) for name, value in node.attrib.items() if "$" in value})
+        text = xacro_text(node.text or "") or None
+        node.text = _SHARE.sub(r"$(find \1)", text) if text and node.tag == "param" else text
+    return root
+
+
+def _hardware(hardware: HardwareComponent, target: str) -> Element:
+    parameters = hardware.parameters[target]
+    return element(
+        "hardware",
+        children=[
+            element("plugin", text=hardware.plugins[target]),
+            *(_parameter(name, value) for name, value in parameters.items()),
+        ],
+    )
+
+
+def _joints(device: Device, start: Mapping[str, float]) -> Iterator[Element]:
+    # A joint that follows another may offer states; ros2_control takes its factors from the URDF's `<mimic>`.
+    for joint in device.joints:
+        if joint.command_interfaces or joint.state_interfaces:
+            yield _joint(joint, start.get(joint.name))
+
+
+def _joint(joint: DeviceJoint, start: float | None) -> Element:
+    commands = [element("command_interface", {"name": name}) for name in joint.command_interfaces]
+    states = [_state(name, start if name == "position" else None) for name in joint.state_interfaces]
+    return element("joint", {"name": joint.name}, [*commands, *states])
+
+
+def _group(tag: str, group: InterfaceGroup, target: str) -> Element:
+    initial = group.initial if target == "mock" else {}
+    commands = [element("command_interface", {"name": name}) for name in group.command_interfaces]
+    states = [_state(name, initial.get(name)) for name in group.state_interfaces]
+    return element(tag, {"name": group.name}, [*commands, *states])
+
+
+def _state(name: str, initial: float | None) -> Element:
+    value = [] if initial is None else [_parameter("initial_value", shortest(initial))]
+    return element("state_interface", {"name": name}, value)
+
+
+def _parameter(name: str, value: str) -> Element:
+    return element("param", {"name": name}, text=value)

@@ -1,0 +1,84 @@
+"""XML text from a tree: two spaces a level, one element a line, attributes in the order given."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from xml.etree.ElementTree import Element
+
+from cellc.contract.diagnostics.unsafe_text import HIDDEN, escaped_within
+
+_COMMENT = "!--"
+_NO_CHARACTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+
+
+def element(
+    tag: str, attributes: Mapping[str, str] | None = None, children: Iterable[Element] = (), text: str = ""
+) -> Element:
+    """Build an element with its attributes, children and text."""
+    built = Element(tag, dict(attributes or {}))
+    built.text = text or None
+    built.extend(tuple(children))
+    return built
+
+
+def comment(text: str) -> Element:
+    """Build a comment; two hyphens in a row, which XML forbids there, are set apart."""
+    built = Element(_COMMENT)
+    built.text = _apart(text)
+    return built
+
+
+def render(root: Element, header: str = "") -> str:
+    """Write a document: the declaration, the header comment, the tree.
+
+    Args:
+        root: the root element.
+        header: text of a comment before the root; several lines are allowed, empty for none.
+    """
+    # Without an encoding, which is UTF-8 then: some parsers refuse a text in memory that declares one.
+    lines = ['<?xml version="1.0"?>']
+    if header:
+        lines += ["<!--", *(f"  {_apart(line)}".rstrip() for line in header.splitlines()), "-->"]
+    lines += _lines(root, 0)
+    return "\n".join(lines) + "\n"
+
+
+def _apart(text: str) -> str:
+    return re.sub("-(?=-)", "- ", escaped_within(text))
+
+
+# As xml.sax.saxutils does it, whose import takes 8 ms of every check because it brings urllib along.
+def _escaped(text: str) -> str:
+    shown = text.replace("&", "&amp;").replace(">", "&gt;").replace("<", "&lt;")
+    return shown if shown.isascii() and shown.isprintable() else HIDDEN.sub(_reference, shown)
+
+
+def _reference(found: re.Match[str]) -> str:
+    """Return a reference to a character that hides text; XML 1.0 takes none to what its production Char leaves out."""
+    character = found[0]
+    return "\ufffd" if _NO_CHARACTER.match(character) else f"&#x{ord(character):X};"
+
+
+def _quoted(value: str) -> str:
+    escaped = _escaped(value).replace("\n", "&#10;").replace("\t", "&#9;")
+    if '"' not in escaped:
+        return f'"{escaped}"'
+    return '"{}"'.format(escaped.replace('"', "&quot;")) if "'" in escaped else f"'{escaped}'"
+
+
+def _lines(node: Element, depth: int) -> Iterator[str]:
+    indent = "  " * depth
+    if node.tag == _COMMENT:
+        if depth == 1:
+            yield ""
+        yield f"{indent}<!-- {node.text} -->"
+        return
+    start = node.tag + "".join(f" {name}={_quoted(value)}" for name, value in node.attrib.items())
+    if len(node) == 0:
+        yield f"{indent}<{start}>{_escaped(node.text)}</{node.tag}>" if node.text else f"{indent}<{start}/>"
+        return
+    yield f"{indent}<{start}>"
+    for child in node:
+        yield from _lines(child, depth + 1)
+    yield f"{indent}</{node.tag}>"

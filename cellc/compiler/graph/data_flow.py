@@ -1,0 +1,225 @@
+"""The data flow: who tells what to whom, from sensors down to the controllers, and how old it is when it arrives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from heapq import heapify, heappop, heappush
+from typing import TYPE_CHECKING
+
+from cellc.compiler.catalog.load import load_message_types
+from cellc.compiler.catalog.tables import InterfaceTypeFacts
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller
+from cellc.compiler.cell.frame import FrameKind
+from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
+
+if TYPE_CHECKING:
+    import networkx
+
+
+@dataclass(frozen=True, slots=True)
+class TopicPair:
+    """A publisher of a topic and one of its subscribers, whose QoS the middleware compares."""
+
+    topic: Interface
+    source: Endpoint
+    sink: Endpoint
+
+
+# Without slots, so that the graph over all nodes is built once and kept.
+@dataclass(frozen=True)
+class DataFlow:
+    """Interfaces by name, and the edges along which their data goes from node to node.
+
+    Args:
+        interfaces: every declaration of a name, in the order of the cell.
+        commanders: controllers with command interfaces by the name that ends have, where motion ends.
+        frame_edges: edges from the publisher of a dynamic frame to the nodes that plan in it.
+    """
+
+    interfaces: Mapping[str, tuple[Interface, ...]]
+    commanders: Mapping[str, tuple[Controller, ...]]
+    frame_edges: tuple[tuple[str, str], ...]
+
+    def publishers(self, name: str) -> tuple[str, ...]:
+        """Name the nodes that publish a topic, or serve a service or action."""
+        return tuple(end.node for interface in self.interfaces.get(name, ()) for end in interface.sources)
+
+    def subscribers(self, name: str) -> tuple[str, ...]:
+        """Name the nodes that subscribe to a topic, or are clients of a service or action."""
+        return tuple(end.node for interface in self.interfaces.get(name, ()) for end in interface.sinks)
+
+    def feeding_motion(self) -> frozenset[str]:
+        """Name the topics of which a subscriber can, directly or through others, move a joint."""
+        movers = self._movers()
+        return frozenset(
+            name
+            for name, interfaces in self.interfaces.items()
+            for interface in interfaces
+            if interface.kind is InterfaceKind.TOPIC and any(end.node in movers for end in interface.sinks)
+        )
+
+    def way_to_motion(self, interface: Interface) -> str:
+        """Write the shortest way from a topic to a controller, such as "`/pose` → `task` → `arm_trajectory`"."""
+        paths = [path for sink in interface.sinks if (path := self.path_to_motion(sink.node))]
+        shortest = min(paths, key=lambda path: (len(path), path), default=())
+        return " → ".join(f"`{name}`" for name in (interface.name, *shortest))
+
+    def topic_pairs(self) -> Iterator[TopicPair]:
+        """Yield each publisher of a topic with each of its subscribers."""
+        for interfaces in self.interfaces.values():
+            topics = [interface for interface in interfaces if interface.kind is InterfaceKind.TOPIC]
+            sources = [(topic, source) for topic in topics for source in topic.sources]
+            sinks = [sink for topic in topics for sink in topic.sinks]
+            for topic, source in sources:
+                yield from (TopicPair(topic, source, sink) for sink in sinks)
+
+    def path_to_motion(self, node: str) -> tuple[str, ...]:
+        """Return the shortest way from a node to a controller, both included; empty where there is none."""
+        import networkx
+
+        graph = self._digraph
+        if node not in graph:
+            return ()
+        reached = networkx.single_source_shortest_path(graph, node)
+        paths = [tuple(path) for name, path in reached.items() if name in self.commanders]
+        return min(paths, key=lambda path: (len(path), path), default=())
+
+    def _movers(self) -> frozenset[str]:
+        import networkx
+
+        graph = self._digraph
+        movers: set[str] = set(self.commanders)
+        for name in self.commanders:
+            movers |= networkx.ancestors(graph, name)
+        return frozenset(movers)
+
+    @cached_property
+    def _digraph(self) -> networkx.DiGraph[str]:
+        import networkx
+
+        graph: networkx.DiGraph[str] = networkx.DiGraph()
+        graph.add_nodes_from(self.commanders)
+        for interfaces in self.interfaces.values():
+            for interface in interfaces:
+                graph.add_edges_from(_edges(interface))
+        for name, controllers in self.commanders.items():
+            graph.add_edges_from((controller.client, name) for controller in controllers if controller.client)
+        graph.add_edges_from(self.frame_edges)
+        return graph
+
+
+def _edges(interface: Interface) -> list[tuple[str, str]]:
+    # A request goes from client to server, the other way than the samples of a topic.
+    pairs = [(source.node, sink.node) for source in interface.sources for sink in interface.sinks]
+    return pairs if interface.kind is InterfaceKind.TOPIC else [(sink, source) for source, sink in pairs]
+
+
+def build_data_flow(cell: Cell) -> DataFlow:
+    """Gather interfaces by name, the controllers that move something, and who plans in a dynamic frame."""
+    interfaces: dict[str, list[Interface]] = {}
+    for interface in cell.interfaces:
+        interfaces.setdefault(interface.name, []).append(interface)
+    commanders: dict[str, list[Controller]] = {}
+    for controller in cell.controllers:
+        if controller.command_interfaces:
+            commanders.setdefault(controller.label, []).append(controller)
+    return DataFlow(
+        {name: tuple(found) for name, found in interfaces.items()},
+        {name: tuple(found) for name, found in commanders.items()},
+        _frame_edges(cell),
+    )
+
+
+def _frame_edges(cell: Cell) -> tuple[tuple[str, str], ...]:
+    targets = {goal.frame for goal in cell.goals}
+    publishers = [f.authority for f in cell.frames if f.kind is FrameKind.DYNAMIC and f.name in targets]
+    clients = [controller.client for controller in cell.controllers if controller.client]
+    return tuple(dict.fromkeys((publisher, client) for publisher in publishers for client in clients))
+
+
+@dataclass(frozen=True, slots=True)
+class AgeShare:
+    """What one topic adds to the age of an observation, in s; a fresh sample is up to one period old."""
+
+    topic: str
+    period_s: float
+    transport_s: float
+    exposure_s: float
+
+    @property
+    def total_s(self) -> float:
+        """The whole share in s."""
+        return self.period_s + self.transport_s + self.exposure_s
+
+    def __str__(self) -> str:
+        return f"`{self.topic}` {self.total_s * 1e3:.4g} ms"
+
+
+def age_chains(cell: Cell) -> Mapping[str, tuple[AgeShare, ...]]:
+    """Return, for each topic with a rate, the shares from the sensor to it, the sensor first.
+
+    A node passes the stamp of its input on where its output is in the input's frame, as a detector does that publishes
+    poses in the frame of the camera. Of several inputs the freshest counts: whoever is too old by that one is too old
+    by all. Topics that only feed each other in a circle observe nothing and stand alone.
+    """
+    topics = {topic.name: topic for topic in cell.interfaces if topic.kind is InterfaceKind.TOPIC and topic.rate_hz}
+    shares = {name: _share(cell, topic) for name, topic in topics.items()}
+    passed_on = _passed_on(cell, topics)
+    observing = {name for names in passed_on.values() for name in names}
+    queue = [(share.total_s, name, "") for name, share in shares.items() if name not in observing]
+    heapify(queue)
+    chains: dict[str, tuple[AgeShare, ...]] = {}
+    while queue:
+        age_s, name, before = heappop(queue)
+        if name in chains:
+            continue
+        chains[name] = (*chains.get(before, ()), shares[name])
+        for reader in passed_on[name]:
+            if reader not in chains:
+                heappush(queue, (age_s + shares[reader].total_s, reader, name))
+    return {name: chains.get(name, (share,)) for name, share in shares.items()}
+
+
+def _passed_on(cell: Cell, topics: Mapping[str, Interface]) -> Mapping[str, list[str]]:
+    """Return, for each topic, the topics to which its readers pass its stamp on."""
+    device_frames = {device.name: frozenset(device.frames.values()) for device in cell.devices}
+    published: dict[str, list[Interface]] = {}
+    for topic in topics.values():
+        for source in topic.sources:
+            published.setdefault(source.node, []).append(topic)
+    passed_on: dict[str, list[str]] = {}
+    for name, topic in topics.items():
+        frames = {topic.frame}.union(*(device_frames.get(source.node, ()) for source in topic.sources))
+        outputs = (output for sink in topic.sinks for output in published.get(sink.node, ()))
+        readers = (output.name for output in outputs if output.frame is not None and output.frame in frames)
+        passed_on[name] = [reader for reader in dict.fromkeys(readers) if reader != name]
+    return passed_on
+
+
+def _share(cell: Cell, topic: Interface) -> AgeShare:
+    period_s = 1.0 / topic.rate_hz if topic.rate_hz else 0.0
+    return AgeShare(topic.name, period_s, topic.transport_s or 0.0, _exposure_s(cell, topic))
+
+
+def _exposure_s(cell: Cell, topic: Interface) -> float:
+    stamps = {device.name: device.stamp for device in cell.devices}
+    found = (stamps.get(source.node) for source in topic.sources)
+    return max((stamp.exposure_s for stamp in found if stamp is not None and stamp.exposure_s is not None), default=0.0)
+
+
+def is_state_on_change(topic: Interface) -> bool:
+    """Tell whether a topic keeps its last sample for late readers and has no stamp: it holds until it is changed."""
+    facts = interface_types().get(topic.type)
+    latched = bool(topic.sources) and all(
+        source.qos.durability == "transient_local" and source.qos.reliability == "reliable" for source in topic.sources
+    )
+    return latched and topic.rate_hz is None and facts is not None and not facts.stamped
+
+
+def interface_types() -> Mapping[str, InterfaceTypeFacts]:
+    """Return the known types by full name; a cell may use others of its own packages."""
+    table = load_message_types().value
+    return {} if table is None else table.types

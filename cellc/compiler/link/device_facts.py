@@ -1,0 +1,311 @@
+"""What the spec states of a device and the catalog knows of it, in SI, prefixed, with placeholders filled."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from cellc.compiler.catalog.device_bring_up import CommissioningStep as CommissioningFacts
+from cellc.compiler.catalog.device_graph import ImageFacts, ViewFacts
+from cellc.compiler.catalog.device_model import DeviceModel, GripperFacts
+from cellc.compiler.catalog.robot_facts import HumanStep
+from cellc.compiler.cell.device import (
+    Adapter,
+    Camera,
+    CameraStream,
+    Connection,
+    Device,
+    DeviceVersions,
+    FieldOfView,
+    Gripper,
+    LimitShares,
+    NetworkNeeds,
+    Packages,
+    SimulatedJoint,
+    Stamp,
+    VendorMount,
+)
+from cellc.compiler.cell.vendor import CommissioningStep, RecordSource, RecoveryProcedure, SafetyState, VendorSafety
+from cellc.compiler.link.hardware import offered_interfaces, run_nodes, started_nodes
+from cellc.compiler.link.names import Placeholders
+from cellc.compiler.link.ports import listened
+from cellc.compiler.link.quantities import joint_figure, pose, si
+from cellc.compiler.link.robot import conditions
+from cellc.compiler.link.site import bind_clock
+from cellc.compiler.source.document import SourceDocument
+from cellc.compiler.spec.devices import EVERY_JOINT, DeviceSpec
+from cellc.contract.pins import day_of
+from cellc.contract.vocabulary import Distro
+
+
+def with_statements(device: Device, written: DeviceSpec, port: str | None, document: SourceDocument) -> Device:
+    """Return a device with what the spec states of it: versions, connection, shares of limits, stamp.
+
+    Args:
+        port: its serial port, where it has one.
+    """
+    return replace(
+        device,
+        architecture=written.architecture,
+        versions=_versions(written),
+        connection=_connection(written, port),
+        initial_state=written.initial_state,
+        limit_shares=limit_shares(written),
+        stamp=_stamp(written),
+        mounted_on=_mounted_on(written),
+        adapter=_adapter(written),
+        simulated_joints=_simulated_joints(written, device, document),
+    )
+
+
+def with_catalog(
+    device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders, distro: Distro | None
+) -> Device:
+    """Return a device with what the catalog knows of it: what it offers, asks of its cell, and cannot prove."""
+    prefix, limits, control = device.prefix, facts.limits, facts.control
+    nodes = run_nodes(facts, known, written.firmware)
+    holding = conditions(facts, written)
+    return replace(
+        device,
+        home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
+        vendor_mounts=tuple(
+            VendorMount(model=one.on, frame=one.frame, pose=pose(one.xyz, one.rpy)) for one in facts.mounts
+        ),
+        optical_frames=facts.optical_frames,
+        payload_limit_kg=None if limits.payload is None else limits.payload.value.si,
+        repeatability_m=None if limits.repeatability is None else limits.repeatability.value.si,
+        update_rates_hz=() if control is None else tuple(rate.si for rate in control.update_rates),
+        controller_kinds=tuple(facts.controllers),
+        speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
+        gripper=_gripper(facts, prefix),
+        camera=_camera(facts, written, known, prefix),
+        offers=tuple(offered_interfaces(facts, nodes, known, distro)),
+        starts=started_nodes(nodes, known, distro),
+        network=_network_needs(facts, known),
+        safety=_vendor_safety(facts, known, holding),
+        packages=_packages(facts),
+        jog=None if facts.jog is None else facts.jog.does,
+        commissioning=tuple(
+            _step(one, known)
+            for one in facts.commissioning
+            if (not one.only or distro in one.only) and (not one.when or holding.intersection(one.when))
+        ),
+        record=tuple(_record(facts)),
+        version_rows=facts.versions,
+        allowed_collisions=tuple((prefix + a, prefix + b) for a, b in (one.links for one in facts.allowed_collisions)),
+        excused={str(code): because for code, because in facts.excused.items()},
+        mock_cannot_prove=(*facts.mock_cannot_prove, *_taken_on_trust(facts)),
+    )
+
+
+def _record(facts: DeviceModel) -> Iterator[RecordSource]:
+    for field, told in facts.record.items():
+        yield RecordSource(
+            attempt_field=field, controller_kind=told.controller, topic=told.topic, field=told.field, read=told.read
+        )
+
+
+def _versions(written: DeviceSpec) -> DeviceVersions:
+    """Return the parts of the version tuple that the device adds."""
+    return DeviceVersions(
+        revision=written.revision,
+        serial=written.serial,
+        firmware=written.firmware,
+        driver=written.driver,
+        sdk=written.sdk,
+        description=written.description,
+    )
+
+
+def _connection(written: DeviceSpec, port: str | None) -> Connection | None:
+    """Return how the real device is reached."""
+    one = written.connection
+    if one is None:
+        return None
+    return Connection(host=one.host, nic=one.nic, address=one.address, port=port, through=one.through)
+
+
+def limit_shares(written: DeviceSpec) -> LimitShares:
+    """Return the shares of the device's own limits; whole where nothing is written."""
+    limits = written.limits
+    if limits is None:
+        return LimitShares()
+    velocity, acceleration = si(limits.velocity), si(limits.acceleration)
+    return LimitShares(
+        velocity=1.0 if velocity is None else velocity, acceleration=1.0 if acceleration is None else acceleration
+    )
+
+
+def _mounted_on(written: DeviceSpec) -> datetime.date | None:
+    since = None if written.mount is None else written.mount.since
+    return None if since is None else day_of(since)
+
+
+def _stamp(written: DeviceSpec) -> Stamp | None:
+    """Return what a sensor stamps."""
+    stamp = written.stamp
+    if stamp is None:
+        return None
+    return Stamp(source=stamp.source, clock=bind_clock(stamp, stamp.clock), exposure_s=si(stamp.exposure))
+
+
+def _adapter(written: DeviceSpec) -> Adapter | None:
+    """Return the watchdog of a direct SDK."""
+    adapter = written.adapter
+    if adapter is None:
+        return None
+    return Adapter(
+        command_timeout_s=si(adapter.command_timeout),
+        stop_time_s=si(adapter.stop_time),
+        goal_time_s=si(adapter.goal_time),
+        path_tolerance=None if adapter.path_tolerance is None else joint_figure(adapter.path_tolerance),
+    )
+
+
+def _simulated_joints(written: DeviceSpec, device: Device, document: SourceDocument) -> tuple[SimulatedJoint, ...]:
+    """Return what the mock adds to joints, with the commanded joints that each key means."""
+    path = (*device.path, "simulated_joints")
+    return tuple(
+        SimulatedJoint(
+            name=key,
+            path=(*path, key),
+            span=document.locate((*path, key)),
+            joints=tuple(joint.name for joint in device.actuated_joints if key in (EVERY_JOINT, joint.local_name)),
+            lag_s=si(one.lag),
+            noise=None if one.noise is None else joint_figure(one.noise),
+            velocity=None if one.velocity is None else joint_figure(one.velocity),
+        )
+        for key, one in written.simulated_joints.items()
+    )
+
+
+def _taken_on_trust(facts: DeviceModel) -> Iterator[str]:
+    """Yield what its folder says need not be looked at, with the reason."""
+    for code, because in facts.excused.items():
+        yield f"`{code}` of its description is excused: {because}"
+    for pair in facts.allowed_collisions:
+        yield f"contact of `{pair.links[0]}` and `{pair.links[1]}` is not looked for: {pair.because}"
+
+
+def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
+    """Return the gripper that the device is."""
+    one = facts.gripper
+    if one is None:
+        return None
+    return Gripper(
+        joint=prefix + one.joint,
+        open=one.open.si,
+        closed=one.closed.si,
+        max_force=one.max_force.si,
+        max_velocity=_joint_speed(one),
+        goal_tolerance=float(one.goal_tolerance.si),
+    )
+
+
+def _joint_speed(gripper: GripperFacts) -> float | None:
+    """Return how fast the joint moves as the jaws do at their own speed, in rad/s or m/s; None where it is none.
+
+    The way of a linkage is taken as even along its stroke. A vendor's URDF has another limit, which nobody measured.
+    """
+    way, stroke = abs(float(gripper.closed.si) - float(gripper.open.si)), gripper.stroke.si
+    return gripper.max_speed.si * way / stroke or None if stroke > 0.0 else None
+
+
+def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:
+    """Return the camera that the device is; an exposure of the spec counts before the catalog's."""
+    camera = facts.camera
+    if camera is None:
+        return None
+    stamp = written.stamp
+    exposure = (None if stamp is None else stamp.exposure) or camera.exposure
+    return Camera(
+        streams=tuple(
+            CameraStream(
+                topic=known.fill(stream.topic),
+                type=stream.type,
+                info_topic=known.fill(stream.info_topic),
+                frame=prefix + stream.frame,
+                rate_hz=stream.rate.si,
+                view=field_of_view(stream.view),
+                image_bytes=_bytes(stream.image),
+            )
+            for stream in camera.streams.values()
+        ),
+        exposure_s=0.0 if exposure is None else exposure.si,
+    )
+
+
+def _bytes(facts: ImageFacts | None) -> int | None:
+    return None if facts is None else facts.width * facts.height * facts.bytes_per_pixel
+
+
+def field_of_view(facts: ViewFacts | None) -> FieldOfView | None:
+    """Return what a stream sees, in SI; None where the catalog does not say."""
+    if facts is None:
+        return None
+    return FieldOfView(
+        horizontal=facts.horizontal.si,
+        vertical=facts.vertical.si,
+        nearest_m=facts.nearest.si,
+        farthest_m=facts.farthest.si,
+    )
+
+
+def _network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | None:
+    """Return what the device asks of its network."""
+    network = facts.network
+    if network is None:
+        return None
+    listens = listened(facts, known.port_shift)
+    return NetworkNeeds(dedicated_link=network.dedicated_link, realtime=network.realtime, listens=listens)
+
+
+def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
+    """Return what a person does; what stands in its commands is quoted where they are written."""
+    return CommissioningStep(
+        gate=facts.gate,
+        does=known.fill(facts.does),
+        shows=facts.shows,
+        powers=facts.powers,
+        log=facts.log,
+        run=facts.run,
+        by=facts.by,
+    )
+
+
+def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[str]) -> VendorSafety:
+    """Return the vendor's safety boundary; empty where the catalog has none.
+
+    Args:
+        holding: what is so of the device, of all that a step may be bound to.
+    """
+    safety = facts.safety
+    if safety is None:
+        return VendorSafety()
+
+    def told(steps: Iterable[HumanStep]) -> tuple[str, ...]:
+        free = (one if isinstance(one, str) else one.does if holding.intersection(one.when) else "" for one in steps)
+        return tuple(known.fill(step) for step in free if step)
+
+    return VendorSafety(
+        states=tuple(
+            SafetyState(name=one.name, stops=one.stops, reported=one.reported, gate=one.gate) for one in safety.states
+        ),
+        topics=tuple(
+            f"{known.values[kind]}/{one.topic}"
+            for one in safety.told
+            if (kind := f"controller_{one.controller}") in known.values
+        ),
+        ending=told(safety.ending),
+        ended=told(safety.ended),
+        modes=safety.modes,
+        recovery=tuple(RecoveryProcedure(state=one.state, steps=told(one.steps), by=one.by) for one in safety.recovery),
+        watchdog=safety.watchdog,
+    )
+
+
+def _packages(facts: DeviceModel) -> Packages:
+    """Return the vendor's packages and libraries."""
+    one = facts.packages
+    return Packages(driver=one.driver, sdk=one.sdk, description=one.description)

@@ -1,0 +1,209 @@
+"""What the spec tells the robot's own controller, who starts its program, and what that changes of its driver."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+
+from cellc.compiler.catalog import robot_facts as catalog
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.robot_facts import ProgramWay
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.interface import ParameterValue
+from cellc.compiler.cell.robot import (
+    CartesianImpedance,
+    CollisionThresholds,
+    Impedance,
+    ImpedanceFacts,
+    Load,
+    Moments6,
+    Payload,
+    RobotFacts,
+    RobotProgram,
+    Thresholds,
+)
+from cellc.compiler.link.frames import FrameNames
+from cellc.compiler.link.quantities import vector
+from cellc.compiler.link.tool import tool_conditions, tool_facts
+from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.compiler.spec.devices import DeviceSpec
+from cellc.compiler.spec.quantity import QuantityVector
+from cellc.compiler.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec, ProgramSpec
+from cellc.contract.diagnostics import Diagnostic, Outcome
+
+DRIVER = "driver"
+"""The word of a spec for a program that the driver of the robot sends and starts."""
+
+
+def with_robot(device: Device, facts: DeviceModel, written: DeviceSpec) -> Device:
+    """Return a device with what its own controller is told, and its driver with the parameters of the way chosen."""
+    program, hardware = written.program, device.hardware
+    way = chosen_way(facts, written)
+    if hardware is not None and way is not None and "real" in hardware.parameters:
+        real = {**hardware.parameters["real"], **way.parameters}
+        hardware = replace(hardware, parameters={**hardware.parameters, "real": real})
+    return replace(
+        device,
+        hardware=hardware,
+        payload=_payload(written),
+        program=None if program is None else RobotProgram(played_by=program.played_by, mode=program.mode),
+        collision=None if written.collision is None else _collision(written.collision),
+        impedance=None if written.impedance is None else _impedance(written.impedance),
+        robot=_robot(facts),
+    )
+
+
+def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames) -> Outcome[tuple[Device, ...]]:
+    """Bind the frame at which each robot holds its TCP; a frame that there is not is reported."""
+    bound: list[Device] = []
+    problems: list[Diagnostic] = []
+    for device in devices:
+        reference = spec.devices[device.name].tcp
+        frame: Outcome[str] = Outcome(None) if reference is None else names.bind(reference, (*device.path, "tcp"))
+        problems += frame.diagnostics
+        bound.append(replace(device, tcp=frame.value))
+    return Outcome(tuple(bound), tuple(problems))
+
+
+def chosen_way(facts: DeviceModel, written: DeviceSpec) -> ProgramWay | None:
+    """Return how the program comes to run: as the spec says, else the first way; None where there is none."""
+    told = facts.robot.program
+    if told is None:
+        return None
+    return told.ways[0] if written.program is None else told.way(_starter(written.program), written.program.mode)
+
+
+def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
+    """Return what is so of a device, of all that a step of its vendor's procedure may be bound to."""
+    way = chosen_way(facts, written)
+    told_by = "installation" if written.payload is None else written.payload.told_by
+    thresholds = "open" if written.collision is None else "stated"
+    name = "" if way is None else way.name
+    impedance = written.impedance
+    stated = {
+        "load_stated": written.payload is not None and written.payload.load is not None,
+        "joint_impedance_stated": impedance is not None and impedance.joint is not None,
+        "cartesian_impedance_stated": impedance is not None and impedance.cartesian is not None,
+    }
+    more = (name for name, so in stated.items() if so)
+    told = (name, *more, f"payload_by_{told_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
+    return frozenset(told)
+
+
+def node_parameters(facts: DeviceModel, written: DeviceSpec, node: str) -> Mapping[str, ParameterValue]:
+    """Return what the way of starting the program gives to a node of the driver, by its name in the catalog."""
+    way = chosen_way(facts, written)
+    return {} if way is None else way.node_parameters.get(node, {})
+
+
+def robot_words(written: DeviceSpec) -> Iterator[tuple[str, str]]:
+    """Yield placeholders for what the spec says of the robot's own controller."""
+    yield "played_by", "a person" if written.program is None else written.program.played_by
+    if written.collision is not None:
+        yield "thresholds", _request(_collision(written.collision))
+    if written.payload is not None and (load := _load(written.payload)) is not None:
+        yield "load", _load_request(load)
+    if written.impedance is not None and written.impedance.joint is not None:
+        yield "joint_stiffness", _listed(written.impedance.joint.si)
+    if written.impedance is not None and (at := written.impedance.cartesian) is not None:
+        yield "cartesian_stiffness", _listed((*at.translation.si, *at.rotation.si))
+
+
+def _starter(program: ProgramSpec) -> str:
+    return DRIVER if program.played_by == DRIVER else "person"
+
+
+def _request(collision: CollisionThresholds) -> str:
+    """Return the fields of a request: each threshold for phases of acceleration and for those without."""
+    values = {
+        ("lower", "torque"): collision.torque.lower,
+        ("upper", "torque"): collision.torque.upper,
+        ("lower", "force"): (*collision.force.lower, *collision.moment.lower),
+        ("upper", "force"): (*collision.force.upper, *collision.moment.upper),
+    }
+    parts = (
+        f"{side}_{kind}_thresholds_{phase}: {_listed(numbers)}"
+        for (side, kind), numbers in values.items()
+        for phase in ("acceleration", "nominal")
+    )
+    return "{" + ", ".join(parts) + "}"
+
+
+def _listed(numbers: Iterable[float]) -> str:
+    return f"[{', '.join(map(repr, numbers))}]"
+
+
+def _load_request(load: Load) -> str:
+    """Return the fields of a request; of a symmetric matrix rows and columns say the same."""
+    xx, yy, zz, xy, xz, yz = load.inertia
+    matrix = _listed((xx, xy, xz, xy, yy, yz, xz, yz, zz))
+    center = _listed(load.center_of_mass)
+    return f"{{mass: {load.mass_kg!r}, center_of_mass: {center}, load_inertia: {matrix}}}"
+
+
+def _moments(inertia: QuantityVector) -> Moments6:
+    xx, yy, zz, xy, xz, yz = inertia.si
+    return (xx, yy, zz, xy, xz, yz)
+
+
+def _payload(written: DeviceSpec) -> Payload | None:
+    payload = written.payload
+    if payload is None:
+        return None
+    return Payload(
+        mass_kg=payload.mass.si,
+        center_of_mass=vector(payload.center_of_mass),
+        inertia=None if payload.inertia is None else _moments(payload.inertia),
+        told_by=payload.told_by,
+        load=_load(payload),
+    )
+
+
+def _load(payload: PayloadSpec) -> Load | None:
+    load = payload.load
+    if load is None:
+        return None
+    return Load(mass_kg=load.mass.si, center_of_mass=vector(load.center_of_mass), inertia=_moments(load.inertia))
+
+
+def _impedance(written: ImpedanceSpec) -> Impedance:
+    at = written.cartesian
+    return Impedance(
+        joint=None if written.joint is None else written.joint.si,
+        cartesian=None if at is None else CartesianImpedance(translation=at.translation.si, rotation=at.rotation.si),
+    )
+
+
+def _collision(written: CollisionSpec) -> CollisionThresholds:
+    def thresholds(lower: QuantityVector, upper: QuantityVector) -> Thresholds:
+        return Thresholds(lower=lower.si, upper=upper.si)
+
+    return CollisionThresholds(
+        torque=thresholds(written.torque.lower, written.torque.upper),
+        force=thresholds(written.force.lower, written.force.upper),
+        moment=thresholds(written.moment.lower, written.moment.upper),
+    )
+
+
+def _robot(facts: DeviceModel) -> RobotFacts:
+    told = facts.robot
+    ways = () if told.program is None else told.program.ways
+    return RobotFacts(
+        ways=tuple((way.by, way.mode) for way in ways),
+        thresholds=told.thresholds is not None,
+        payload_service=told.payload_service is not None,
+        load_service=told.load_service is not None,
+        impedance_facts=None if told.impedance is None else _impedance_facts(told.impedance),
+        tcp_kind=None if told.tcp is None else told.tcp.controller,
+        tcp_topic=None if told.tcp is None else told.tcp.topic,
+        tool_facts=tool_facts(told.tool_connector),
+    )
+
+
+def _impedance_facts(told: catalog.ImpedanceFacts) -> ImpedanceFacts:
+    return ImpedanceFacts(
+        joint=(told.joint.least, told.joint.most),
+        translation=(told.translation.least, told.translation.most),
+        rotation=(told.rotation.least, told.rotation.most),
+        acts_on=told.acts_on,
+    )

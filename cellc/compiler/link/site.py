@@ -1,0 +1,224 @@
+"""Binds what surrounds the devices: hosts, network, versions, calibrations, owners, safety, bring-up, figures, targets.
+
+Defaults, ``standard`` lists and units are decided here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.entity import Places
+from cellc.compiler.cell.site import (
+    ATTEMPT_FIELDS,
+    STOPPED,
+    TARGET_DEFAULTS,
+    ApprovalOwners,
+    Bringup,
+    Calibration,
+    CalibrationFile,
+    Clock,
+    DiscoveryServer,
+    FirstMotion,
+    HardwareStatement,
+    Host,
+    Kpis,
+    Network,
+    NetworkCard,
+    Owners,
+    Recording,
+    Recovery,
+    ResponsibilityOwners,
+    Rollback,
+    Safety,
+    Stop,
+    Target,
+    Versions,
+)
+from cellc.compiler.link.quantities import joint_figure, si
+from cellc.compiler.source.document import Node, SourceDocument
+from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.compiler.spec.devices import StampSpec
+from cellc.compiler.spec.hosts import ClockSpec
+from cellc.compiler.spec.rehearsals import HardwareStatementSpec
+from cellc.compiler.spec.safety import FirstMotionSpec
+from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.pins import day_of
+from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES
+
+
+def bind_places(document: SourceDocument) -> Places:
+    """Return the place of every value of a document, and its scalars as written."""
+    spans: dict[YamlPath, Span] = {}
+    texts: dict[YamlPath, str] = {}
+
+    def gather(node: Node, path: YamlPath) -> None:
+        for key, child in node.children.items():
+            at = (*path, key)
+            spans[at] = child.place
+            if child.node.children:
+                gather(child.node, at)
+            elif child.node.text:
+                texts[at] = child.node.text
+
+    gather(document.root, ())
+    return Places(document.file, spans, texts)
+
+
+def bind_versions(spec: CellSpec) -> Versions:
+    """Return the version tuple of the cell."""
+    written = spec.versions
+    return Versions(
+        ros=written.ros,
+        os=written.os,
+        kernel=written.kernel,
+        rmw=written.rmw,
+        ros2_control=written.ros2_control,
+        moveit=written.moveit,
+        rollback=Rollback(image=written.rollback.image, configuration=written.rollback.configuration),
+    )
+
+
+def bind_hosts(spec: CellSpec, places: Places) -> Mapping[str, Host]:
+    """Return every computer with its clock and cards."""
+    return {
+        name: Host(
+            name=name,
+            path=("hosts", name),
+            span=places.locate(("hosts", name)),
+            scheduling=written.scheduling,
+            clock=bind_clock(written.clock, written.clock.domain),
+            nics={
+                nic: NetworkCard(
+                    address=card.address, interface=card.interface, speed_bps=si(card.speed), carries=card.carries
+                )
+                for nic, card in written.nics.items()
+            },
+        )
+        for name, written in spec.hosts.items()
+    }
+
+
+def bind_clock(written: ClockSpec | StampSpec, domain: str) -> Clock:
+    """Return the clock of a host or a sensor."""
+    return Clock(
+        domain=domain,
+        synchronised_by=written.synchronised_by,
+        max_offset_s=si(written.max_offset),
+        simulated_offset_s=si(written.simulated_offset) or 0.0,
+        simulated_drift=si(written.simulated_drift) or 0.0,
+    )
+
+
+def bind_network(spec: CellSpec) -> Network:
+    """Return how nodes find each other."""
+    written = spec.network
+    servers = tuple(DiscoveryServer(host=one.host, nic=one.nic, port=one.port) for one in written.servers)
+    return Network(domain_id=written.domain_id, discovery=written.discovery, peers=written.peers, servers=servers)
+
+
+def bind_calibrations(
+    spec: CellSpec, places: Places, files: Mapping[str, CalibrationFile]
+) -> Mapping[str, Calibration]:
+    """Return every calibration by its id, with the file that it is from."""
+    return {
+        name: Calibration(
+            name=name,
+            path=("calibrations", name),
+            span=places.locate(("calibrations", name)),
+            revision=written.revision,
+            measured=written.measured,
+            measured_on=day_of(written.measured),
+            method=written.method,
+            samples=written.samples,
+            residual_m=si(written.residual),
+            owner=written.owner,
+            file=files.get(name),
+        )
+        for name, written in spec.calibrations.items()
+    }
+
+
+def bind_owners(spec: CellSpec) -> Owners:
+    """Return who answers for what."""
+    return Owners(
+        responsibilities=ResponsibilityOwners(**dict(spec.owners.responsibilities)),
+        approvals=ApprovalOwners(**dict(spec.owners.approvals)),
+    )
+
+
+def bind_safety(spec: CellSpec, devices: tuple[Device, ...]) -> Safety:
+    """Return the safety boundary; where no recovery states are stated, those that its devices have a way out of."""
+    stop, recovery = spec.safety.stop, spec.safety.recovery
+    stops = (state for device in devices for state in device.safety.recoverable_stops)
+    return Safety(
+        stop=Stop(authority=stop.authority, path=stop.path, independent_of=stop.independent_of, evidence=stop.evidence),
+        recovery=Recovery(
+            states=tuple(dict.fromkeys((*STOPPED, *stops))) if recovery.states is None else recovery.states,
+            acknowledge=recovery.acknowledge,
+            on_reconnect=recovery.on_reconnect,
+            owner=recovery.owner,
+            observer=recovery.observer,
+        ),
+    )
+
+
+def bind_bringup(spec: CellSpec) -> Bringup:
+    """Return the gates, ``standard`` written out, and the first motion."""
+    gates, first = spec.bringup.gates, spec.bringup.first_motion
+    return Bringup(
+        gates=(*PROMOTION_GATES, *NETWORK_GATES) if gates == "standard" else tuple(gates),
+        first_motion=None if first is None else _first_motion(first),
+    )
+
+
+def _first_motion(written: FirstMotionSpec) -> FirstMotion:
+    return FirstMotion(
+        joint=written.joint,
+        direction=written.direction,
+        max_delta=joint_figure(written.max_delta),
+        velocity=joint_figure(written.velocity),
+        timeout_s=written.timeout.si,
+        stop_if=written.stop_if,
+    )
+
+
+def bind_kpis(spec: CellSpec) -> Kpis:
+    """Return the target figures."""
+    written = spec.kpis
+    return Kpis(
+        plan_to_execute_s=si(written.plan_to_execute),
+        cancel_s=si(written.cancel),
+        missed_cycles=written.missed_cycles,
+        stale_state_rejection=si(written.stale_state_rejection),
+        protective_stops=written.protective_stops,
+        recovery_time_s=si(written.recovery_time),
+        wrong_owner_events=written.wrong_owner_events,
+    )
+
+
+def bind_recording(spec: CellSpec) -> Recording:
+    """Return what is recorded, ``standard`` written out."""
+    written = spec.recording.attempt_fields
+    return Recording(
+        attempt_fields=ATTEMPT_FIELDS if written == "standard" else tuple(written), topics=spec.recording.topics
+    )
+
+
+def bind_statements(written: Mapping[str, HardwareStatementSpec]) -> Mapping[str, HardwareStatement]:
+    """Return what the user says of plugins, or of programs, that run on the mock."""
+    return {name: HardwareStatement(one.touches_no_hardware, one.by, one.date) for name, one in written.items()}
+
+
+def harmless(known: Iterable[str], statements: Mapping[str, HardwareStatement]) -> frozenset[str]:
+    """Return what may run on the mock: what the catalog knows, and what somebody signs for."""
+    return frozenset((*known, *(name for name, statement in statements.items() if statement.is_signed())))
+
+
+def bind_targets(spec: CellSpec) -> Mapping[str, Target]:
+    """Return the targets that every cell has and those that the spec adds, each with its hardware and clock."""
+    targets = dict(TARGET_DEFAULTS)
+    for name, written in spec.targets.items():
+        clock = written.clock or ("sim" if name == "sim" else "wall")
+        targets[name] = Target(hardware=written.hardware or name, clock=clock)
+    return targets

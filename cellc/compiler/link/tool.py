@@ -1,0 +1,129 @@
+"""What the tool connector of a robot gives, what forwards its serial line, and what hangs on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.robot_facts import PlugFacts, ToolConnectorFacts, ToolSerialFacts
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.robot import HostProgram, Plug, ToolConnector, ToolFacts, ToolSerial
+from cellc.compiler.link.names import Placeholders
+from cellc.compiler.spec.devices import DeviceSpec
+from cellc.compiler.spec.tool import ToolSerialSpec
+
+
+def with_tools(device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> Device:
+    """Return a device with what its tool connector gives, its driver told, and with what it takes from another's."""
+    connector, line = written.tool_connector, _line(facts, written)
+    device = replace(device, plug=_plug(facts.plug))
+    if connector is None:
+        return device
+    serial = None if connector.serial is None else _serial(connector.serial, line)
+    device = replace(device, tool_connector=ToolConnector(voltage_v=connector.voltage.si, serial=serial))
+    if line is None:
+        return device
+    program = line.forward
+    forward = HostProgram(
+        name=f"{device.name}_tool_serial",
+        package=program.package,
+        program=program.program,
+        arguments=tuple(map(known.fill, program.arguments)),
+        system=program.system,
+    )
+    told = {name: known.fill(value) for name, value in line.parameters.items()}
+    return replace(_with_parameters(device, told), programs=(forward,))
+
+
+def _with_parameters(device: Device, told: Mapping[str, str]) -> Device:
+    hardware = device.hardware
+    if hardware is None or "real" not in hardware.parameters:
+        return device
+    real = {**hardware.parameters["real"], **told}
+    return replace(device, hardware=replace(hardware, parameters={**hardware.parameters, "real": real}))
+
+
+def gripper_words(facts: DeviceModel) -> dict[str, str]:
+    """Return placeholders for what a gripper is, in rad or m, m/s and N, as plugins are told it."""
+    one = facts.gripper
+    if one is None:
+        return {}
+    speed, force, closed = f"{one.max_speed.si:.3f}", f"{one.max_force.si:g}", f"{one.closed.si:g}"
+    return {"gripper_max_speed": speed, "gripper_max_force": force, "gripper_closed": closed}
+
+
+def tool_words(facts: DeviceModel, written: DeviceSpec) -> Iterator[tuple[str, str]]:
+    """Yield placeholders for what the spec says of a tool connector, and of the robot whose connector is used."""
+    connector, line = written.tool_connector, _line(facts, written)
+    if written.connection is not None and written.connection.through is not None:
+        yield "carrier", written.connection.through
+    if connector is None:
+        return
+    yield "tool_voltage", f"{connector.voltage.si:g}"
+    if connector.serial is None or line is None:
+        return
+    serial = _serial(connector.serial, line)
+    yield "tool_baud_rate", str(serial.baud_rate)
+    yield "tool_parity", line.parities.get(connector.serial.parity, connector.serial.parity)
+    yield "tool_stop_bits", str(serial.stop_bits)
+    yield "tool_port", serial.port
+    for name in ("rx_idle_chars", "tx_idle_chars", "tcp_port"):
+        yield f"tool_{name}", f"{getattr(serial, name):g}"
+
+
+def tool_conditions(written: DeviceSpec, way: str) -> Iterator[str]:
+    """Yield what is so of a device by its tool connector, or by that of another."""
+    if written.connection is not None and written.connection.through is not None:
+        yield "through_tool"
+    if written.tool_connector is not None:
+        yield "tool_power" if written.tool_connector.serial is None else f"tool_serial_{way}"
+
+
+def tool_facts(facts: ToolConnectorFacts | None) -> ToolFacts | None:
+    """Return what the tool connector of a robot can give."""
+    if facts is None:
+        return None
+    voltages, line = tuple(one.si for one in facts.voltages), facts.serial
+    if line is None:
+        return ToolFacts(voltages_v=voltages)
+    idle = {"rx_idle_chars": line.rx_idle_chars, "tx_idle_chars": line.tx_idle_chars}
+    return ToolFacts(
+        voltages_v=voltages,
+        has_serial=True,
+        settings={"baud_rate": line.baud_rates, "parity": tuple(line.parities), "stop_bits": line.stop_bits},
+        spans={name: (one.least, one.most) for name, one in idle.items()},
+    )
+
+
+def _plug(facts: PlugFacts | None) -> Plug | None:
+    if facts is None:
+        return None
+    return Plug(voltage_v=facts.voltage.si, serial=None if facts.serial is None else facts.serial.model_dump())
+
+
+def _line(facts: DeviceModel, written: DeviceSpec) -> ToolSerialFacts | None:
+    """Return the facts of a serial line that is used."""
+    connector, known = written.tool_connector, facts.robot.tool_connector
+    return None if connector is None or connector.serial is None or known is None else known.serial
+
+
+def _serial(written: ToolSerialSpec, facts: ToolSerialFacts | None) -> ToolSerial:
+    """Return a serial line as the spec has it, else as the robot usually has it."""
+    stated = ToolSerial(
+        port=written.port,
+        baud_rate=written.baud_rate,
+        parity=written.parity,
+        stop_bits=written.stop_bits,
+        rx_idle_chars=written.rx_idle_chars,
+        tx_idle_chars=written.tx_idle_chars,
+        tcp_port=written.tcp_port,
+    )
+    if facts is None:
+        return stated
+    return replace(
+        stated,
+        rx_idle_chars=facts.rx_idle_chars.usual if stated.rx_idle_chars is None else stated.rx_idle_chars,
+        tx_idle_chars=facts.tx_idle_chars.usual if stated.tx_idle_chars is None else stated.tx_idle_chars,
+        tcp_port=facts.tcp_port if stated.tcp_port is None else stated.tcp_port,
+    )

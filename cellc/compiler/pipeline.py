@@ -1,0 +1,235 @@
+"""The stages of cellc in order: read, parse, link, build the graph, check, emit, verify, write.
+
+Everything between reading and writing is pure: a stage takes a value and returns a value. source, spec and link stop
+on an error, so that one mistake does not cascade; rules all run.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.catalog.compiled import DEVICE_FILE
+from cellc.compiler.catalog.load import load_device_file
+from cellc.compiler.catalog.read_model import is_device
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.graph.cell_graph import CellGraph, build_graph
+from cellc.compiler.link.link import bare_cell, link
+from cellc.compiler.rules.ignores import apply_ignores, ignore_comments, misused_ignores
+from cellc.compiler.rules.run import ALL_RULES, run_rules
+from cellc.compiler.source import read
+from cellc.compiler.source.codes import finding
+from cellc.compiler.source.document import SourceDocument
+from cellc.compiler.source.text import with_shown_texts
+from cellc.compiler.spec.parse import parse
+from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
+from cellc.contract.diagnostics.diagnostic import CodePage, Findings, counted, findings_table
+from cellc.contract.diagnostics.unsafe_text import escaped
+from cellc.contract.limits import limits
+from cellc.contract.printing import stage
+from cellc.robot.description.packages import root_of
+
+DESCRIPTIONS = (".urdf", ".xacro")
+"""Files of a robot alone, which no cell holds."""
+_ON_MODELS = tuple(one for one in ALL_RULES if one.family == "MOD" or one.code == "missing-velocity-limit")
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Checked:
+    """What checking one spec gave: all findings, and the graph where the stages before it found no error.
+
+    It iterates over its findings, sorted by place.
+
+    Attributes:
+        excused: what rules found, and comments in the spec take out of the findings.
+    """
+
+    findings: Findings
+    graph: CellGraph | None
+    excused: tuple[Diagnostic, ...] = ()
+
+    @property
+    def diagnostics(self) -> tuple[Diagnostic, ...]:
+        """The findings alone."""
+        return self.findings.diagnostics
+
+    @property
+    def ok(self) -> bool:
+        """Whether artifacts may be written: no finding is an error."""
+        return self.graph is not None and self.findings.ok
+
+    def __iter__(self) -> Iterator[Diagnostic]:
+        return iter(self.diagnostics)
+
+    def __repr__(self) -> str:
+        return f"<Checked {escaped(self.findings.file)}: {counted(self.diagnostics)}>"
+
+    def _repr_html_(self) -> str:
+        return findings_table(f"{self.findings.file}: {counted(self.diagnostics)}", self.diagnostics)
+
+
+def judge(path: str | Path) -> Checked:
+    """Check a cell; or, by itself, the device of a ``device.yaml``, or the robot of a URDF or xacro file.
+
+    What is no cell has no graph: its description is judged by the rules on descriptions alone, after the shape, the
+    names and the figures of the file of a device.
+    """
+    file = Path(path)
+    if file.suffix in DESCRIPTIONS:
+        return _check_description(file)
+    source = read(path)
+    is_read = source.value is not None and source.ok
+    return _check_device(file) if is_read and _is_device(file, source.value) else check(path)
+
+
+def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
+    """Read, parse and link a spec, run every rule on its graph, and take out what comments in the spec excuse.
+
+    Args:
+        edited: texts that are read in place of files of the spec, by the name that spans carry.
+    """
+    stage("reading")
+    file = Path(path).as_posix()
+    source = read(path, edited)
+    if source.value is None or not source.ok:
+        texts = {} if source.value is None else source.value.texts
+        return _checked(file, texts, source.diagnostics)
+    stage("linking")
+    texts = source.value.texts
+    if _is_device(Path(path), source.value):
+        told = finding("not-a-cell", f"`{file}` is a device, not a cell", Span(file, 1, 1, 1, 1))
+        return _checked(file, texts, (told,))
+    found = list(source.diagnostics)
+    spec = parse(source.value)
+    found += spec.diagnostics
+    if spec.value is None or not spec.ok:
+        return _checked(file, texts, _unexcused(found, texts))
+    cell = link(spec.value, source.value)
+    found += cell.diagnostics
+    if cell.value is None or not cell.ok:
+        return _checked(file, texts, _unexcused(found, texts))
+    graph = build_graph(cell.value)
+    stage("rules")
+    found += run_rules(graph)
+    kept = _excused(found, texts)
+    known = frozenset(kept)
+    return replace(_checked(file, texts, kept, graph), excused=tuple(one for one in found if one not in known))
+
+
+def _is_device(path: Path, document: SourceDocument | None) -> bool:
+    return document is not None and (path.name == DEVICE_FILE or is_device(document.data))
+
+
+def _check_description(path: Path) -> Checked:
+    # A spec that names devices of the catalog alone is checked without the reader of xacro.
+    from cellc.robot.description.read_description import read_description
+
+    stage("reading the description")
+    root = root_of(path)
+    read = read_description(path, {}, root)
+    cell = None if read.value is None else bare_cell(read.value, path.as_posix(), root.as_posix())
+    return _checked_model(path, read.diagnostics, cell)
+
+
+def _check_device(path: Path) -> Checked:
+    """Check a device by itself; its description and packages may lie beside its folder, as those of a spec there."""
+    stage("reading the device")
+    root = Path(os.path.normpath(path.parent / ".."))
+    read = load_device_file(path, root)
+    cell = None
+    if read.value is not None:
+        excused = {str(code): because for code, because in read.value.model.excused.items()}
+        cell = bare_cell(read.value.description, path.as_posix(), root.as_posix(), excused)
+    return _checked_model(path, read.diagnostics, cell)
+
+
+def _checked_model(path: Path, read: tuple[Diagnostic, ...], cell: Cell | None) -> Checked:
+    stage("rules")
+    ruled = () if cell is None else run_rules(build_graph(cell), _ON_MODELS)
+    return _checked(path.as_posix(), {}, _sorted([*read, *ruled]))
+
+
+def out_of_time(file: str, *, alone: bool) -> Findings:
+    """Return the finding of a spec that took the time of its command, or for which others left none."""
+    who = "a spec alone" if alone else "all specs of one command together"
+    message = f"{who} must take at most {limits().command_seconds} s of processor time"
+    cut = finding("command-too-long", message, Span(file, 1, 1, 1, 1), limit="command-seconds")
+    return Findings(file, {}, (cut,))
+
+
+def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
+    """Emit the artifacts of a checked cell with the manifest over them, and have foreign parsers read them back."""
+    emitted = emit_cell(checked)
+    if emitted.value is None or checked.graph is None:
+        return emitted
+    # Foreign parsers are imported here: a check does not pay for them, nor does who only compares.
+    from cellc.compiler.verify.verify import verify
+
+    stage("reading back with other parsers")
+    return Outcome(emitted.value, verify(emitted.value, checked.graph))
+
+
+def emit_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
+    """Emit the artifacts of a checked cell with the manifest over them."""
+    if checked.graph is None or not checked.ok:
+        return Outcome(None)
+    # Emitters are imported here: a check does not pay for them.
+    from cellc.compiler.deploy.deployment import plan_deployment
+    from cellc.compiler.emit.emit_all import emit_all
+    from cellc.compiler.output.manifest import with_manifest
+
+    stage("writing artifacts")
+    beyond = _beyond_limits(checked.graph)
+    if beyond:
+        return Outcome(None, beyond)
+    plan = plan_deployment(checked.graph)
+    artifacts = with_manifest(
+        emit_all(checked.graph, plan),
+        cell=checked.graph.cell.name,
+        configuration_id=plan.configuration_id,
+        configuration_inputs=plan.configuration_inputs,
+        version_tuple=plan.versions,
+    )
+    return Outcome(artifacts)
+
+
+def _beyond_limits(graph: CellGraph) -> tuple[Diagnostic, ...]:
+    """Return that the pairs of links take longer to find than they may: a check finds fewer of them."""
+    from cellc.compiler.feasibility import disabled_links
+    from cellc.compiler.rules.geometry import beyond_limits
+
+    code, groups = "geometry-too-large", graph.cell.groups
+    found = beyond_limits(graph, disabled_links(graph)) if groups else ()
+    return tuple(Diagnostic(code, Severity.ERROR, one.message, one.span, one.path, one.help) for one in found)
+
+
+def _checked(
+    file: str, texts: Mapping[str, str], found: tuple[Diagnostic, ...], graph: CellGraph | None = None
+) -> Checked:
+    return Checked(Findings(file, with_shown_texts(texts, found, Path(file).parent), found), graph)
+
+
+def _excused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:
+    """Take out what comments excuse, once every rule has run."""
+    ignores = ignore_comments(texts)
+    return _sorted(list(apply_ignores(found, ignores, _pages()))) if ignores else _sorted(found)
+
+
+def _unexcused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:
+    """Keep what stopped a stage, and tell comments that try to excuse it."""
+    ignores = ignore_comments(texts)
+    return _sorted([*found, *misused_ignores(ignores, _pages())]) if ignores else _sorted(found)
+
+
+def _pages() -> dict[str, CodePage]:
+    # Few cells excuse anything, and only for them the pages of all stages are read.
+    from cellc.compiler.pages import all_pages
+
+    return all_pages()
+
+
+def _sorted(diagnostics: list[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(diagnostics, key=Diagnostic.sort_key))

@@ -1,0 +1,230 @@
+"""Comments such as ``# cellc: ignore CODE reason``: read, applied to what was found, and judged."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
+
+from cellc.compiler.link.codes import CODES as LINK_CODES
+from cellc.compiler.rules.run import ALL_RULES
+from cellc.compiler.source.events import Comment, comments
+from cellc.contract.diagnostics import Diagnostic, Severity, Span, did_you_mean
+from cellc.contract.diagnostics.diagnostic import CodePage
+
+CODES: tuple[CodePage, ...] = (
+    CodePage(
+        "ignore-refused",
+        Severity.ERROR,
+        "a comment ignores a finding that may not be ignored",
+        "Errors and blockers of safety, ownership and frames say that something can move without a stop, without an "
+        "owner, or from an unknown place. Errors of reading and linking say that the cell is not known. A comment can "
+        "justify neither, so both stay: the finding, and this one.",
+        "remove the comment and fix what the code reports",
+        """
+safety:
+  stop: {authority: UNKNOWN, path: hardwired}  # cellc: ignore unknown-stop-authority not known yet
+""",
+    ),
+    CodePage(
+        "ignore-without-reason",
+        Severity.ERROR,
+        "a comment ignores a finding and does not say why",
+        "A later reviewer of the cell must be able to judge whether the exception still holds. Without a reason the "
+        "comment has no effect.",
+        "write `# cellc: ignore CODE reason`",
+        """
+versions:
+  rollback: {image: UNKNOWN, configuration: UNKNOWN}  # cellc: ignore missing-rollback
+""",
+    ),
+    CodePage(
+        "unknown-ignored-code",
+        Severity.ERROR,
+        "a comment ignores a code that does not exist",
+        "A misspelled code ignores nothing, and the intended finding seems to return by itself.",
+        "write a code that `cellc explain` lists; several are separated by commas",
+        """
+versions:
+  ros: jazzy  # cellc: ignore ros-past-end-of-live it stays until spring
+""",
+    ),
+    CodePage(
+        "unused-ignore",
+        Severity.WARNING,
+        "a comment ignores a finding that is not there",
+        "The excused finding is gone or is on another line, and the comment would hide the next defect of its kind. "
+        "It counts at the end of the line that is reported.",
+        "delete the comment, or move it to the end of the reported line",
+        """
+versions:
+  ros: jazzy  # cellc: ignore ros-past-end-of-life it stays until spring
+""",
+    ),
+)
+
+# Who, where and what stops it: no comment justifies motion without these answers.
+_PROTECTED_FAMILIES = ("SAF", "OWN", "FRM")
+_STOPPING = (Severity.ERROR, Severity.BLOCKER)
+_RULES = {rule.code: rule for rule in ALL_RULES}
+_PAGES = {page.code: page for page in CODES}
+# A code of a stage and of a rule stops the stage, whatever the family of the rule.
+_LINK_CODES = frozenset(page.code for page in LINK_CODES)
+_MARKER = re.compile(r"(?<!\S)#\s*cellc:\s*ignore\b")
+_CODE = re.compile(r"[\w-]+")
+_NEXT = re.compile(r"\s*,\s*")
+_MOST_SHOWN = 100
+"""Wrong comments of one spec that are reported, and as many without effect; each is compared with every code."""
+_MOST_NAMED = 12
+# What people put between the codes and the reason.
+_SEPARATORS = " \t:-–—("
+
+
+@dataclass(frozen=True, slots=True)
+class IgnoredCode:
+    """One code of a comment and where it is written."""
+
+    code: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class IgnoreComment:
+    """One comment: the codes that it ignores on its line, and why; the reason may be missing."""
+
+    span: Span
+    codes: tuple[IgnoredCode, ...]
+    reason: str
+
+
+def ignore_comments(texts: Mapping[str, str]) -> tuple[IgnoreComment, ...]:
+    """Return the comments of all files of a spec that ignore something.
+
+    Args:
+        texts: valid YAML by the name that spans carry.
+    """
+    return tuple(_read(file, comment) for file, text in texts.items() for comment in comments(text, _MARKER))
+
+
+def _read(file: str, comment: Comment) -> IgnoreComment:
+    head = _MARKER.match(comment.text)
+    assert head is not None  # the comment begins where the marker was found
+    codes: dict[str, IgnoredCode] = {}
+    end = head.end()
+    for start, end in _codes(comment.text, head.end()):
+        code = comment.text[start:end]
+        codes.setdefault(code, IgnoredCode(code, _span(file, comment, start, end)))
+    reason = comment.text[end:].strip(_SEPARATORS)
+    return IgnoreComment(_span(file, comment, 0, len(comment.text)), tuple(codes.values()), reason)
+
+
+def _codes(text: str, position: int) -> Iterator[tuple[int, int]]:
+    """Yield start and end of every code; the first word behind the codes begins the reason."""
+    start = position + len(text[position:]) - len(text[position:].lstrip())
+    while match := _CODE.match(text, start):
+        yield match.span()
+        following = _NEXT.match(text, match.end())
+        if following is None:
+            return
+        start = following.end()
+
+
+def _span(file: str, comment: Comment, start: int, end: int) -> Span:
+    return Span(file, comment.line, comment.column + start, comment.line, comment.column + end)
+
+
+def apply_ignores(
+    diagnostics: Iterable[Diagnostic], ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]
+) -> tuple[Diagnostic, ...]:
+    """Return the findings that no comment excuses, and what is wrong with the comments; in no particular order.
+
+    A comment counts for findings that begin or end on its line. One without reason, or for a code that cannot be
+    ignored, has no effect.
+
+    Args:
+        diagnostics: what all stages and rules found.
+        pages: the page of every code that cellc can report.
+    """
+    found = tuple(diagnostics)
+    reported = {diagnostic.code for diagnostic in found}
+    on_line: dict[tuple[str, str, int], set[Diagnostic]] = {}
+    for one in found:
+        for line in (one.span.line, one.span.end_line):
+            on_line.setdefault((one.code, one.span.file, line), set()).add(one)
+    excused: set[Diagnostic] = set()
+    unused: list[Diagnostic] = []
+    for comment in ignores:
+        for ignored in comment.codes if comment.reason else ():
+            page = pages.get(ignored.code)
+            if page is None or _refusal_of(ignored.code, page.severity) is not None:
+                continue
+            matches = on_line.get((ignored.code, ignored.span.file, ignored.span.line), set())
+            excused |= matches
+            if not matches and not _may_be_hidden(ignored.code, reported):
+                unused.append(_misuse("unused-ignore", _unused(ignored), ignored.span))
+    return (*(one for one in found if one not in excused), *misused_ignores(ignores, pages), *unused[:_MOST_SHOWN])
+
+
+def may_be_ignored(code: str) -> bool:
+    """Whether a comment may excuse what a rule of this code finds."""
+    rule = _RULES.get(code)
+    return rule is not None and _refusal_of(code, rule.severity) is None
+
+
+def misused_ignores(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with comments whatever the rules find: no code, no reason, or a code that stays."""
+    return tuple(islice(_misused(ignores, pages), _MOST_SHOWN))
+
+
+def _misused(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> Iterator[Diagnostic]:
+    for comment in ignores:
+        yield from _shape_problems(comment)
+        yield from (refusal for ignored in comment.codes if (refusal := _refusal(ignored, pages)) is not None)
+
+
+def _shape_problems(comment: IgnoreComment) -> Iterator[Diagnostic]:
+    if not comment.codes:
+        yield _misuse("unknown-ignored-code", "the comment names no code to ignore", comment.span)
+    elif not comment.reason:
+        codes = ", ".join(f"`{ignored.code}`" for ignored in comment.codes[:_MOST_NAMED])
+        yield _misuse("ignore-without-reason", f"{codes} is ignored without a reason", comment.span)
+
+
+def _refusal(ignored: IgnoredCode, pages: Mapping[str, CodePage]) -> Diagnostic | None:
+    page = pages.get(ignored.code)
+    if page is None:
+        known = did_you_mean(ignored.code, pages, "codes that `cellc explain` lists")
+        return _misuse("unknown-ignored-code", f"there is no code `{ignored.code}`", ignored.span, known)
+    reason = _refusal_of(ignored.code, page.severity)
+    if reason is None:
+        return None
+    return _misuse("ignore-refused", f"`{ignored.code}` cannot be ignored: {reason}", ignored.span)
+
+
+def _refusal_of(code: str, severity: Severity) -> str | None:
+    """Return why a code may not be ignored; None where a comment may ignore it."""
+    rule = _RULES.get(code)
+    if (rule is None or code in _LINK_CODES) and severity is Severity.ERROR:
+        return "without it the cell is not known"
+    if rule is not None and rule.family in _PROTECTED_FAMILIES and rule.severity in _STOPPING:
+        return f"it is {_article(rule.severity)} of family {rule.family}"
+    return None
+
+
+def _article(severity: Severity) -> str:
+    return f"{'an' if severity is Severity.ERROR else 'a'} {severity.value}"
+
+
+def _may_be_hidden(code: str, reported: set[str]) -> bool:
+    """Whether the rule did not run because of something that is reported, so that its result is unknown."""
+    return code in _RULES and not reported.isdisjoint(_RULES[code].assumes)
+
+
+def _unused(ignored: IgnoredCode) -> str:
+    return f"`{ignored.code}` is not reported on this line"
+
+
+def _misuse(code: str, message: str, span: Span, advice: str = "") -> Diagnostic:
+    page = _PAGES[code]
+    return Diagnostic(code, page.severity, message, span, help=advice or page.fix)

@@ -1,0 +1,61 @@
+"""Finds all rules in their folders, and runs them over a cell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from graphlib import TopologicalSorter
+from importlib import import_module
+from pkgutil import iter_modules
+
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.rules.kit import FAMILIES, Rule
+from cellc.contract.diagnostics import Diagnostic
+
+
+def _rules_of(family: str) -> Iterator[Rule]:
+    """Yield the rule of every file in the folder of a family, in the order of their names."""
+    package = import_module(f"cellc.compiler.rules.{family}")
+    for name in sorted(module.name for module in iter_modules(package.__path__)):
+        made = import_module(f"{package.__name__}.{name}").check
+        assert isinstance(made, Rule), f"the check of {name} must carry @rule"
+        yield made
+
+
+ALL_RULES: tuple[Rule, ...] = tuple(rule for family in FAMILIES for rule in _rules_of(family))
+
+
+def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Diagnostic, ...]:
+    """Return what every rule finds, sorted by place.
+
+    A rule is skipped where a code that it assumes absent was reported, so that one cause gives one finding.
+    """
+    diagnostics: list[Diagnostic] = []
+    reported: set[str] = set()
+    for rule in _assumed_first(rules):
+        if reported.isdisjoint(rule.assumes):
+            found = list(_diagnostics(rule, graph))
+            diagnostics += found
+            reported.update(diagnostic.code for diagnostic in found)
+    return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
+
+
+@lru_cache(maxsize=1)
+def _assumed_first(rules: tuple[Rule, ...]) -> tuple[Rule, ...]:
+    """Return every rule after those whose codes it assumes absent."""
+    by_code = {rule.code: rule for rule in rules}
+    order = TopologicalSorter({rule.code: rule.assumes for rule in rules}).static_order()
+    return tuple(by_code[code] for code in order if code in by_code)
+
+
+def _diagnostics(rule: Rule, graph: CellGraph) -> Iterator[Diagnostic]:
+    for found in rule.check(graph):
+        yield Diagnostic(
+            code=rule.code,
+            severity=rule.severity,
+            message=found.message,
+            span=found.span,
+            yaml_path=found.path,
+            help=found.help or rule.fix,
+            related=found.related,
+        )

@@ -1,0 +1,150 @@
+"""What was read: plain data, the text, and the position of every path."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias, Union
+
+from cellc.contract.diagnostics import Span, YamlPath
+
+PlainScalar: TypeAlias = Union[bool, int, float, str, None]
+
+Plain: TypeAlias = Union[bool, int, float, str, list["Plain"], dict[str, "Plain"], None]
+"""What YAML 1.2 core can say; every mapping has string keys."""
+
+MAX_FINDINGS = 100
+"""After so many findings in one file it is not a spec with mistakes, and reading stops."""
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A scalar, list or mapping; aliases share the node of their anchor.
+
+    Args:
+        span: where it is written. A collection in block style is marked at its first key or dash.
+        data: the plain value, aliases expanded.
+        text: a scalar as written, quotes and escapes resolved; empty for a collection.
+        children: by key or index, in the order of the file.
+        size: number of values in it with all aliases written out, itself included.
+        height: levels of nesting, 1 for a scalar.
+    """
+
+    span: Span
+    data: Plain
+    text: str = ""
+    children: Mapping[str | int, Child] = field(default_factory=dict)
+    size: int = 1
+    height: int = 1
+
+    @property
+    def is_collection(self) -> bool:
+        """Whether it is a list or a mapping."""
+        return isinstance(self.data, (list, dict))
+
+
+@dataclass(frozen=True, slots=True)
+class Child:
+    """A node in its place.
+
+    Args:
+        span: the value here; where the value is an alias, the alias.
+        key_span: the key, or None in a list.
+    """
+
+    node: Node
+    span: Span
+    key_span: Span | None
+
+    @property
+    def place(self) -> Span:
+        """What a finding about this value marks: a scalar itself, else the key, else the start of the collection."""
+        is_written = self.span.column < self.span.end_column or self.span.line < self.span.end_line
+        if self.key_span is not None and (self.node.is_collection or not is_written):
+            return self.key_span
+        return self.span
+
+
+@dataclass(frozen=True, slots=True)
+class SourceDocument:
+    """A spec with its includes merged in.
+
+    Args:
+        file: the root spec as the user named it.
+        texts: every file that was read, by the name that spans carry, with line breaks as ``\\n``.
+        root: the merged document; each node keeps its place in the file that wrote it.
+    """
+
+    file: str
+    texts: Mapping[str, str]
+    root: Node
+
+    @property
+    def data(self) -> Plain:
+        """The values alone, without ``include``; to be read, never changed, because aliases share them."""
+        return self.root.data
+
+    def locate(self, path: YamlPath) -> Span:
+        """Return where the value of ``path`` is written.
+
+        A list or mapping is marked at its key. A path that does not exist is marked at its nearest existing ancestor;
+        the root is the start of line 1.
+        """
+        child = self._nearest(path)
+        return child.place if child is not None else Span(self.file, 1, 1, 1, 1)
+
+    def locate_key(self, path: YamlPath) -> Span:
+        """Return where the key of ``path`` is written; for an item of a list or a missing path, as `locate`."""
+        child = self._child(path)
+        if child is not None and child.key_span is not None:
+            return child.key_span
+        return self.locate(path)
+
+    def has(self, path: YamlPath) -> bool:
+        """Return whether the user wrote a value at ``path``; the root always exists."""
+        return not path or self._child(path) is not None
+
+    def text_at(self, path: YamlPath) -> str:
+        """Return the scalar at ``path`` as written (``1e3``, ``0x1F``), quotes removed; empty for anything else."""
+        child = self._child(path)
+        return child.node.text if child is not None else ""
+
+    def without(self, path: YamlPath) -> SourceDocument:
+        """Return the same without the value of a path that exists; what stands behind it in a list moves up."""
+        return replace(self, root=_changed(self.root, path, None))
+
+    def with_value(self, key: str, value: Plain) -> SourceDocument:
+        """Return the same with a section that nobody wrote; its values are marked where the document begins."""
+        node = Node(self.root.span, value)
+        return replace(self, root=_changed(self.root, (key,), Child(node, node.span, None)))
+
+    def _child(self, path: YamlPath) -> Child | None:
+        node, child = self.root, None
+        for part in path:
+            child = node.children.get(part)
+            if child is None:
+                return None
+            node = child.node
+        return child
+
+    def _nearest(self, path: YamlPath) -> Child | None:
+        node, found = self.root, None
+        for part in path:
+            child = node.children.get(part)
+            if child is None:
+                break
+            node, found = child.node, child
+        return found
+
+
+def _changed(node: Node, path: YamlPath, child: Child | None) -> Node:
+    """Return a collection with another child at a path, or without the one there."""
+    first, rest = path[0], path[1:]
+    if rest:
+        held = node.children[first]
+        child = replace(held, node=_changed(held.node, rest, child))
+    kept = {key: one for key, one in {**node.children, first: child}.items() if one is not None}
+    if isinstance(node.data, list):
+        listed = list(kept.values())
+        return replace(node, data=[one.node.data for one in listed], children=dict(enumerate(listed)))
+    return replace(node, data={str(key): one.node.data for key, one in kept.items()}, children=kept)

@@ -1,0 +1,138 @@
+"""Who answers for what, and the boundary that software does not cross: stop, recovery, and the gates of bring-up."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from cellc.compiler.spec.base import FrameReference, Name, SpecModel, StandardOr, Text
+from cellc.compiler.spec.quantity import Duration, JointSpeed, JointWay
+
+_UNKNOWN = "UNKNOWN"
+
+
+class ResponsibilitiesSpec(SpecModel):
+    """The eight responsibilities that every architecture has; UNKNOWN blocks the real target."""
+
+    frames: Text = Field(_UNKNOWN, description="Owner of frames and calibrations.", examples=["perception"])
+    time: Text = Field(_UNKNOWN, description="Owner of clocks and stamps.", examples=["perception"])
+    limits: Text = Field(_UNKNOWN, description="Owner of limits.", examples=["controls"])
+    watchdogs: Text = Field(_UNKNOWN, description="Owner of watchdogs and timeouts.", examples=["controls"])
+    command: Text = Field(_UNKNOWN, description="Owner of the command path.", examples=["integration"])
+    logging: Text = Field(_UNKNOWN, description="Owner of logs and attempt records.", examples=["data"])
+    vendor_safety: Text = Field(_UNKNOWN, description="Owner of the vendor's safety configuration.", examples=["robot"])
+    physical_stop: Text = Field(_UNKNOWN, description="Owner of the physical stop.", examples=["safety"])
+
+
+class ApprovalsSpec(SpecModel):
+    """The seven approval areas of the checkpoint; UNKNOWN blocks the real target."""
+
+    graph: Text = Field(
+        _UNKNOWN, description="Is there one command publisher or action server?", examples=["integration"]
+    )
+    time_tf: Text = Field(
+        _UNKNOWN, description="Which stamp and calibration produced the goal?", examples=["perception"]
+    )
+    controller: Text = Field(
+        _UNKNOWN, description="Are joints, interfaces, tolerance and hold defined?", examples=["controls"]
+    )
+    vendor: Text = Field(_UNKNOWN, description="Are firmware, driver, mode and scaling pinned?", examples=["robot"])
+    network: Text = Field(_UNKNOWN, description="Do discovery and data use controlled paths?", examples=["network"])
+    safety: Text = Field(_UNKNOWN, description="Are stop, recovery and observer independent?", examples=["safety"])
+    data: Text = Field(_UNKNOWN, description="Can failures be replayed by layer?", examples=["data"])
+
+
+class OwnersSpec(SpecModel):
+    """Owners by responsibility and by approval area."""
+
+    responsibilities: ResponsibilitiesSpec = Field(
+        default_factory=ResponsibilitiesSpec,
+        description="Owner of each responsibility.",
+        examples=[{"frames": "perception"}],
+    )
+    approvals: ApprovalsSpec = Field(
+        default_factory=ApprovalsSpec, description="Owner of each approval area.", examples=[{"graph": "integration"}]
+    )
+
+
+class StopSpec(SpecModel):
+    """Who stops the machine, and by which path."""
+
+    authority: Text = Field(
+        "UNKNOWN", description="What has the authority to stop; never a computer of the cell.", examples=["safety_plc"]
+    )
+    path: Literal["hardwired", "safety_bus", "software", "UNKNOWN"] = Field(
+        "UNKNOWN", description="How the stop reaches the drives.", examples=["hardwired"]
+    )
+    independent_of: tuple[Name, ...] = Field(
+        (), description="Hosts that the path does not need.", examples=[["control_pc"]]
+    )
+    evidence: tuple[Text, ...] = Field((), description="What proves it.", examples=[["injected-stop result"]])
+
+
+class RecoverySpec(SpecModel):
+    """The named states that need recovery, and who acknowledges."""
+
+    states: tuple[Name, ...] | None = Field(
+        None,
+        description="States that need recovery. Absent: `protective_stop`, `emergency_stop`, `fault`, and every other "
+        "stop that the vendor of a device leads out of.",
+        examples=[["protective_stop"]],
+    )
+    acknowledge: Literal["operator", "automatic"] = Field(
+        "operator", description="Who acknowledges before motion goes on.", examples=["operator"]
+    )
+    on_reconnect: Literal["discard_goal", "resume_goal"] = Field(
+        "discard_goal", description="What becomes of an old goal after a reconnect.", examples=["discard_goal"]
+    )
+    owner: Text = Field("UNKNOWN", description="Who owns the procedure.", examples=["safety"])
+    observer: Text = Field("UNKNOWN", description="Who is at the stop during supervised motion.", examples=["operator"])
+
+
+class SafetySpec(SpecModel):
+    """The safety boundary; cellc names it and never implements it."""
+
+    stop: StopSpec = Field(
+        default_factory=StopSpec,
+        description="Stop authority and path.",
+        examples=[{"authority": "safety_plc", "path": "hardwired", "independent_of": ["control_pc"]}],
+    )
+    recovery: RecoverySpec = Field(
+        default_factory=RecoverySpec,
+        description="Recovery states and acknowledgment.",
+        examples=[{"acknowledge": "operator"}],
+    )
+
+
+class FirstMotionSpec(SpecModel):
+    """Gate G6: one joint, stated aloud before it moves."""
+
+    joint: FrameReference = Field(..., description="The one joint, as `device/joint`.", examples=["arm/wrist_3_joint"])
+    direction: Literal["+", "-"] = Field(..., description="Sign of the first move.", examples=["+"])
+    max_delta: JointWay = Field(..., description="Largest change of position.", examples=["5 deg"])
+    velocity: JointSpeed = Field(..., description="Speed of the move.", examples=["5 deg/s"])
+    timeout: Duration = Field(..., description="Bound of the move.", examples=["5 s"])
+    stop_if: tuple[Text, ...] = Field(
+        ..., description="What makes the observer stop.", examples=[["wrong direction"]], min_length=1
+    )
+
+
+class BringupSpec(SpecModel):
+    """Gates G0–G7 and L1–L6; a gate may be tightened, never removed."""
+
+    gates: StandardOr = Field(
+        "standard", description="`standard`, or the gates by name in order.", examples=["standard"]
+    )
+    first_motion: FirstMotionSpec | None = Field(
+        None,
+        description="The single-joint move of gate G6.",
+        examples=[
+            {
+                "joint": "arm/wrist_3_joint",
+                "direction": "+",
+                "max_delta": "5 deg",
+                "velocity": "5 deg/s",
+                "timeout": "5 s",
+                "stop_if": ["wrong direction"],
+            }
+        ],
+    )

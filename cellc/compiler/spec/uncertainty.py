@@ -1,0 +1,51 @@
+"""What is not known exactly, for sweeps of the mock: beside what calibrations, clocks and interfaces state already."""
+
+from pydantic import Field
+
+from cellc.compiler.spec.base import Name, SpecModel
+from cellc.compiler.spec.quantity import Allowance, Edges, FieldAngle, Length
+
+
+class CalibrationUncertaintySpec(SpecModel):
+    """What the residual of a calibration does not say."""
+
+    rotation: FieldAngle | None = Field(
+        None, description="Standard deviation about each axis; none is drawn if absent.", examples=["0.1 deg"]
+    )
+
+
+class RegionSpec(SpecModel):
+    """Where an object may lie, and how it may be turned; each place is as likely.
+
+    A dynamic frame is that of an object about its simulated pose. A fixed one is of what lies there and is not looked
+    at: it lies elsewhere, and the robot does not know.
+    """
+
+    box: Edges = Field(
+        ...,
+        description="Full edge lengths along x, y, z of the parent of its simulated pose; of a fixed frame its own.",
+        examples=["80 120 0 mm"],
+    )
+    yaw: FieldAngle | None = Field(
+        None, description="Full range about the same z; not turned if absent.", examples=["90 deg"]
+    )
+
+
+class UncertaintySpec(SpecModel):
+    """What a sweep draws and judges; `{}` draws what the cell states elsewhere."""
+
+    calibrations: dict[Name, CalibrationUncertaintySpec] = Field(
+        default_factory=dict,
+        description="Calibrations by name, with what their residual does not say.",
+        examples=[{"hand_eye": {"rotation": "0.1 deg"}}],
+    )
+    repeatability: dict[Name, Length] = Field(
+        default_factory=dict,
+        description="Arms that a group moves, with repeatability (ISO 9283) as measured; else the catalog's is drawn.",
+        examples=[{"arm": "0.05 mm"}],
+    )
+    tolerances: dict[Name, Allowance] = Field(
+        default_factory=dict,
+        description="Goals by name, with the farthest that the tip may really be from where the goal really is.",
+        examples=[{"pick": "5 mm"}],
+    )

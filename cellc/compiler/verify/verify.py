@@ -1,0 +1,37 @@
+"""What foreign parsers say of artifacts: asked once for the same bytes, since what they say rests on nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.verify.codes import Disagreement
+from cellc.compiler.verify.meant import meant_by
+from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.store.cache import Program, recall
+
+_PARSERS = Program(
+    code=("compiler/verify", "contract"),
+    libraries=("pin", "yourdfpy", "trimesh", "numpy", "lxml", "PyYAML", "jsonschema", "referencing", "pydantic"),
+)
+
+
+def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic, ...]:
+    """Return a diagnostic for everything that foreign parsers make of the artifacts and the cell does not mean.
+
+    Each finding is a bug of cellc; it stands at the name of the cell. That there is none is kept: to load the parsers
+    and to ask them takes as long as all that a build does else. What they found is asked again.
+    """
+    meant = meant_by(graph)
+
+    def ask() -> tuple[Disagreement, ...]:
+        from cellc.compiler.verify.read_back import read_back
+
+        return tuple(read_back(artifacts, meant))
+
+    place, question = graph.cell.locate("cell"), repr((tuple(artifacts), meant))
+    kind = tuple[Disagreement, ...]
+    found = recall("verify", question, kind, ask, lambda found: not found, Path(place.file), _PARSERS)
+    return tuple(sorted((disagreement.at(place) for disagreement in found), key=Diagnostic.sort_key))

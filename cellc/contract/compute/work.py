@@ -1,0 +1,172 @@
+"""Work that is told once, its units, and a stream of their answers; who does it is a crew.
+
+An answer is that of its unit alone, so that it is the same whoever computes it, and however often. A worker that dies
+therefore costs time and nothing else: what it had in hand is done again by others. A unit that was in hand at two
+deaths is done alone, so that the third one shows which unit it is that no worker survives.
+"""
+
+from __future__ import annotations
+
+import gc
+import hashlib
+import pickle
+import threading
+from collections import Counter, deque
+from collections.abc import Callable, Generator, Iterable, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any, Generic, TypeVar
+
+from cellc.contract.errors import CellcError
+
+Shared = TypeVar("Shared")
+Unit = TypeVar("Unit")
+Answer = TypeVar("Answer")
+
+MOST_DEATHS = 3
+"""Workers that may end by themselves with one unit in hand; a machine that is short of memory recovers, a bug stays."""
+
+
+class ComputeError(CellcError):
+    """Work could not be done; the text is one line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Work(Generic[Shared, Unit, Answer]):
+    """What is done with each unit.
+
+    Attributes:
+        begin: a function of a module; it makes of what all units need what answers one. It runs once in each process.
+        shared: what all units need.
+        name: what a unit is called in messages.
+    """
+
+    begin: Callable[[Shared], Callable[[Unit], Answer]]
+    shared: Shared
+    name: Callable[[Unit], str] = str
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """Work as it is sent: its bytes, known by their content."""
+
+    digest: str
+    content: bytes
+
+    @classmethod
+    def of(cls, work: Work[Any, Any, Any]) -> Sent:
+        """Return what is sent of some work."""
+        content = pickle.dumps((work.begin, work.shared), protocol=pickle.HIGHEST_PROTOCOL)
+        return cls(hashlib.sha256(content).hexdigest(), content)
+
+
+@dataclass(frozen=True, slots=True)
+class Crew:
+    """Workers that have been told their work.
+
+    Attributes:
+        ask: submits some units, and returns the future of their answers.
+        hands: units, or packets of them, that they are to have in hand at once.
+        packet: units that are sent together where there are so many.
+        look_s: how often ``look`` is called while nothing ends; None for never.
+        look: raises ComputeError where the workers are out of reach.
+    """
+
+    ask: Callable[[Sequence[Any]], Future[Any]]
+    hands: int
+    packet: int = 1
+    look_s: float | None = None
+    look: Callable[[], None] = lambda: None
+
+
+Hire = Callable[[Sent, int], AbstractContextManager[Crew]]
+"""Returns a crew for some work of so many units; leaving it ends or lets go of the workers."""
+
+
+def stream(
+    work: Work[Shared, Unit, Answer], units: Sequence[Unit], hire: Hire
+) -> Generator[tuple[int, Answer], None, None]:
+    """Yield the number and answer of every unit once, in any order; closing it lets go of the workers.
+
+    Raises:
+        ComputeError: no worker can do a unit, or none is within reach. What a unit raises is raised too.
+    """
+    sent, deaths, owed = Sent.of(work), Counter[int](), deque(range(len(units)))
+    while owed:
+        alone = [number for number in owed if deaths[number] == MOST_DEATHS - 1]
+        batches = [deque([number]) for number in alone] or [owed]
+        for batch in batches:
+            if alone:
+                owed.remove(batch[0])
+            with hire(sent, len(batch)) as crew:
+                lost: tuple[int, ...] = yield from _deal(units, batch, crew)
+            deaths.update(lost)
+            owed.extendleft(reversed(lost))
+            failed = next((number for number in lost if deaths[number] == MOST_DEATHS), None)
+            if failed is not None:
+                raise ComputeError(
+                    f"the process of `{work.name(units[failed])}` ended by itself, {MOST_DEATHS} times in a row"
+                )
+
+
+def _deal(units: Sequence[Unit], owed: deque[int], crew: Crew) -> Generator[tuple[int, Answer], None, tuple[int, ...]]:
+    """Yield answers until all are there or the workers are lost; return what they had in hand then."""
+    busy: dict[Future[Any], tuple[int, ...]] = {}
+    try:
+        while busy or owed:
+            while owed and len(busy) < crew.hands:
+                packet = tuple(islice(owed, crew.packet))
+                busy[crew.ask([units[number] for number in packet])] = packet
+                for _ in packet:
+                    owed.popleft()
+            ended, _ = wait(busy, crew.look_s, FIRST_COMPLETED)
+            crew.look()
+            for future in ended:
+                answers = future.result()
+                yield from zip(busy.pop(future), answers, strict=True)
+    except BrokenExecutor:
+        return tuple(sorted(number for packet in busy.values() for number in packet))
+    return ()
+
+
+def in_order(answers: Iterable[tuple[int, Answer]]) -> Generator[Answer, None, None]:
+    """Yield answers by their numbers."""
+    early: dict[int, Answer] = {}
+    following = 0
+    for number, answer in answers:
+        early[number] = answer
+        while following in early:
+            yield early.pop(following)
+            following += 1
+
+
+_RARE = 20_000
+"""Objects that come before the youngest generation is looked through; usual are 700 (docs.python.org, ``gc``)."""
+
+
+def settle() -> None:
+    """Spare the garbage collector what was loaded for good: it would look through it again for every few units.
+
+    A tenth of the processor time of a run of the mock went there.
+    """
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(_RARE, *gc.get_threshold()[1:])
+
+
+_known: dict[str, Callable[[Any], Any]] = {}
+_turn = threading.Lock()
+
+
+def answer(sent: Sent, units: Sequence[Unit]) -> list[Any]:
+    """Answer some units in a worker; it begins work that it does not know yet, and forgets other work."""
+    with _turn:  # a worker of Dask has threads, and what a process executes has tables of the process
+        if sent.digest not in _known:
+            begin, shared = pickle.loads(sent.content)
+            _known.clear()
+            gc.unfreeze()
+            _known[sent.digest] = begin(shared)
+            settle()
+        return [_known[sent.digest](unit) for unit in units]

@@ -1,0 +1,18 @@
+"""What the compiler says to its user: spans, diagnostics and outcomes."""
+
+from cellc.contract.diagnostics.diagnostic import Diagnostic, Outcome, Related, Severity, Span, YamlPath, format_path
+from cellc.contract.diagnostics.nearest import did_you_mean, is_slip, nearest, only_suggestion
+
+__all__ = [
+    "Diagnostic",
+    "Outcome",
+    "Related",
+    "Severity",
+    "Span",
+    "YamlPath",
+    "did_you_mean",
+    "format_path",
+    "is_slip",
+    "nearest",
+    "only_suggestion",
+]

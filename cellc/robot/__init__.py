@@ -1,0 +1,1 @@
+"""What a robot is and how it can move: descriptions, collision, planning."""

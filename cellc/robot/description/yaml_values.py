@@ -1,0 +1,61 @@
+"""YAML of another tool into plain values, within the limits: an alias counts as often as it is used."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, TypeAlias
+
+import yaml
+
+from cellc.contract.errors import CellcError
+from cellc.contract.limits import in_table, limits, option
+
+Loader: TypeAlias = "type[yaml.SafeLoader | yaml.CSafeLoader]"
+FAST: Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+"""The parser written in C where there is one."""
+
+
+class TooManyValuesError(CellcError, ValueError):
+    """A document has more values than may be read; the text says so."""
+
+
+def load_values(text: str, loader: Loader = FAST, limit: str = "xacro-items") -> Any:
+    """Return what a YAML document holds; it must be made with a safe loader.
+
+    Args:
+        limit: the row of the limits that bounds its values.
+
+    Raises:
+        TooManyValuesError: it has more values than may be once its aliases are written out.
+        yaml.YAMLError, ValueError, RecursionError: it cannot be read.
+    """
+    _refuse_depth(text, loader)
+    root = yaml.compose(text, Loader=loader)
+    most = in_table(limit)
+    if _written_out(root) > most:
+        raise TooManyValuesError(f"has more than {most} values where its aliases are written out; {option(limit)}")
+    return yaml.load(text, Loader=loader)
+
+
+def _refuse_depth(text: str, loader: Loader) -> None:
+    """The parser in C goes down one call of the machine for each level, and nothing stops it."""
+    depth = 0
+    for event in yaml.parse(text, Loader=loader):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > limits().spec_depth:
+            raise ValueError(f"values are nested deeper than {limits().spec_depth} levels")
+
+
+def _written_out(root: yaml.Node | None) -> float:
+    """Count the values of a document whose aliases are written out; one in itself counts without end."""
+    counts: dict[int, float] = {}
+
+    def count(node: yaml.Node) -> float:
+        if id(node) not in counts:
+            counts[id(node)] = math.inf  # while it is being counted
+            items = node.value if isinstance(node, yaml.CollectionNode) else []
+            parts = (part for item in items for part in (item if isinstance(item, tuple) else (item,)))
+            counts[id(node)] = 1.0 + sum(map(count, parts))
+        return counts[id(node)]
+
+    return 0 if root is None else count(root)

@@ -1,0 +1,1 @@
+"""What people and their editors call: the command line, the language server, reviews, import, pages."""

@@ -1,0 +1,193 @@
+"""A page of the catalog: what is known of a device, where it is from, and how it looks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.load import CatalogDevice
+from cellc.compiler.formats.escape import code, markdown
+from cellc.compiler.formats.markdown_table import TableCell, table
+from cellc.compiler.formats.views import Part, two_views
+from cellc.contract.transforms import Pose
+from cellc.robot.description.model import Joint
+from cellc.robot.description.posture import farthest, posture
+from cellc.tools.browse.controllers import FILE, controllers_page
+from cellc.tools.browse.search import distributions, entries, listed_in_table
+
+
+def pages() -> dict[str, str]:
+    """Return every file of the catalog's documentation by its name: an index, and a page and a picture for each."""
+    known = tuple(entries())
+    files = {"README.md": _index(known), FILE: controllers_page()}
+    for entry in known:
+        files[f"{entry.model.model}.md"] = page(entry, f"{entry.model.model}.svg")
+        files[f"{entry.model.model}.svg"] = picture(entry)
+    return files
+
+
+def _index(known: tuple[CatalogDevice, ...]) -> str:
+    return "\n".join(
+        (
+            "# Catalog",
+            "",
+            "Every device that a spec can name as `model:`. `cellc catalog` lists them too, and finds them by words,",
+            "kind, reach, payload and distribution. A robot that is not here: [own robot](../own_robot.md).",
+            f"What drives them: [kinds of controllers]({FILE}).",
+            "",
+            listed_in_table(known),
+            "",
+        )
+    )
+
+
+def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
+    """Return the page of a device as Markdown, with its picture where there is a file of it."""
+    model = entry.model
+    sections: dict[str, str] = {
+        "Joints": table(("joint", "type", "range", "velocity", "effort", "home"), _joints(entry)),
+        "Frames": table(("name in a spec", "link", ""), _frames(model)),
+        "States": table(("state", "outputs that make it", "sensors that tell it", ""), _states(model)),
+        "Packages": table(("part", "ROS 2", "versions", "source"), _versions(model)),
+        "What it does": table(("moment", "what moves", "what happens", "source"), _effects(model)),
+        "Controllers of its own": table(("kind", "plugin"), _controllers(model)),
+        "Network": table(("port", "who opens it", "for"), _ports(model)),
+        "Safety": "\n".join(_safety(model)) or "None.",
+        "What the mock cannot prove": _list(model.mock_cannot_prove),
+        "Sources": _list((*model.sources, f"read on {model.as_of}")),
+    }
+    blocks = [f"# {code(model.model)}", markdown(f"{model.vendor}: {model.summary}"), *_figures(entry)]
+    blocks += [] if picture_file is None else [f"![{model.model} from two sides, with its frames]({picture_file})"]
+    blocks += [f"```yaml\ndevices:\n  {model.kind}: {{model: {model.model}}}\n```"]
+    blocks += [f"## {title}\n\n{text}" for title, text in sections.items() if text != "None."]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _figures(entry: CatalogDevice) -> Iterator[str]:
+    model = entry.model
+    told = []
+    if model.limits.reach is not None:
+        told.append(f"reach {model.limits.reach.value.text} ({model.limits.reach.source})")
+    if model.limits.payload is not None:
+        told.append(f"payload {model.limits.payload.value.text} ({model.limits.payload.source})")
+    if model.limits.repeatability is not None:
+        told.append(f"repeatability {model.limits.repeatability.value.text} ({model.limits.repeatability.source})")
+    if model.tool_frame is not None:
+        far = farthest(entry.description, model.tool_frame, _home(model))
+        told.append(f"{code(model.tool_frame)} gets {far * 1000:.0f} mm from the axis of the first joint")
+    mass = sum(link.inertial.mass for link in entry.description.links if link.inertial is not None)
+    told += [f"its links weigh {mass:.2f} kg"] if mass else []
+    released = distributions(model)
+    told += [f"driver for {', '.join(released)}"] if released else []
+    if told:
+        yield _list(told)
+
+
+def _home(model: DeviceModel) -> Mapping[str, float]:
+    return {name: position.si for name, position in (model.home or {}).items()}
+
+
+def _joints(entry: CatalogDevice) -> Iterator[tuple[TableCell, ...]]:
+    home = entry.model.home or {}
+    for joint in entry.description.joints:
+        if joint.movable:
+            follows = "" if joint.mimic is None else f", follows {joint.mimic.joint}"
+            stands = code(home[joint.name].text) if joint.name in home else ""
+            yield code(joint.name), f"{joint.type}{follows}", *_limits(joint), stands
+
+
+def _limits(joint: Joint) -> tuple[str, str, str]:
+    limit, unit = joint.limit, "m" if joint.slides else "rad"
+    if limit is None:
+        return "", "", ""
+    ends = (limit.lower, limit.upper)
+    bounded = None not in ends and joint.type != "continuous"
+    reach = code(f"{_figure(limit.lower)} to {_figure(limit.upper)} {unit}") if bounded else "without end"
+    force = "N" if joint.slides else "Nm"
+    return reach, f"{_figure(limit.velocity)} {unit}/s", f"{_figure(limit.effort)} {force}"
+
+
+def _figure(value: float | None) -> str:
+    return "?" if value is None else f"{value:.6g}"
+
+
+def _states(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    """Yield the states of a switched device: what each output is set to for it, and what each sensor reads in it."""
+    switched = model.switched
+    for name, state in ({} if switched is None else switched.states).items():
+        holds = "holds a part or a tool" if switched is not None and switched.holds == name else ""
+        yield code(name), _levels(state.outputs), _levels(state.sensors), holds
+
+
+def _levels(levels: Mapping[str, bool]) -> str:
+    return ", ".join(f"{code(name)} {'on' if level else 'off'}" for name, level in levels.items()) or "–"
+
+
+def _frames(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    for name, link in model.frames.items():
+        uses = ["the root"] if name == model.base else []
+        uses += ["tools mount here"] if model.tool_frame in (name, link) else []
+        uses += ["looks along z"] if name in model.optical_frames else []
+        yield code(name), code(link), ", ".join(uses)
+
+
+def _versions(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    for row in model.versions:
+        bounds = [f"from {row.minimum}"] if row.minimum else []
+        bounds += [f"below {row.below}"] if row.below else []
+        product = [] if row.product is None else [row.product]
+        said = " ".join((*product, ", ".join((*row.known, *bounds)) or row.note or row.ambiguous or ""))
+        yield row.part, "all" if row.distro is None else row.distro.value, said, f"{row.source}, {row.as_of}"
+
+
+def _effects(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    real = None if model.control is None else model.control.hardware.real
+    for moment, effect in {} if real is None else real.effects.items():
+        yield moment.value, effect.motion.value, effect.does, effect.source
+    for node in model.nodes:
+        if node.effect is not None:
+            yield f"start of {node.executable}", node.effect.motion.value, node.effect.does, node.effect.source
+
+
+def _controllers(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    for kind, controller in model.controllers.items():
+        yield code(kind), tuple(dict.fromkeys(code(use.type) for use in controller.plugins.values()))
+
+
+def _ports(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    for port in () if model.network is None else model.network.ports:
+        opened = "the computer" if port.direction == "host_to_device" else "the device"
+        yield f"{port.port} {port.protocol}", opened, port.service
+
+
+def _safety(model: DeviceModel) -> Iterator[str]:
+    if model.safety is None:
+        return
+    yield markdown(f"Stopped by {model.safety.stop_authority}.")
+    stops = [state.name for state in model.safety.states if state.stops]
+    if stops:
+        yield markdown(f"It stops by itself in {', '.join(stops)}.")
+    if model.safety.watchdog:
+        yield markdown(f"Watchdog: {model.safety.watchdog}.")
+
+
+def _list(texts: Iterable[str]) -> str:
+    return "\n".join(f"- {markdown(text)}" for text in texts) or "None."
+
+
+def picture(entry: CatalogDevice) -> str:
+    """Return the device as it stands at home, from two sides, with the frames that a spec can name."""
+    description = entry.description
+    poses = posture(description, _home(entry.model))
+    shapes = ((link.name, one) for link in description.links for one in link.collisions if link.name in poses)
+    named: Mapping[str, Pose] = {name: poses[link] for name, link in entry.model.frames.items() if link in poses}
+    joined = (joint for joint in description.joints if joint.child in poses)
+    return two_views(
+        Part(
+            entry.model.model,
+            (0.0, 0.0, 0.0),
+            tuple((poses[link] @ one.pose, one.geometry) for link, one in shapes),
+            tuple((poses[joint.parent].position, poses[joint.child].position) for joint in joined),
+            tuple(named.items()),
+        )
+    )

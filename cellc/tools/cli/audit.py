@@ -1,0 +1,33 @@
+"""``cellc audit``: what the people who approve a cell read, without writing anything."""
+
+from __future__ import annotations
+
+import click
+
+from cellc.compiler.pipeline import check
+from cellc.contract.printing import show_document
+from cellc.tools.cli.findings import show_findings
+from cellc.tools.cli.limit_option import limit_option
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=str))
+@limit_option
+def audit(file: str) -> None:
+    """Print the audit of the cell in FILE, as `cellc build` writes it to audit.md.
+
+    The exact version tuple with what is known of it, what is expected of the running cell, every command path, and
+    the blockers as questions to their owner or supplier.
+
+    \b
+    cellc audit cells/bench/cell.yaml
+    """
+    checked = check(file)
+    if checked.graph is None:
+        show_findings([checked.findings], "text")
+        raise click.exceptions.Exit(1)
+    from cellc.compiler.deploy.deployment import plan_deployment
+    from cellc.compiler.emit.audit.audit import emit
+
+    for artifact in emit(checked.graph, plan_deployment(checked.graph)):
+        show_document(artifact.text)

@@ -1,0 +1,318 @@
+"""Check or compile the specs of one call, by several processes where that pays."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field, replace
+from fnmatch import fnmatchcase
+from functools import partial
+from glob import glob
+from pathlib import Path
+from time import monotonic, process_time
+from typing import TYPE_CHECKING, Literal
+
+import click
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.catalog.compiled import DEVICE_FILE
+from cellc.compiler.rules.shared_domain import Presence, presence_of, shared_domains
+from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.limits import Limits, children_seconds, limits, use
+from cellc.contract.printing import progress, remark, time_left
+from cellc.contract.signals import within
+from cellc.contract.store.regular_file import open_regular
+from cellc.robot.description.packages import package_path, use_packages
+from cellc.tools.cli.fleet import USUAL, Fan, Task
+
+if TYPE_CHECKING:
+    from cellc.contract.compute.work import Hire
+
+Kind = Literal["check", "compile"]
+
+_READ_BYTES = 1 << 20
+
+MOST_WORKERS = 8
+
+# A process loads the compiler first, which takes as long as checking so many cells or compiling so many.
+_CELLS_THAT_PAY: Mapping[Kind, int] = {"check": 16, "compile": 3}
+
+
+@dataclass(frozen=True, slots=True)
+class CellResult:
+    """What a command needs of a spec that was checked, or compiled too; without the graph, so that it can be sent.
+
+    Args:
+        cell: as the other cells of the call see it; None where an error hides it.
+        artifacts: with the manifest over them; None where an error stops them, or where the kind is "check".
+        distro: that the cell is for; empty where an error hides it.
+        seconds: processor time that it took, with the children that read descriptions.
+        problem: why the spec cannot be taken with the versions of its task; empty where it can.
+    """
+
+    findings: Findings
+    cell: Presence | None = None
+    artifacts: tuple[Artifact, ...] | None = None
+    distro: str = ""
+    problem: str = ""
+    seconds: float = field(default=0.0, compare=False)
+
+
+def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
+    """Return the specs that are meant: a folder stands for every ``cell.yaml`` below it, in alphabetical order.
+
+    A pattern such as ``cells/*/cell.yaml`` stands for what it matches, where no shell has replaced it. Folders that
+    begin with a dot and virtual environments are left out, and no link to a folder is followed. A folder without a spec
+    that is the folder of a device stands for its ``device.yaml``; any other stays what it is, so that it is told like
+    any other file that is none.
+    """
+    below = ((path, files_below(path, SPEC_FILE) if os.path.isdir(path) else ()) for path in matched(paths))
+    return tuple(dict.fromkeys(spec for path, specs in below for spec in specs or (_device_in(path),)))
+
+
+def _device_in(path: str) -> str:
+    file = os.path.join(path, DEVICE_FILE)
+    return file if os.path.isfile(file) else path
+
+
+def several_folders(paths: Sequence[str]) -> tuple[str, ...] | None:
+    """Return the generated folders that are meant where they are several, or lie below what is named; else None."""
+    named = tuple(matched(paths))
+    below = {path: files_below(path, "contract.json") for path in named if os.path.isdir(path)}
+    inside = {path: tuple(map(os.path.dirname, files)) for path, files in below.items()}
+    found = tuple(dict.fromkeys(one for path in named for one in inside.get(path) or (path,)))
+    return (
+        None
+        if len(found) == 1 and len(named) == 1 and os.path.normpath(found[0]) == os.path.normpath(named[0])
+        else found
+    )
+
+
+def matched(paths: Iterable[str]) -> Iterator[str]:
+    """Yield paths, and in place of a pattern what it matches; one that matches nothing is a path that is not there."""
+    for path in paths:
+        yield from () if os.path.lexists(path) else sorted(glob(path, recursive=True))
+        yield from (path,) if os.path.lexists(path) or not glob(path, recursive=True) else ()
+
+
+def files_below(folder: str, *patterns: str) -> tuple[str, ...]:
+    """Return the files below a folder with names of some patterns, in alphabetical order, as `cell_files` looks."""
+    found: list[str] = []
+    for place, folders, files in os.walk(folder):
+        kept = (name for name in folders if not name.startswith("."))
+        folders[:] = sorted(name for name in kept if not os.path.exists(os.path.join(place, name, "pyvenv.cfg")))
+        named = (file for file in sorted(files) if any(fnmatchcase(file, one) for one in patterns))
+        found += (os.path.normpath(os.path.join(place, file)) for file in named)
+    return tuple(found)
+
+
+State = tuple[int, int, int]
+"""When a file was changed in ns, its size and its inode."""
+
+
+def states(places: Iterable[str], output: Path | None = None) -> dict[str, State]:
+    """Return the state of every file below folders, but of what is hidden, generated, or a virtual environment."""
+    found: dict[str, State] = {}
+    left = list(places)
+    generated = None if output is None else os.path.abspath(output)
+    while left:
+        try:
+            entries = list(os.scandir(left.pop()))
+        except OSError:
+            continue  # it has gone meanwhile, or nobody may look into it
+        if {"pyvenv.cfg", "manifest.json"} & {entry.name for entry in entries}:
+            continue
+        for entry in entries:
+            if entry.name.startswith("."):
+                continue
+            if entry.is_dir(follow_symlinks=False):
+                left += [] if entry.path == generated else [entry.path]
+                continue
+            try:
+                state = entry.stat()
+            except OSError:
+                continue
+            found[entry.path] = (state.st_mtime_ns, state.st_size, state.st_ino)
+    return found
+
+
+SPEC_FILE = "cell.yaml"
+"""What a spec is called where a folder is named instead of it."""
+
+
+def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[CellResult]:
+    """Yield the result of each task in the order of the call, with what the cells before it have against it.
+
+    Cells of different versions never run beside each other.
+    """
+    hire = _hire(fan, kind, len(tasks))
+    shared = os.getcwd() if fan.cluster is not None else ""
+    computed = (compute(kind, task) for task in tasks) if hire is None else in_workers(kind, tasks, hire, shared)
+    earlier: dict[str, list[Presence]] = {}
+    label = {"check": "checking", "compile": "building"}[kind]
+    begun, spent_s = monotonic(), 0.0
+    with progress(label) as update:
+        for number, task in enumerate(tasks):
+            update(f"{number + 1} of {len(tasks)}, {task.file}{time_left(number, len(tasks), monotonic() - begun)}")
+            if spent_s > limits().command_seconds:
+                from cellc.compiler.pipeline import out_of_time
+
+                computed.close()
+                yield CellResult(out_of_time(task.file, alone=False))
+                continue
+            result = next(computed)
+            spent_s += result.seconds
+            if result.cell is None:
+                yield result
+                continue
+            beside = earlier.setdefault(repr(task.versions), [])
+            against = tuple(shared_domains(result.cell, beside))
+            beside.append(result.cell)
+            # An error stops the artifacts.
+            yield replace(result, findings=result.findings.with_more(against), artifacts=None) if against else result
+
+
+def _hire(fan: Fan, kind: Kind, tasks: int) -> Hire | None:
+    """Return who does so many tasks; None for this process."""
+    if fan.cluster is not None:
+        from cellc.contract.compute.cluster import cluster
+
+        return cluster(fan.cluster, remark)
+    number = number_of_workers(kind, tasks) if fan.jobs is None else fan.jobs
+    if number <= 1:
+        return None
+    from cellc.contract.compute.processes import processes
+
+    return processes(number)
+
+
+def compute(kind: Kind, task: Task) -> CellResult:
+    """Check a spec, or check and compile it, and tell how long that took."""
+    begun = _processor_seconds()
+    result = within(limits().command_seconds, partial(_computed, kind, task))
+    if result is None:
+        from cellc.compiler.pipeline import out_of_time
+
+        result = CellResult(out_of_time(task.file, alone=True))
+    return replace(result, seconds=_processor_seconds() - begun)
+
+
+def _processor_seconds() -> float:
+    return process_time() + children_seconds()
+
+
+def _computed(kind: Kind, task: Task) -> CellResult:
+    # A process that has others compute does not load the compiler.
+    from cellc.compiler.pipeline import check, compile_cell, judge
+
+    if task.versions:
+        from cellc.tools.review.moved_spec import UpgradeError, check_with
+
+        try:
+            checked = check_with(task.file, task.versions)
+        except UpgradeError as problem:
+            return CellResult(Findings(task.file, {}, ()), problem=str(problem))
+    else:
+        checked = judge(task.file) if kind == "check" else check(task.file)
+    if checked.graph is None:
+        return CellResult(checked.findings)
+    result = CellResult(checked.findings, presence_of(checked.graph), distro=checked.graph.cell.distro.value)
+    if kind == "check":
+        return result
+    compiled = compile_cell(checked)
+    artifacts = compiled.value if compiled.ok else None
+    return replace(result, findings=checked.findings.with_more(compiled.diagnostics), artifacts=artifacts)
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What every process of a call is told.
+
+    Attributes:
+        folder: where specs are named from, for workers of other computers; empty where that is the current one.
+    """
+
+    kind: Kind
+    limits: Limits
+    packages: tuple[str, ...]
+    folder: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Unit:
+    """A task, with a digest of the files of its cell where a worker may have others; empty where it cannot."""
+
+    task: Task
+    digest: str = ""
+
+
+def _compute_within(asked: _Asked) -> Callable[[_Unit], CellResult]:
+    use(asked.limits)
+    use_packages(asked.packages)
+    return partial(_on_shared_disk, asked) if asked.folder else lambda unit: compute(asked.kind, unit.task)
+
+
+def _on_shared_disk(asked: _Asked, unit: _Unit) -> CellResult:
+    """Compute a task where the caller has its cell; a compiler reads devices and meshes beside a spec, and more."""
+    from cellc.contract.compute.work import ComputeError
+
+    before = os.getcwd()
+    try:
+        os.chdir(asked.folder)
+        if unit.digest == digest_of(unit.task.file):
+            return compute(asked.kind, unit.task)
+    except OSError:
+        pass  # there is no such folder
+    finally:
+        os.chdir(before)
+    reason = "check and build need a disk that its workers share"
+    raise ComputeError(f"a worker does not have `{unit.task.file}` in `{asked.folder}` as it is here; {reason}")
+
+
+def digest_of(spec: str) -> str:
+    """Return a digest of every file below the folder of a spec, but of what is generated; of large ones the size."""
+    folder, digest = os.path.dirname(spec) or ".", hashlib.sha256()
+    for file, (_, size, _) in sorted(states((folder,)).items()):
+        digest.update(f"{os.path.relpath(file, folder)}\0{size}\0".encode("utf-8", "surrogateescape"))
+        if size <= _READ_BYTES:
+            with open_regular(Path(file)) as stream:
+                digest.update(stream.read())
+    return digest.hexdigest()
+
+
+def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
+    """Return how many processes pay for so many cells; 1 is this process.
+
+    Args:
+        cores: as many as the system lets this process use, if None.
+    """
+    paying = min(cells // _CELLS_THAT_PAY[kind], MOST_WORKERS)
+    if paying <= 1:
+        return 1
+    # One cell needs no processes: loading what hires them takes a fiftieth of its check.
+    from cellc.contract.compute.processes import usable_cores
+
+    return max(1, min(usable_cores() if cores is None else cores, paying))
+
+
+def in_workers(kind: Kind, tasks: Sequence[Task], hire: Hire, shared: str = "") -> Generator[CellResult, None, None]:
+    """Yield results in the order of the tasks, whoever computes them; closing it ends them all.
+
+    Args:
+        shared: folder that workers of other computers find the specs from; empty for processes of this one.
+
+    Raises:
+        ClickException: a spec ends every process that computes it, or no worker is within reach.
+        Stopped: what had not begun was dropped, and no process is left.
+    """
+    from cellc.contract.compute.work import ComputeError, Work, in_order, stream
+
+    work = Work(_compute_within, _Asked(kind, limits(), package_path(), shared), lambda unit: unit.task.file)
+    units = [_Unit(task, digest_of(task.file) if shared else "") for task in tasks]
+    try:
+        with closing(stream(work, units, hire)) as computed:
+            yield from in_order(computed)
+    except ComputeError as problem:
+        raise click.ClickException(str(problem)) from None

@@ -1,0 +1,146 @@
+"""``cellc build``: check cells and write their artifacts, or tell how a folder differs from what they would be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import click
+
+from cellc.compiler.artifact import Artifact
+from cellc.compiler.output.codes import shared_output
+from cellc.compiler.output.compare import Difference, compare
+from cellc.compiler.output.plan import check_places
+from cellc.compiler.output.write import WriteReport, write
+from cellc.contract.diagnostics import Span
+from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.printing import Line, show
+from cellc.tools.cli.batch import CellResult, cell_files, results
+from cellc.tools.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected_and_errors
+from cellc.tools.cli.fleet import FleetOptions, fleet_options, folder_of
+from cellc.tools.cli.limit_option import limit_option
+from cellc.tools.cli.rows import finish_rows, row_of, show_checked
+from cellc.tools.report.text_report import render_difference
+
+OUTPUT = click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    default=Path("generated"),
+    show_default=True,
+    help="Folder that holds a folder for each cell.",
+)
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=str))
+@OUTPUT
+@click.option(
+    "--check", "only_compare", is_flag=True, help="Write nothing; fail where a folder is not what its cell makes."
+)
+@click.option("--force", is_flag=True, help="Discard edits that were made by hand in generated files.")
+@SELECT
+@IGNORE
+@FORMAT
+@FAIL_ON
+@fleet_options
+@limit_option
+def build(
+    files: tuple[str, ...],
+    output: Path,
+    only_compare: bool,
+    force: bool,
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    output_format: str,
+    fail_on: str,
+    fleet: FleetOptions,
+) -> None:
+    """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
+
+    A folder stands for every cell.yaml below it. With --matrix each tuple has a folder of its own in OUTPUT.
+
+    Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock, and are summed
+    here; `cellc check` shows each. Files that you put beside the generated ones stay. No option hides an error.
+
+    \b
+    cellc build cells/bench/cell.yaml          writes generated/bench
+    cellc build --check .                      fails where one is not up to date
+    cellc build . --matrix ros=humble,jazzy    in generated/ros-humble, and so on
+    """
+    wanted = read_selection(select, ignore)
+    files = cell_files(files)
+    tasks, built = fleet.tasks(files), list[_Built]()
+    places: dict[tuple[str, str], Span] = {}
+    for task, result in zip(tasks, results("compile", tasks, fleet.fan), strict=True):
+        folder = folder_of(task.versions)
+        built.append(_built(_unless_shared(result, folder, places), output / folder, only_compare, force))
+    shown = [selected_and_errors(one.result.findings, wanted) for one in built]
+    found = [(task, one.result.findings) for task, one in zip(tasks, built, strict=True)]
+    show_checked(fleet, found, shown, output_format, sum_blockers=True)
+    told = [line for one in built for line in one.told]
+    if output_format == "text" and told and not fleet.as_json:
+        show(*told)
+    rows = [
+        row_of(task, one.result, findings, fail_on, one.problem)
+        for task, one, findings in zip(tasks, built, shown, strict=True)
+    ]
+    finish_rows(fleet, rows, output_format)
+
+
+@dataclass(frozen=True, slots=True)
+class _Built:
+    """What became of a cell, without its artifacts; ``problem`` says that its folder is not what it makes."""
+
+    result: CellResult
+    told: tuple[Line, ...] = ()
+    problem: str = ""
+
+
+def _built(result: CellResult, output: Path, only_compare: bool, force: bool) -> _Built:
+    if result.artifacts is None or result.cell is None:
+        return _Built(result)
+    folder = output / result.cell.name
+    if only_compare:
+        if in_the_way := tuple(check_places(result.artifacts, folder)):  # nothing is shown of what a link leads to
+            return _Built(replace(result, findings=result.findings.with_more(in_the_way), artifacts=None))
+        differences = compare(result.artifacts, folder)
+        problem = f"`{folder.as_posix()}` is not what the cell makes" if differences else ""
+        return _Built(replace(result, artifacts=None), tuple(_differences(differences, folder)), problem)
+    findings, report = written(result.findings, result.artifacts, folder, force)
+    told = () if report is None else (told_of(report, folder),)
+    return _Built(replace(result, findings=findings, artifacts=None), told)
+
+
+def _unless_shared(result: CellResult, folder: str, places: dict[tuple[str, str], Span]) -> CellResult:
+    """Take the artifacts from a cell whose folder is made already; ``places`` holds where the cells are named."""
+    if result.cell is None:
+        return result
+    here = result.cell.named_at
+    shared = shared_output(result.cell.name, here, places.setdefault((folder, result.cell.name), here))
+    if shared is None:
+        return result
+    return replace(result, findings=result.findings.with_more((shared,)), artifacts=None)
+
+
+def written(
+    findings: Findings, artifacts: tuple[Artifact, ...], folder: Path, force: bool
+) -> tuple[Findings, WriteReport | None]:
+    """Write what a cell makes; return its findings with those of writing, and what was written where anything was."""
+    outcome = write(artifacts, folder, force=force)
+    return findings.with_more(outcome.diagnostics), outcome.value
+
+
+def told_of(report: WriteReport, folder: Path) -> str:
+    """Say how many files of a folder were written, removed and left."""
+    parts = [(len(report.written), "written"), (len(report.removed), "removed"), (len(report.unchanged), "unchanged")]
+    shown = ", ".join(f"{number} {word}" for number, word in parts if number)
+    return f"{folder.as_posix()}: {shown}"
+
+
+def _differences(differences: tuple[Difference, ...], folder: Path) -> list[Line]:
+    if not differences:
+        return [f"{folder.as_posix()}: as the cell makes it"]
+    if not folder.is_dir():
+        return [f"{folder.as_posix()}: there is no such folder; `cellc build` without `--check` writes it"]
+    return [line for difference in differences for line in render_difference(difference, folder)]

@@ -1,0 +1,110 @@
+"""``cellc check``: read, link and check cells; nothing is written but what ``--fix`` mends."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from cellc.contract.printing import Stream, progress, show
+from cellc.tools.cli.batch import cell_files, results
+from cellc.tools.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected, write_sarif
+from cellc.tools.cli.fleet import FleetOptions, fleet_options
+from cellc.tools.cli.limit_option import limit_option
+from cellc.tools.cli.rows import finish_rows, row_of, show_checked
+
+if TYPE_CHECKING:
+    from cellc.tools.edit.rewrite import Edit
+
+FIX = click.option(
+    "--fix",
+    is_flag=True,
+    help="Fix what has one safe answer in the files: misspelled keys and units, the modeline.",
+)
+# A mended key can show a misspelt one below it; no spec is nested deeper.
+_PASSES = 16
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=str))
+@FIX
+@SELECT
+@IGNORE
+@FORMAT
+@FAIL_ON
+@click.option(
+    "--sarif", metavar="FILE", type=click.Path(path_type=Path), help="Write the findings to FILE too, as SARIF 2.1.0."
+)
+@fleet_options
+@limit_option
+def check(
+    files: tuple[str, ...],
+    fix: bool,
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    output_format: str,
+    fail_on: str,
+    sarif: Path | None,
+    fleet: FleetOptions,
+) -> None:
+    """Check each cell in FILES and point at what is wrong; a folder stands for every cell.yaml below it.
+
+    The file of a device, or of a robot description, is judged by itself.
+
+    \b
+    cellc check cells/bench/cell.yaml          one cell
+    cellc check .                              every cell of a repository
+    cellc check my_robot                       a device: its folder or its file
+    cellc check robot.urdf.xacro               a description alone
+    cellc check . --format github              annotations of a pull request
+    cellc check . --matrix ros=humble,jazzy    each cell with each distribution
+    """
+    wanted = read_selection(select, ignore)
+    files = cell_files(files)
+    with progress("fixing") as update:
+        for file in files if fix else ():
+            update(file)
+            fix_file(file)
+    tasks = fleet.tasks(files)
+    computed = list(results("check", tasks, fleet.fan))
+    shown = [selected(one.findings, wanted) for one in computed]
+    show_checked(fleet, [(task, one.findings) for task, one in zip(tasks, computed, strict=True)], shown, output_format)
+    if sarif is not None:
+        write_sarif(shown, sarif)
+    rows = [row_of(task, one, told, fail_on) for task, one, told in zip(tasks, computed, shown, strict=True)]
+    finish_rows(fleet, rows, output_format)
+
+
+def fix_file(file: str) -> None:
+    """Mend a spec and what it includes, and say on standard error what was done."""
+    from cellc.compiler.catalog.read_model import is_device
+    from cellc.compiler.pipeline import judge
+    from cellc.compiler.source import read
+    from cellc.tools.edit.fixes import missing_modeline, misspelt_keys, misspelt_units
+
+    for _ in range(_PASSES):
+        document = read(file)
+        if document.value is None or not document.ok:
+            return
+        found = judge(file).diagnostics
+        edits: list[Edit] = [*misspelt_keys(found, document.value), *misspelt_units(found, document.value)]
+        kind = "device" if is_device(document.value.data) else "cell"
+        edits += missing_modeline(document.value.file, document.value.texts[document.value.file], kind)
+        if not edits:
+            return
+        for name, group in groupby(sorted(edits, key=lambda one: (one.file, one.line)), key=lambda one: one.file):
+            _rewrite(name, list(group), document.value.texts[name])
+
+
+def _rewrite(file: str, edits: Sequence[Edit], text: str) -> None:
+    from cellc.tools.edit.rewrite import rewrite
+
+    try:
+        done = rewrite(Path(file), edits, text)
+    except OSError as error:
+        raise click.UsageError(f"`{file}` cannot be written: {(error.strerror or 'unknown reason').lower()}") from error
+    for edit in edits if done else ():
+        show(f"{edit.file}:{edit.line}: {edit.message}", to=Stream.ERR)

@@ -1,0 +1,59 @@
+"""``cellc diff``: what changed from one state of a cell to another, and what that means."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from cellc.contract.printing import refuse
+from cellc.tools.cli.forms import FORM, tell
+from cellc.tools.cli.limit_option import limit_option
+
+if TYPE_CHECKING:
+    from cellc.contract.review import ReviewRehearsal
+    from cellc.tools.review.sides import Package
+
+
+@click.command()
+@click.argument("sides", nargs=-1, required=True, metavar="[BEFORE] AFTER", type=click.Path(path_type=str))
+@FORM
+@click.option("--breaking", is_flag=True, help="Fail only where a consumer outside of the cell breaks.")
+@click.option("--rehearse", is_flag=True, help="Run the rehearsals of both sides on the mock, and compare outcomes.")
+@limit_option
+def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: bool) -> None:
+    """Tell what changed in a cell: specs, generated folders, or git revisions of them; exit 1 where something did.
+
+    One path is HEAD against the work tree, as with `git diff`.
+
+    \b
+    cellc diff cells/x/cell.yaml                 HEAD and the work tree
+    cellc diff main cells/x/cell.yaml            a revision and the work tree
+    cellc diff main..HEAD cells/x/cell.yaml      two revisions
+    cellc diff a/cell.yaml generated/a           a spec and a generated folder
+    """
+    if len(sides) > 2:
+        raise click.UsageError(f"expected one or two of spec, folder and revision, got {len(sides)}.")
+    # Comparing loads the compiler.
+    from cellc.tools.review.markdown import render_markdown
+    from cellc.tools.review.review import review
+    from cellc.tools.review.sides import SideError, packages
+    from cellc.tools.review.sides import sides as asked
+    from cellc.tools.review.text import render_review
+
+    try:
+        with packages(*asked(sides)) as ((before, _), (after, _)):
+            found = review(before, after, _outcomes(before, after) if rehearse else ())
+    except SideError as problem:
+        refuse(str(problem))
+        raise click.exceptions.Exit(2) from None
+    tell(found, output_format, render_markdown, render_review)
+    counted = [change for change in found.changes if change.breaking or not breaking]
+    if counted or (found.rehearsals_differ() and not breaking):
+        raise click.exceptions.Exit(1)
+
+
+def _outcomes(before: Package, after: Package) -> tuple[ReviewRehearsal, ...]:
+    from cellc.tools.review.rehearse import outcomes_of
+
+    return outcomes_of(before, after)

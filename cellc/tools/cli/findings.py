@@ -1,0 +1,140 @@
+"""What commands share that report findings: their options, their output and their exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from cellc.contract.diagnostics import Diagnostic, Severity
+from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.printing import show, show_document
+from cellc.contract.store.swap import write_whole
+from cellc.tools.cli.words import complete_codes
+from cellc.tools.report.selection import Selection, UnknownSelectionError, selection
+from cellc.tools.report.text_report import render_text, summary, summed_blockers
+
+FORMAT = click.option(
+    "--format",
+    "output_format",
+    type=click.Choice(["text", "json", "sarif", "github"]),
+    default="text",
+    show_default=True,
+    help="How findings are written.",
+)
+SELECT = click.option(
+    "--select",
+    multiple=True,
+    metavar="CODES",
+    shell_complete=complete_codes,
+    help="Report only these codes or families, such as QOS.",
+)
+IGNORE = click.option(
+    "--ignore",
+    multiple=True,
+    metavar="CODES",
+    shell_complete=complete_codes,
+    help="Leave these codes or families out; wins over --select.",
+)
+FAIL_ON = click.option(
+    "--fail-on",
+    type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.BLOCKER, Severity.WARNING)]),
+    default=Severity.ERROR.value,
+    show_default=True,
+    help="Least severity that makes the exit code 1.",
+)
+
+_RANK = {Severity.ERROR: 0, Severity.BLOCKER: 1, Severity.WARNING: 2, Severity.AUDIT: 3}
+
+
+def show_findings(
+    found: Sequence[Findings], output_format: str, *, hidden: int = 0, sum_blockers: bool = False
+) -> None:
+    """Write the findings of all cells to standard output.
+
+    Args:
+        found: one for each cell.
+        hidden: findings that options left out; people are told how many.
+        sum_blockers: whether people are told the number of blockers only, where nothing is worse.
+    """
+    if output_format != "text":
+        _show_for_programs(_each_once(found), output_format)
+        return
+    for one in found:
+        summed = sum_blockers and all(each.severity is not Severity.ERROR for each in one.diagnostics)
+        listed = [each for each in one.diagnostics if not summed or each.severity is not Severity.BLOCKER]
+        if listed:
+            show(*render_text(listed, one.texts), "")
+        show(summary(one.diagnostics, [one.file]))
+        if summed:
+            show(*summed_blockers(one.diagnostics, one.file))
+    if hidden:
+        show(f"{hidden} hidden by --select or --ignore")
+
+
+def _each_once(found: Sequence[Findings]) -> tuple[Diagnostic, ...]:
+    # A cell with several tuples has most of its findings with each.
+    return tuple(dict.fromkeys(each for one in found for each in one.diagnostics))
+
+
+def write_sarif(found: Sequence[Findings], file: Path) -> None:
+    """Write the findings of all cells to a file, but through no link: in CI the checkout may hold one."""
+    from cellc.tools.report.sarif_report import render_sarif
+
+    try:
+        write_whole(file, render_sarif(_each_once(found), Path.cwd()))
+    except OSError as error:
+        place, reason = error.filename or file.as_posix(), (error.strerror or "unknown reason").lower()
+        raise click.UsageError(f"`{place}` cannot be written: {reason}") from error
+
+
+def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:
+    """Return how many findings options left out."""
+    return sum(len(one.diagnostics) for one in found) - sum(len(one.diagnostics) for one in shown)
+
+
+def fails(found: Findings, fail_on: str) -> bool:
+    """Tell whether a finding is as severe as ``fail_on``."""
+    limit = _RANK[Severity(fail_on)]
+    return any(_RANK[one.severity] <= limit for one in found.diagnostics)
+
+
+def _show_for_programs(found: Sequence[Diagnostic], output_format: str) -> None:
+    """Write findings in a format for programs; each renderer is imported only when it is asked for."""
+    if output_format == "json":
+        from cellc.tools.report.json_report import render_json
+
+        show_document(render_json(found))
+    elif output_format == "sarif":
+        from cellc.tools.report.sarif_report import render_sarif
+
+        show_document(render_sarif(found, Path.cwd()))
+    else:
+        from cellc.tools.report.github_report import render_github
+
+        show(*render_github(found, Path.cwd()))
+
+
+def read_selection(select: Sequence[str], ignore: Sequence[str]) -> Selection:
+    """Return what the options ask for; each may be given several times, and hold several names with commas."""
+    try:
+        return selection(_names(select), _names(ignore))
+    except UnknownSelectionError as problem:
+        raise click.UsageError(str(problem)) from problem
+
+
+def selected(findings: Findings, wanted: Selection) -> Findings:
+    """Return the findings that were asked for."""
+    return replace(findings, diagnostics=tuple(one for one in findings.diagnostics if wanted.shows(one)))
+
+
+def selected_and_errors(findings: Findings, wanted: Selection) -> Findings:
+    """Return the findings that were asked for and every error, for a command that errors stop."""
+    shown = (one for one in findings.diagnostics if one.severity is Severity.ERROR or wanted.shows(one))
+    return replace(findings, diagnostics=tuple(shown))
+
+
+def _names(given: Sequence[str]) -> list[str]:
+    return [name.strip() for text in given for name in text.split(",") if name.strip()]

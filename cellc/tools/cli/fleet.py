@@ -1,0 +1,118 @@
+"""The options of commands about many cells: the tuples to try, and who does it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import wraps
+from itertools import product
+from typing import Any
+
+import click
+
+Versions = Mapping[str, str]
+"""Parts of the version tuple with other texts than a spec has."""
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A spec, and what of its version tuple is another than it says."""
+
+    file: str
+    versions: Versions = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Fan:
+    """Who does the tasks of a call.
+
+    Attributes:
+        jobs: processes; None for as many as pay.
+        cluster: address of a scheduler of Dask whose workers do it instead.
+    """
+
+    jobs: int | None = None
+    cluster: str | None = None
+
+
+USUAL = Fan()
+
+
+@dataclass(frozen=True, slots=True)
+class FleetOptions:
+    """What is asked for beside the cells.
+
+    Attributes:
+        matrix: tuples to try each cell with, as parts that are replaced; one of nothing where the cells' own counts.
+        as_json: the table as JSON, and nothing else.
+    """
+
+    matrix: tuple[Versions, ...]
+    fan: Fan
+    as_json: bool
+
+    @property
+    def moves(self) -> bool:
+        """Whether cells are tried with other tuples than their own."""
+        return self.matrix != ({},)
+
+    def tasks(self, files: Sequence[str]) -> list[Task]:
+        """Return each spec with each tuple."""
+        return [Task(file, versions) for file in files for versions in self.matrix]
+
+
+MATRIX = click.option(
+    "--matrix",
+    multiple=True,
+    metavar="PART=TEXT,TEXT",
+    help="Try each cell with these in its version tuple, such as ros=humble,jazzy; repeatable. Specs stay.",
+)
+JOBS = click.option("--jobs", type=click.IntRange(1, 1024), metavar="N", help="Processes; as many as pay by default.")
+CLUSTER = click.option("--cluster", metavar="ADDRESS", help="A scheduler of Dask instead, such as tcp://10.0.0.7:8786.")
+JSON = click.option("--json", "as_json", is_flag=True, help="Write the table of cells as JSON, and nothing else.")
+
+
+def fleet_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options of a command for many cells; they come as one argument, ``fleet``."""
+
+    @MATRIX
+    @JOBS
+    @CLUSTER
+    @JSON
+    @wraps(command)
+    def within(matrix: tuple[str, ...], jobs: int | None, cluster: str | None, as_json: bool, **others: Any) -> None:
+        if jobs is not None and cluster is not None:
+            raise click.UsageError("--jobs does not go with --cluster, whose workers are all taken.")
+        if as_json and others.get("output_format", "text") != "text":
+            raise click.UsageError("--json does not go with --format.")
+        command(fleet=FleetOptions(read_matrix(matrix), Fan(jobs, cluster), as_json), **others)
+
+    return within
+
+
+def read_matrix(given: Sequence[str]) -> tuple[Versions, ...]:
+    """Return every combination of the texts that are given for each part of the tuple."""
+    axes: dict[str, list[str]] = {}
+    for option in given:
+        part, _, texts = option.partition("=")
+        if part in axes:
+            raise click.UsageError(f"`--matrix` names `{part}` twice; write its texts in one, with commas.")
+        axes[part] = list(dict.fromkeys(text.strip() for text in texts.split(",")))
+        _refuse_unusable(part, axes[part])
+    return tuple(dict(zip(axes, texts, strict=True)) for texts in product(*axes.values()))
+
+
+def _refuse_unusable(part: str, texts: Sequence[str]) -> None:
+    # Loads the models of the spec, which a command without a matrix gets later and in another process.
+    from cellc.tools.review.moved_spec import unusable
+
+    for text in texts:
+        problem = unusable(part, text)
+        if problem:
+            raise click.UsageError(f"`--matrix`: {problem}.")
+
+
+def folder_of(versions: Versions) -> str:
+    """Return the folder that holds the packages of a tuple, such as ``ros-humble``; empty for the cells' own."""
+    return "_".join(re.sub(r"[^A-Za-z0-9.+~-]", "-", f"{part}-{text}") for part, text in versions.items())

@@ -1,0 +1,121 @@
+"""``cellc format``: the canonical form of cells and devices, written into their files or told."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.printing import Line, Stream, Style, Styled, as_text, refuse, show, show_document, stage
+from cellc.tools.cli.batch import SPEC_FILE, files_below
+from cellc.tools.cli.findings import show_findings
+
+if TYPE_CHECKING:
+    from cellc.tools.layout.files import Taken
+
+_STDIN = "-"
+_DIFF_STYLES = {"+": Style.GREEN, "-": Style.RED, "@": Style.CYAN}
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILES...", type=click.Path(path_type=str))
+@click.option("--check", is_flag=True, help="Write nothing, and fail where a file would change.")
+@click.option("--diff", is_flag=True, help="Write nothing, and show what would change.")
+def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
+    """Put FILES into their canonical form: order of keys, spacing, spelling of quantities.
+
+    A folder stands for every cell.yaml below it with what it includes, and every device.yaml; `-` reads standard input
+    and writes standard output. Every comment stays with what it belongs to, and no value changes.
+
+    \b
+    cellc format .                             every cell and device below
+    cellc format cells/bench/cell.yaml         one file
+    cellc format . --check --diff              what a pull request would change
+    cellc format - < cell.yaml                 for an editor
+    """
+    if _STDIN in files and len(files) > 1:
+        raise click.UsageError("expected `-` alone, or files and folders.")
+    from cellc.tools.layout.files import take_content, take_file
+
+    if _STDIN in files:
+        done = [take_content(sys.stdin.buffer.read(), "<stdin>")]
+    else:
+        done = []
+        for file in _meant(files):
+            stage(file)
+            done.append(take_file(file))
+    refused = [Findings(one.name, {one.name: one.before}, one.findings) for one in done if one.findings]
+    if refused:
+        show_findings(refused, "text")
+    changed = [one for one in done if one.changes]
+    for one in changed if diff else ():
+        show(*_difference(one))
+    writes = not (check or diff)
+    if _STDIN in files:
+        failed = writes and not refused and not _shown(done[0].after)
+    else:
+        failed = [_put(one, writes=writes) for one in changed].count(False) > 0
+        _tell_the_others(len(done) - len(changed) - len(refused))
+    if refused or failed or (check and changed):
+        raise click.exceptions.Exit(1)
+
+
+def _meant(files: Sequence[str]) -> Iterator[str]:
+    """Yield each file once that arguments stand for."""
+    from cellc.compiler.catalog.compiled import DEVICE_FILE, FAMILY_FILE
+    from cellc.tools.layout.files import with_includes
+
+    seen = set[str]()
+    for file in files:
+        below = files_below(file, SPEC_FILE, DEVICE_FILE, f"*{FAMILY_FILE}") if os.path.isdir(file) else ()
+        if os.path.isdir(file) and not below:
+            raise click.UsageError(f"there is no {SPEC_FILE}, {DEVICE_FILE} or *{FAMILY_FILE} below `{file}`.")
+        for name in below or (file,):
+            is_spec = bool(below) and os.path.basename(name) == SPEC_FILE
+            for one in with_includes(name) if is_spec else (name,):
+                if os.path.realpath(one) not in seen:
+                    seen.add(os.path.realpath(one))
+                    yield one
+
+
+def _put(one: Taken, *, writes: bool) -> bool:
+    """Write a file in its form and say so on standard error, or say that it would be."""
+    from cellc.tools.edit.rewrite import replace_text
+
+    try:
+        if writes and not replace_text(Path(one.name), one.after, one.before):
+            refuse(f"`{one.name}` was changed meanwhile")
+            return False
+    except OSError as error:
+        refuse(f"`{one.name}` cannot be written: {(error.strerror or 'unknown reason').lower()}")
+        return False
+    show(f"{'formatted' if writes else 'would format'} {one.name}", to=Stream.ERR)
+    return True
+
+
+def _tell_the_others(same: int) -> None:
+    if same:
+        show(f"{same} {'file is' if same == 1 else 'files are'} in canonical form", to=Stream.ERR)
+
+
+def _shown(text: str) -> bool:
+    """Write a file to standard output, or nothing where a line of it would not come out as it is."""
+    if as_text(text.removesuffix("\n").split("\n"), colour=False) != text:
+        refuse("a line reads like a command to a runner of CI; format the file itself")
+        return False
+    show_document(text)
+    return True
+
+
+def _difference(one: Taken) -> Iterator[Line]:
+    from difflib import unified_diff
+
+    before, after = one.before.split("\n"), one.after.split("\n")
+    for line in unified_diff(before, after, one.name, one.name, lineterm=""):
+        style = _DIFF_STYLES.get(line[:1])
+        yield line if style is None or line[:3] in ("+++", "---") else (Styled(line, style),)

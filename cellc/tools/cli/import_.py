@@ -1,0 +1,198 @@
+"""``cellc import``: a device folder from a robot as its vendor ships it."""
+
+from __future__ import annotations
+
+import shlex
+import time
+from dataclasses import replace
+from datetime import date
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from cellc.compiler.catalog.device_model import device_kinds
+from cellc.contract.diagnostics import Severity
+from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.printing import show, stage
+from cellc.contract.store.swap import write_whole
+from cellc.contract.vocabulary import Distro
+from cellc.tools.cli.findings import show_findings
+from cellc.tools.cli.limit_option import limit_option
+
+if TYPE_CHECKING:
+    from cellc.tools.importing.cell_text import FirstCell
+    from cellc.tools.importing.device_text import Pairs
+    from cellc.tools.importing.folder import Written
+    from cellc.tools.importing.role import Role
+    from cellc.tools.importing.source import Robot
+
+
+@click.command(name="import")
+@click.argument("robot")
+@click.argument("arguments", nargs=-1, metavar="[NAME:=VALUE]...")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Device folder; ./MODEL if absent.",
+)
+@click.option(
+    "--srdf",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    help="SRDF whose pairs of links may touch; the robot's own beside its description if absent.",
+)
+@click.option(
+    "--controllers",
+    type=click.Path(path_type=Path, exists=True, dir_okay=False),
+    help="Parameters of controllers for the cell; those beside the description if absent.",
+)
+@click.option("--kind", type=click.Choice(device_kinds()), help="What the robot is; by its evidence if absent.")
+@click.option("--cell", "with_cell", is_flag=True, help="Write a cell.yaml beside the folder too, which moves it.")
+@click.option("--check", "only_check", is_flag=True, help="Tell which files of the imported folder ROBOT changed.")
+@click.option(
+    "--ros", type=click.Choice([distro.value for distro in Distro]), default="jazzy", help="Distribution of the cell."
+)
+@click.option("--force", is_flag=True, help="Discard edits of files that an earlier import wrote.")
+@limit_option
+def import_(
+    robot: str,
+    arguments: tuple[str, ...],
+    output: Path | None,
+    srdf: Path | None,
+    controllers: Path | None,
+    kind: str | None,
+    with_cell: bool,
+    only_check: bool,
+    ros: str,
+    force: bool,
+) -> None:
+    """Make a device folder of ROBOT: a URDF or xacro file, the folder of a ROS package, or an installed Python package.
+
+    NAME:=VALUE are arguments of the xacro. What a person wrote into a device.yaml stays.
+
+    \b
+    cellc import my_robot.urdf -o devices/my_robot --cell
+    cellc import my_robot_description robot:=large
+    """
+    if only_check:
+        _tell_changes(Path(robot))
+        return
+    begun = time.monotonic()
+    stage("reading the robot")
+    found, role = _read(robot, dict(map(_argument, arguments)), kind, output)
+    from cellc.tools.importing.beside import controllers_near, read_controllers, semantic_file
+    from cellc.tools.importing.cell_text import FirstCell
+    from cellc.tools.importing.device_text import DESCRIPTION, model_name
+    from cellc.tools.importing.folder import write_folder
+    from cellc.tools.importing.source import packages_elsewhere
+
+    folder = output or Path(model_name(found))
+    if (folder / DESCRIPTION).exists() and (folder / DESCRIPTION).samefile(found.file):
+        raise click.UsageError(
+            f"`{found.file.as_posix()}` would be replaced by what is made of it: name another folder"
+        )
+    semantic = srdf or semantic_file(found.file, found.description.name)
+    joints = [joint.name for joint in role.chain.joints]
+    moved = controllers_near(found.file, joints) if controllers is None else read_controllers(controllers, joints)
+    if moved is None:
+        raise click.UsageError(f"`{controllers}` has no controller of {', '.join(joints)}.")
+    stage("copying meshes")
+    disabled = _disabled(semantic, found)
+    outcome = write_folder(folder, found, role, disabled, date.today().isoformat(), force=force)
+    if outcome.value is None:
+        show_findings((Findings(folder.as_posix(), {}, outcome.diagnostics),), "text")
+        raise click.exceptions.Exit(1)
+    written = outcome.value
+    took = f"{time.monotonic() - begun:.1f} s"
+    show(f"wrote {folder.as_posix()}: {written.files} files, {written.size / 1e6:.1f} MB, in {took}")
+    show(*(f"read {file.as_posix()}" for file in (semantic, moved.file) if file is not None))
+    show(*role.lines())
+    _tell_kept(folder, written)
+    _stop_at_errors(written.checked)
+    show(f"open questions stand at the head of {folder.as_posix()}/device.yaml")
+    if with_cell:
+        beside = packages_elsewhere(found, folder)
+        _write_cell(folder, FirstCell(role, written.away, moved, ros, beside))
+
+
+def _stop_at_errors(found: Findings) -> None:
+    """Show what is wrong with a cell, and end the command where something is."""
+    errors = tuple(one for one in found.diagnostics if one.severity is Severity.ERROR)
+    if errors:
+        show_findings((replace(found, diagnostics=errors),), "text")
+        raise click.exceptions.Exit(1)
+
+
+def _tell_kept(folder: Path, written: Written) -> None:
+    if written.kept:
+        changed = (
+            f"kept, with what the vendor changed: {', '.join(written.changed)}" if written.changed else "as it was"
+        )
+        show(f"{folder.as_posix()}/device.yaml is {changed}")
+
+
+def _argument(text: str) -> tuple[str, str]:
+    name, separator, value = text.partition(":=")
+    if not separator or not name:
+        raise click.UsageError(f"an argument of the xacro must be NAME:=VALUE, got `{text}`")
+    return name, value
+
+
+def _read(named: str, arguments: dict[str, str], kind: str | None, output: Path | None) -> tuple[Robot, Role]:
+    """Return the robot that is meant, and its part in a cell; what is wrong with it is told and ends the command."""
+    from cellc.tools.importing.device_text import model_name
+    from cellc.tools.importing.folder import kept_kind
+    from cellc.tools.importing.role import role_of
+    from cellc.tools.importing.source import ImportRefusedError, read_robot, the_description
+
+    try:
+        file = the_description(named)
+        read = read_robot(file, arguments)
+        if read.value is not None:
+            stated = kind or kept_kind(output or Path(model_name(read.value)))
+            return read.value, role_of(read.value.description, stated)
+    except ImportRefusedError as refusal:
+        show(f"refused: {refusal}")
+        raise click.exceptions.Exit(1) from None
+    show_findings((Findings(file.as_posix(), {}, read.diagnostics),), "text")
+    raise click.exceptions.Exit(1)
+
+
+def _disabled(srdf: Path | None, robot: Robot) -> Pairs:
+    from cellc.tools.importing.device_text import disabled_by_srdf
+
+    if srdf is None:
+        return {}
+    read = disabled_by_srdf(srdf, {link.name for link in robot.description.links})
+    if read.value is None:
+        show_findings((Findings(srdf.as_posix(), {}, read.diagnostics),), "text")
+        raise click.exceptions.Exit(1)
+    return read.value
+
+
+def _tell_changes(folder: Path) -> None:
+    from cellc.tools.importing.folder import LOCK, changed_files
+
+    changed = changed_files(folder)
+    if changed is None:
+        raise click.UsageError(f"`{folder.as_posix()}` holds no {LOCK}: name a folder that `cellc import` wrote")
+    show(*(f"changed: {name}" for name in changed))
+    if changed:
+        raise click.exceptions.Exit(1)
+    show(f"{folder.as_posix()} is as it was imported")
+
+
+def _write_cell(folder: Path, first: FirstCell) -> None:
+    """Write the spec beside the folder, unless a person has one there, and check what is there then."""
+    from cellc.compiler.pipeline import check
+    from cellc.tools.importing.cell_text import cell_text
+
+    file, name = folder.parent / "cell.yaml", f"{folder.name}_cell"
+    if file.exists() or file.is_symlink():  # one that leads nowhere is kept too
+        show(f"kept {file.as_posix()} as it was")
+    else:
+        write_whole(file, cell_text(name, f"./{folder.name}", first))
+        show(f"wrote {file.as_posix()}")
+    _stop_at_errors(check(file).findings)
+    show(f"next: cellc build {shlex.quote(file.as_posix())} && cellc mock generated/{name}")

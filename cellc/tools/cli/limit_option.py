@@ -1,0 +1,57 @@
+"""The options of every command that reads what others wrote: limits to raise, and where packages lie."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+import click
+
+from cellc.contract.limits import LimitError, in_force, raised
+from cellc.robot.description.packages import on_package_path
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+
+def limit_option(command: _Command) -> _Command:
+    """Add ``--limit`` and ``--package-path``, which hold for as long as the command runs."""
+    return _packages(_limits(command))
+
+
+def _packages(command: _Command) -> _Command:
+    return click.option(
+        "--package-path",
+        multiple=True,
+        metavar="FOLDERS",
+        expose_value=False,
+        callback=_apply_packages,
+        help='Folders where packages lie, as "$AMENT_PREFIX_PATH" has them; repeatable.',
+    )(command)
+
+
+def _apply_packages(context: click.Context, _parameter: click.Parameter, given: Sequence[str]) -> None:
+    folders = [folder for text in given for folder in text.split(os.pathsep) if folder]
+    wrong = next((folder for folder in folders if not os.path.isdir(folder)), None)
+    if wrong is not None:
+        raise click.UsageError(f"`--package-path` must name folders, got `{wrong}`.")
+    context.with_resource(on_package_path(folders))
+
+
+def _limits(command: _Command) -> _Command:
+    return click.option(
+        "--limit",
+        multiple=True,
+        metavar="NAME=VALUE",
+        expose_value=False,
+        callback=_apply,
+        help="Raise a limit of docs/limits.md; repeatable.",
+    )(command)
+
+
+def _apply(context: click.Context, _parameter: click.Parameter, given: Sequence[str]) -> None:
+    try:
+        chosen = raised(given)
+    except LimitError as problem:
+        raise click.UsageError(f"{problem}.") from None
+    context.with_resource(in_force(chosen))

@@ -1,0 +1,132 @@
+"""``cellc view``: one HTML page of a cell, to be opened from the file system."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from cellc.contract.limits import limits, option
+from cellc.contract.printing import refuse, show
+from cellc.contract.signals import within
+from cellc.contract.store.regular_file import open_regular
+from cellc.tools.cli.limit_option import limit_option
+from cellc.tools.cli.words import complete_rehearsal
+
+if TYPE_CHECKING:
+    from cellc.tools.view.content import Content
+
+_HEADS = (b"<!doctype html", b"<html")
+_OWN = (
+    b'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="content-security-policy" '
+    b"content=\"default-src 'none'"
+)
+"""How a page of this command begins."""
+_HEAD_BYTES = 200
+
+
+@click.command()
+@click.argument("folder", metavar="CELL", type=click.Path(path_type=str))
+@click.option(
+    "-o", "--output", type=click.Path(path_type=Path, dir_okay=False), help="Page to write; NAME.html if none."
+)
+@click.option(
+    "--rehearsal",
+    "names",
+    multiple=True,
+    metavar="NAME",
+    shell_complete=complete_rehearsal,
+    help="Play back only this one; may be given several times.",
+)
+@click.option("--against", metavar="OTHER", help="Also draw the poses of this spec, folder or git revision.")
+@click.option("--seed", default=0, show_default=True, help="Seed of planning and of seeded faults.")
+@limit_option
+def view(folder: str, output: Path | None, names: tuple[str, ...], against: str | None, seed: int) -> None:
+    """Write one HTML page of CELL, a spec or a generated folder: 3D, rehearsals played back, findings, gates.
+
+    The page needs nothing else, neither network nor server: it opens from a file, on a phone too, and prints. Of a spec
+    with errors, what can be linked is drawn, and the rest is listed; a URDF or xacro file is drawn as a robot alone.
+
+    \b
+    cellc view cells/bench/cell.yaml                       writes bench.html
+    cellc view generated/bench --rehearsal pick -o pick.html
+    cellc view cells/bench/cell.yaml --against main        what a change moves
+    """
+    # Drawing loads the compiler, and playing back the planning.
+    from cellc.contract.store.swap import replace_whole
+    from cellc.mock.errors import MockError
+    from cellc.tools.report.text_report import summed_errors
+    from cellc.tools.review.sides import SideError
+    from cellc.tools.view.page import three_js, to_html
+    from cellc.tools.view.subject import ViewError
+
+    try:
+        if output is not None and not output.absolute().parent.is_dir():
+            raise ViewError(f"{output.as_posix()}: cannot be written: no such folder")
+        if output is not None:
+            _hold_replaceable(output)
+        drawn = within(limits().command_seconds, partial(_drawn, folder, output, names, against, seed))
+        if drawn is None:
+            most = f"must take at most {limits().command_seconds} s of processor time; {option('command-seconds')}"
+            raise ViewError(f"{folder}: {most}")
+        content, place = drawn
+        subject = content.subject
+    except (ViewError, MockError, SideError) as problem:
+        refuse(str(problem))
+        raise click.exceptions.Exit(2) from None
+    library = three_js()
+    page = to_html(content, library).encode()
+    try:
+        replace_whole(place, page)
+    except OSError as error:
+        refuse(f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}")
+        raise click.exceptions.Exit(2) from None
+    show(f"wrote {place.as_posix()}, {len(page) / 1e6:.1f} MB")
+    if against is not None and subject.folder is None:
+        show(f"not compared with {against}: there is no package of {folder}")
+    if library is None:
+        show("without 3D: the installed trimesh ships no three.js that cellc knows")
+    if subject.findings is not None and not subject.findings.ok:
+        show(*summed_errors(subject.findings.diagnostics, subject.findings.file))
+        raise click.exceptions.Exit(1)
+
+
+def _drawn(
+    folder: str, output: Path | None, names: tuple[str, ...], against: str | None, seed: int
+) -> tuple[Content, Path]:
+    """Return what the page shows, and where it goes."""
+    from cellc.tools.view.content import before_of, content_of
+    from cellc.tools.view.subject import read_subject
+
+    subject = read_subject(Path(folder))
+    place = output or Path(subject.page_name)
+    if output is None:  # the cell chose the name, which may be that of somebody's page
+        _hold_replaceable(place, (_OWN,), "a page of this command")
+    content = content_of(subject, names, seed)
+    if against is not None and subject.folder is not None:
+        content = replace(content, before=before_of(against, folder))
+    return content, place
+
+
+def _hold_replaceable(place: Path, heads: tuple[bytes, ...] = _HEADS, what: str = "an HTML page") -> None:
+    """Refuse to put a page in the place of anything but a page, such as the spec itself.
+
+    Raises:
+        ViewError: something else stands there.
+    """
+    from cellc.tools.view.subject import ViewError
+
+    try:
+        with open_regular(place) as stream:
+            head = stream.read(_HEAD_BYTES).lstrip().lower()
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise ViewError(
+            f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}"
+        ) from None
+    if head and not head.startswith(heads):
+        raise ViewError(f"{place.as_posix()}: is not {what}; move it away, or name another file")

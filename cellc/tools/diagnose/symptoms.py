@@ -1,0 +1,150 @@
+"""What is known of symptoms: data with a source each, in which no step can change anything."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from string import Formatter
+from typing import Annotated, Literal, TypeVar, get_args
+
+from pydantic import Field, StringConstraints, field_validator, model_validator
+
+from cellc.compiler.catalog.catalog_model import CatalogModel, Text, Token
+from cellc.compiler.catalog.compiled import CATALOG, compiled_table
+from cellc.tools.diagnose.fields import FIELDS, Scope
+
+Layer = Literal[
+    "network",
+    "qos",
+    "time",
+    "lifecycle",
+    "realtime",
+    "ownership",
+    "planning",
+    "perception",
+    "vendor",
+    "tool",
+    "recording",
+    "safety",
+]
+LAYERS: tuple[Layer, ...] = get_args(Layer)
+"""The layers in the order in which they are ruled out."""
+Area = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
+
+# Commands that read. Anything else, such as a switch, a parameter set or a published message, is refused as data.
+_READING = re.compile(
+    r"ros2 (topic (info|list|echo --once|hz|bw|delay|type)|node (list|info)|param (get|list|dump|describe)"
+    r"|action (info|list)|service (list|type)|lifecycle (get|nodes)|control list_\w+|pkg (prefix|xml)|doctor --report"
+    r"|bag info|interface show|run tf2_ros tf2_(echo|monitor))\b[^;&|<>`$]*"
+    r"|printenv [A-Z_]+|ip -brief (address|link)|ip -statistics link show|ip route get [\w{}.]+|ping -c 5 [\w{}.]+"
+    r"|chronyc (tracking|sources)|uname -v|ulimit -r|id -nG|lsusb -t|ls -l /dev/(shm|serial/by-id)|df -h( /dev/shm)?"
+    r"|sysctl net\.core\.rmem_max net\.core\.rmem_default|ss -lntup|top -b -n 1"
+)
+
+
+_ModelT = TypeVar("_ModelT", bound=CatalogModel)
+
+
+class Observation(CatalogModel):
+    """One thing to look at, by a command that reads or by eye, and what would rule the hypothesis out."""
+
+    of: Scope
+    run: Text | None = None
+    look: Text | None = None
+    refuted: Text
+
+    @field_validator("run")
+    @classmethod
+    def _only_reads(cls, run: str | None) -> str | None:
+        if run is not None and not _READING.fullmatch(run):
+            raise ValueError(f"`{run}` is no command that only reads")
+        return run
+
+    @model_validator(mode="after")
+    def _names_its_subject(self) -> Observation:
+        if (self.run is None) == (self.look is None):
+            raise ValueError("an observation either runs a command or looks at something")
+        for text in (self.run or "", self.look or "", self.refuted):
+            unknown = {name for _, name, _, _ in Formatter().parse(text) if name is not None} - set(FIELDS[self.of])
+            if unknown:
+                raise ValueError(f"`{self.of}` has no {', '.join(sorted(unknown))}")
+        return self
+
+
+class Hypothesis(CatalogModel):
+    """One cause and how to rule it out."""
+
+    cause: Text
+    observations: tuple[Observation, ...] = Field(min_length=1)
+
+
+Phrase = Annotated[str, StringConstraints(pattern=r"^[a-z0-9]+( [a-z0-9]+)*\Z", max_length=100)]
+"""Words with a space between: groups of ``words.yaml``, or beginnings of words."""
+Template = Annotated[str, StringConstraints(pattern=r"^[^{}\s]([^{}]|\{\w*\}(?!\{))*\Z", max_length=300)]
+
+
+class Symptom(CatalogModel):
+    """What somebody sees, or a program logs.
+
+    Args:
+        drivers: packages of the drivers that it belongs to; every device where empty.
+        said: phrases; a text matches where it has all words of one.
+        logged: texts of log lines, with ``{kind}`` where they name something, as ``log_lines`` reads them.
+        hypotheses: causes, the likeliest first.
+        never: the shortcut that hides the cause or takes a protection away.
+    """
+
+    name: Text
+    never: Text
+    source: Text
+    drivers: tuple[Token, ...] = ()
+    said: tuple[Phrase, ...] = Field(min_length=1)
+    logged: tuple[Template, ...] = ()
+    hypotheses: tuple[Hypothesis, ...] = Field(min_length=1)
+
+
+class LayerKnowledge(CatalogModel):
+    """One layer: its symptoms and the approval area whose owner decides."""
+
+    layer: Layer
+    title: Text
+    owner: Area
+    symptoms: tuple[Symptom, ...] = Field(min_length=1)
+
+
+class Synonyms(CatalogModel):
+    """Meaning → beginnings of the words that users have for it."""
+
+    words: dict[Token, tuple[Annotated[str, StringConstraints(pattern=r"^[a-z0-9]+\Z", max_length=30)], ...]]
+
+
+@cache
+def knowledge() -> tuple[LayerKnowledge, ...]:
+    """Return every layer, in the order in which they are ruled out.
+
+    Raises:
+        ValueError: a file of the package is not what its model says; tests hold that none is.
+    """
+    return tuple(_read(f"symptoms/{name}.yaml", LayerKnowledge) for name in LAYERS)
+
+
+@cache
+def synonyms() -> Synonyms:
+    """Return which words mean the same.
+
+    Raises:
+        ValueError: as ``knowledge``.
+    """
+    return _read("symptoms/words.yaml", Synonyms)
+
+
+def _read(file: str, model: type[_ModelT]) -> _ModelT:
+    compiled = compiled_table(file)
+    if compiled is not None:
+        return model.model_validate_json(compiled)
+    from cellc.compiler.catalog.read_model import read_model
+
+    read = read_model(CATALOG / file, file, model)
+    if read.value is None:
+        raise ValueError("; ".join(f"{found.span}: {found.message}" for found in read.diagnostics))
+    return read.value[0]

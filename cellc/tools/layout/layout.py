@@ -1,0 +1,60 @@
+"""One text into its canonical form, held against what it says."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+from cellc.compiler.source.compose import compose
+from cellc.compiler.source.document import Plain
+from cellc.compiler.source.events import comments
+from cellc.compiler.spec.quantity import spaced
+from cellc.contract.diagnostics import Outcome
+from cellc.tools.layout.order import put_in_order
+from cellc.tools.layout.read import UnusualError, read_written
+from cellc.tools.layout.write import write_written
+
+_COMMENT = re.compile("#")
+
+
+def formatted(name: str, text: str) -> Outcome[str]:
+    """Return the canonical form of a file, or why it cannot be read.
+
+    A legal text whose form nobody writes by hand (explicit keys, directives) stays as it is.
+
+    Args:
+        name: the file in findings.
+        text: with line breaks as ``\\n`` and without byte order mark.
+    """
+    composed = compose(name, text)
+    if composed.diagnostics or composed.value is None:
+        return Outcome(None if composed.diagnostics else text, composed.diagnostics)
+    try:
+        written = read_written(text)
+    except UnusualError:
+        return Outcome(text)
+    put_in_order(written.root, composed.value.data)
+    made = write_written(written)
+    return Outcome(made if made == text or says_the_same(composed.value.data, text, made) else text)
+
+
+def says_the_same(data: Plain, text: str, made: str) -> bool:
+    """Whether every comment is there, and every value but for the spaces of quantities."""
+    after = compose("", made).value
+    return after is not None and _unspaced(data) == _unspaced(after.data) and _told(text) == _told(made)
+
+
+def _told(text: str) -> Counter[str]:
+    lines = dict[int, str]()
+    for comment in comments(text, _COMMENT):
+        lines.setdefault(comment.line, comment.text)
+    return Counter(lines.values())
+
+
+def _unspaced(data: object) -> object:
+    """Return data in which quantities have the spaces of the canonical form."""
+    if isinstance(data, dict):
+        return {key: _unspaced(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [_unspaced(value) for value in data]
+    return spaced(data) if isinstance(data, str) else (type(data), repr(data))

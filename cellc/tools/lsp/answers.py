@@ -1,0 +1,222 @@
+"""What is told of a place in a cell: what it is, where it is written, what may stand there, how to mend it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.formats.escape import code
+from cellc.compiler.formats.markdown_table import table
+from cellc.compiler.source.compose import compose
+from cellc.compiler.source.document import Node, SourceDocument
+from cellc.compiler.source.include import INCLUDE
+from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.contract.diagnostics import Diagnostic, Severity, Span, YamlPath
+from cellc.tools.edit.fixes import misspelt_keys, misspelt_units
+from cellc.tools.edit.rewrite import Edit
+from cellc.tools.lsp.cursor import Begun, begun, here
+from cellc.tools.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
+from cellc.tools.lsp.names import Names, kinds_at, names_of
+from cellc.tools.lsp.parts import place_of_part
+from cellc.tools.report.resolved import flatten, resolved_at, resolved_tree
+
+_MOST_ROWS = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What the last check of a cell left: the text may have gone on since.
+
+    Args:
+        document: the last that could be read.
+        cell: the last that could be linked.
+    """
+
+    document: SourceDocument | None = None
+    cell: Cell | None = None
+    names: Names = field(default_factory=Names)
+
+    def with_more(self, document: SourceDocument | None, cell: Cell | None) -> Known:
+        """Return what is known after another check, of which either may be missing."""
+        document, cell = document or self.document, cell or self.cell
+        return Known(document, cell, self.names if document is None else names_of(document, cell))
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """A word that may stand at a place."""
+
+    word: str
+    kind: str
+    meaning: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """A section or a name in it."""
+
+    name: str
+    detail: str
+    span: Span
+    inner: tuple[Symbol, ...] = ()
+
+
+def hover(text: str, line: int, column: int, known: Known) -> tuple[str, Span] | None:
+    """Return what is known of the key or value at a place, as Markdown: meaning, SI value, what cellc uses and why."""
+    root = compose("", text).value
+    found = here(root, line, column) if root is not None else None
+    if root is None or found is None:
+        return None
+    parts = [f"**{code(str(found.path[-1]))}**", meaning_of(root.data, _field(found.path))]
+    if not found.is_key:
+        si = in_si(annotation_at(root.data, found.path), found.text)
+        parts += [f"{code(found.text)} is `{si}` in SI units and radians."] if si else []
+    if root_model(root.data) is CellSpec and known.cell is not None:
+        parts.append(_uses(known.cell, found.path))
+    return "\n\n".join(part for part in parts if part), found.span
+
+
+def _uses(cell: Cell, path: YamlPath) -> str:
+    leaves = [one for tree, name in resolved_at(resolved_tree(cell), path) for one in flatten(tree, name)]
+    rows = [(code(name), code(leaf.text or " "), leaf.origin) for name, leaf in leaves[:_MOST_ROWS]]
+    more = len(leaves) - _MOST_ROWS
+    rows += [(f"{more} more", "", "`cellc show`")] if more > 0 else []
+    return table(("cellc uses", "", "from"), rows) if rows else ""
+
+
+def definition(text: str, line: int, column: int, known: Known, file: Path) -> Span | None:
+    """Return where what is named at a place is written: in the spec, an included file, a device, its description."""
+    root = compose("", text).value
+    found = here(root, line, column) if root is not None else None
+    if found is None:
+        return None
+    if found.path[0] == INCLUDE:
+        return _top(file.parent / found.text)
+    if found.path[-1] == "model" and not found.is_key:
+        return _device(found.text, file)
+    if found.is_key and not kinds_at(found.path[:-1]):
+        return None
+    kinds, owner = kinds_at(_field(found.path)), found.text.partition("/")[0]
+    place = known.names.place_of(found.text, kinds)
+    if place is None and owner != found.text:
+        at_part = column - found.span.column > len(owner)
+        part = place_of_part(known.cell, found.text, kinds) if at_part and known.cell is not None else None
+        if part is not None:
+            return part
+        place = known.names.place_of(owner, ("device",))
+    return known.document.locate_key(place) if place is not None and known.document is not None else None
+
+
+def _device(model: str, file: Path) -> Span | None:
+    from cellc.compiler.catalog.compiled import DEVICE_FILE, device_file
+
+    if model.startswith("."):
+        return _top(file.parent / model / DEVICE_FILE)
+    try:
+        return _top(device_file(model))
+    except KeyError:
+        return None
+
+
+def _top(file: Path) -> Span | None:
+    return Span(file.as_posix(), 1, 1, 1, 1) if file.is_file() else None
+
+
+def completions(text: str, line: int, column: int, known: Known) -> list[Proposal]:
+    """Return what may stand at a place, in the order of the reference or of the spec."""
+    told = (_keys(one, known) if one.is_key else _values(one, known) for one in begun(text, line, column))
+    return list(dict.fromkeys(proposal for each in told for proposal in each))
+
+
+def _keys(found: Begun, known: Known) -> Iterator[Proposal]:
+    for key in keys_at(found.data, found.path):
+        told = f"{key.meaning}\n\nExample: `{key.example}`" if key.example else key.meaning
+        yield Proposal(key.name, "required key" if key.required else "key", told)
+    # The keys of a mapping such as `to: {task: …}` are names themselves.
+    if found.path and not isinstance(found.path[-1], int):
+        yield from (Proposal(name, kind) for name, kind in known.names.of(kinds_at(found.path)))
+
+
+def _values(found: Begun, known: Known) -> Iterator[Proposal]:
+    annotation = annotation_at(found.data, found.path)
+    for word in words_of(annotation):
+        yield Proposal(word, "word")
+    key = next((part for part in reversed(found.path) if isinstance(part, str)), "")
+    if key == "model" and found.path[0] == "devices":
+        yield from _models()
+    elif key == "type" and "controllers" in found.path:
+        yield from _controller_types(known)
+    kinds = ("frame",) if takes_a_frame(annotation) else kinds_at(found.path)
+    yield from (Proposal(name, kind) for name, kind in known.names.of(kinds))
+
+
+def _models() -> Iterator[Proposal]:
+    from cellc.tools.browse.search import entries
+
+    return (Proposal(one.model.model, "device", one.model.summary) for one in entries())
+
+
+def _controller_types(known: Known) -> Iterator[Proposal]:
+    from cellc.compiler.catalog.load import controller_kinds
+
+    yield from (Proposal(kind, "controller") for kind in controller_kinds())
+    for device in known.cell.devices if known.cell is not None else ():
+        yield from (Proposal(kind, f"controller of {device.name}") for kind in device.controller_kinds)
+
+
+def fixes(found: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tuple[Diagnostic, Edit]]:
+    """Yield what ``--fix`` would do about each finding, and the comment that excuses one which may be excused.
+
+    The comment has no reason, and no effect, until its author writes one.
+    """
+    for one in found:
+        for edit in (*misspelt_keys([one], document), *misspelt_units([one], document)):
+            yield one, edit
+        comment = _excuse(one, document)
+        if comment is not None:
+            yield one, comment
+
+
+def _excuse(found: Diagnostic, document: SourceDocument) -> Edit | None:
+    from cellc.compiler.rules.ignores import may_be_ignored
+
+    lines = document.texts.get(found.span.file, "").split("\n")
+    if found.severity is Severity.ERROR or not may_be_ignored(found.code) or found.span.line > len(lines):
+        return None
+    line = lines[found.span.line - 1]
+    if "#" in line:
+        return None
+    end, text = len(line.rstrip()) + 1, f"  # cellc: ignore {found.code} "
+    return Edit(found.span.file, found.span.line, end, end, text, f"Ignore `{found.code}`: say why behind the comment")
+
+
+def symbols(text: str) -> list[Symbol]:
+    """Return the sections of a file and the names in them."""
+    root = compose("", text).value
+    return [] if root is None else list(_symbols(root, 2))
+
+
+def _symbols(node: Node, depth: int) -> Iterator[Symbol]:
+    for name, child in node.children.items():
+        if child.key_span is not None:
+            inner = tuple(_symbols(child.node, depth - 1)) if depth > 1 else ()
+            detail = "" if child.node.is_collection else re.sub(r"\s+", " ", child.node.text)
+            yield Symbol(str(name), detail, child.key_span, inner)
+
+
+def by_file(found: Iterable[Diagnostic]) -> dict[str, list[Diagnostic]]:
+    """Return findings by the file that they point into."""
+    files: dict[str, list[Diagnostic]] = {}
+    for one in found:
+        files.setdefault(one.span.file, []).append(one)
+    return files
+
+
+def _field(path: YamlPath) -> YamlPath:
+    """Return the path without indices at its end: of an item, that of its list."""
+    while path and isinstance(path[-1], int):
+        path = path[:-1]
+    return path

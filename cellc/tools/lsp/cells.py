@@ -1,0 +1,105 @@
+"""The cells whose files are open: which spec a file belongs to, and what the last check of each left."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from cellc.compiler.catalog.compiled import DEVICE_FILE
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.read_model import validated
+from cellc.compiler.pipeline import check
+from cellc.compiler.source import SourceDocument, read
+from cellc.compiler.source.compose import compose
+from cellc.compiler.source.text import as_yaml
+from cellc.contract.diagnostics import Diagnostic
+from cellc.tools.lsp.answers import Known
+
+_SPEC = "cell.yaml"
+_OF_A_CELL = re.compile(r"^(cell|devices)\s*:", re.MULTILINE)
+"""Whether a file of another name is a cell: an editor opens all kinds of YAML."""
+
+_MOST_FOLDERS = 6
+"""So far above a file its spec is looked for."""
+
+
+class Cells:
+    """What is known of every spec, by its file; files are absolute paths with forward slashes."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, Known] = {}
+        self._documents: dict[str, SourceDocument] = {}
+        self._found: dict[str, tuple[Diagnostic, ...]] = {}
+        self._spec_of: dict[str, str] = {}
+
+    def spec_of(self, file: str, opened: Mapping[str, str]) -> str:
+        """Return the spec that a file belongs to: itself, that which includes it, or itself where none does."""
+        known = self._spec_of.get(file)
+        if known is not None:
+            return known
+        spec = file
+        if os.path.basename(file) != _SPEC:
+            above = Path(file).parents[:_MOST_FOLDERS]
+            candidates = ((folder / _SPEC).as_posix() for folder in above if (folder / _SPEC).is_file())
+            includes = (one for one in candidates if file in _texts(read(one, opened).value))
+            spec = next(includes, file)
+        if spec != file:  # what nobody includes yet may be included soon
+            self._spec_of[file] = spec
+        return spec
+
+    def check(self, spec: str, opened: Mapping[str, str]) -> tuple[tuple[Diagnostic, ...], set[str]]:
+        """Check a spec with the texts that are open; return what is found, and the files of which that is all gone."""
+        text = opened.get(spec)
+        found: tuple[Diagnostic, ...] = ()
+        if os.path.basename(spec) == DEVICE_FILE:
+            found = _device_findings(spec, text) if text is not None else ()
+        elif os.path.basename(spec) == _SPEC or (text is not None and _OF_A_CELL.search(text)):
+            checked = check(spec, opened)
+            found = checked.diagnostics
+            document = read(spec, opened)
+            if document.value is not None:
+                self._documents[spec] = document.value
+                self._spec_of |= dict.fromkeys(document.value.texts, spec)
+            whole = document.value if document.ok else None
+            cell = None if checked.graph is None else checked.graph.cell
+            self._known[spec] = self._known.get(spec, Known()).with_more(whole, cell)
+        before = {one.span.file for one in self._found.get(spec, ())}
+        self._found[spec] = found
+        return found, before - {one.span.file for one in found} | {spec}
+
+    def known(self, file: str) -> Known:
+        """Return what is known of the cell of a file."""
+        return self._known.get(self._spec_of.get(file, file), Known())
+
+    def found(self, file: str) -> tuple[Diagnostic, ...]:
+        """Return what the last check of the cell of a file found."""
+        return self._found.get(self._spec_of.get(file, file), ())
+
+    def document(self, file: str) -> SourceDocument | None:
+        """Return what the last check of the cell of a file read."""
+        return self._documents.get(self._spec_of.get(file, file))
+
+    def shown(self, file: str) -> str:
+        """Return the text of a file that the last checks read; empty where none did."""
+        texts = (one.texts[file] for one in self._documents.values() if file in one.texts)
+        return next(texts, "")
+
+
+def _texts(document: SourceDocument | None) -> Mapping[str, str]:
+    return {} if document is None else document.texts
+
+
+def _device_findings(file: str, text: str) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with the file of a device by itself."""
+    written = as_yaml(text, file)
+    if written.diagnostics:
+        return written.diagnostics
+    composed = compose(file, text)
+    root = composed.value
+    if root is None or composed.diagnostics:
+        return composed.diagnostics
+    if isinstance(root.data, dict) and "family" in root.data:
+        return ()  # half of an entry, which the other half completes
+    return validated(SourceDocument(file, {file: text}, root), DeviceModel).diagnostics

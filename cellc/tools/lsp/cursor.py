@@ -1,0 +1,120 @@
+"""What stands at a place of a text: the path of a value or a key, also in a text that is being written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from cellc.compiler.source.compose import compose
+from cellc.compiler.source.document import Child, Node, Plain
+from cellc.contract.diagnostics import Span, YamlPath
+
+MARK = "cellc__here"
+"""Stands for what is being written while the text around it is read."""
+
+_WORD = re.compile(r"[^\s,{}\[\]:#\"']*$")
+_REST = re.compile(r"[^\s,{}\[\]:#\"']*")
+_CLOSING = {"{": "}", "[": "]"}
+
+
+@dataclass(frozen=True, slots=True)
+class Here:
+    """What stands at a place.
+
+    Args:
+        path: of the value, or of the key.
+        is_key: whether the key of ``path`` is meant.
+        span: the scalar, or the key.
+        text: the scalar or key as plain text.
+    """
+
+    path: YamlPath
+    is_key: bool
+    span: Span
+    text: str
+
+
+def here(root: Node, line: int, column: int) -> Here | None:
+    """Return the key or scalar at a place, counted from 1; None between them."""
+    for path, child in places(root):
+        key = child.key_span
+        if key is not None and _within(key, line, column):
+            return Here(path, True, key, str(path[-1]))
+        if not child.node.is_collection and _within(child.span, line, column):
+            return Here(path, False, child.span, child.node.text)
+    return None
+
+
+def places(node: Node, path: YamlPath = ()) -> Iterator[tuple[YamlPath, Child]]:
+    """Yield every child below a node with its path, outer ones first."""
+    for part, child in node.children.items():
+        yield (*path, part), child
+        yield from places(child.node, (*path, part))
+
+
+def _within(span: Span, line: int, column: int) -> bool:
+    return (span.line, span.column) <= (line, column) <= (span.end_line, span.end_column)
+
+
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """What is being written at a place.
+
+    Args:
+        path: of the mapping for a key, of the value for a value.
+        is_key: whether a key is being written.
+        word: what stands there so far, up to the place.
+        data: of the file, with the mark in the place of the word.
+    """
+
+    path: YamlPath
+    is_key: bool
+    word: str
+    data: Plain
+
+
+def begun(text: str, line: int, column: int) -> list[Begun]:
+    """Return what may be being written at a place, counted from 1; nothing where the text around it cannot be read."""
+    lines = text.split("\n")
+    if not 1 <= line <= len(lines):
+        return []
+    before, after = lines[line - 1][: column - 1], lines[line - 1][column - 1 :]
+    match = _WORD.search(before)
+    word = match[0] if match is not None else ""
+    kept = before[: len(before) - len(word)]
+    rest = _REST.sub("", after, count=1)
+    found: dict[tuple[YamlPath, bool], Begun] = {}
+    for written in _guesses(kept, rest):
+        composed = compose("", "\n".join((*lines[: line - 1], written, *lines[line:])))
+        if composed.value is not None and not composed.diagnostics:
+            marked = _marked(composed.value)
+            if marked is not None:
+                found.setdefault(marked, Begun(*marked, word, composed.value.data))
+    return list(found.values())
+
+
+def _guesses(kept: str, rest: str) -> Iterator[str]:
+    """Yield the line with the mark, as a key and as a value, with its rest and without, braces closed."""
+    opened = [one for one in kept if one in "{["]
+    for one in kept:
+        if one in "}]" and opened:
+            opened.pop()
+    closing = "".join(_CLOSING[one] for one in reversed(opened))
+    is_value = kept.rstrip().endswith((":", "-", "[")) or (bool(opened) and opened[-1] == "[")
+    pairs = (MARK, f"{MARK}: 0") if is_value else (f"{MARK}: 0", MARK)
+    for mark in pairs:
+        if not rest.lstrip().startswith(":"):
+            yield f"{kept}{mark}{rest}"
+        yield f"{kept}{mark}{closing}"
+
+
+def _marked(root: Node) -> tuple[YamlPath, bool] | None:
+    if root.data == MARK:
+        return (), True
+    for path, child in places(root):
+        if path[-1] == MARK:
+            return path[:-1], True
+        if child.node.data == MARK:
+            return path, False
+    return None

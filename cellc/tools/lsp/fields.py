@@ -1,0 +1,151 @@
+"""What the models of the spec say of a path: description, example, units, words, keys."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+from types import UnionType
+from typing import Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic_core import PydanticCustomError
+
+from cellc.compiler.catalog.catalog_model import said_of, summary_of
+from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.read_model import is_device
+from cellc.compiler.source.document import Plain
+from cellc.compiler.spec.base import REFERENCE_PATTERN
+from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.compiler.spec.place import (
+    bare,
+    branches,
+    chosen,
+    fields_by_key,
+    inner,
+    is_tagged,
+    keys_in_order,
+    model_of,
+    required,
+)
+from cellc.compiler.spec.quantity import Quantity, QuantityType
+from cellc.compiler.spec.wording import value_at
+from cellc.contract.diagnostics import YamlPath
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """A key that a mapping may have, and what it means."""
+
+    name: str
+    meaning: str
+    required: bool
+    example: str
+
+
+def root_model(data: Plain) -> type[BaseModel]:
+    """Return the model that reads a file: that of a device where its first keys say so."""
+    return DeviceModel if is_device(data) else CellSpec
+
+
+def annotation_at(data: Plain, path: YamlPath) -> object:
+    """Return the annotation of what stands at a path; ``object`` where no model knows it."""
+    annotation: object = root_model(data)
+    for number, part in enumerate(path):
+        annotation = inner(chosen(annotation, value_at(data, path[:number])), part)
+    return annotation
+
+
+def keys_at(data: Plain, path: YamlPath) -> list[Key]:
+    """Return the keys that the mapping at a path may still have, in their order."""
+    present = value_at(data, path)
+    written = set(present) if isinstance(present, dict) else set()
+    found: dict[str, Key] = {}
+    for model in _models(annotation_at(data, path), present):
+        for name in keys_in_order(model):
+            if name not in written:
+                found.setdefault(name, _key(model, name))
+    return list(found.values())
+
+
+def meaning_of(data: Plain, path: YamlPath) -> str:
+    """Return what the key at the end of a path means, with its units; empty where nothing is said of it."""
+    if not path:
+        return ""
+    holder = chosen(annotation_at(data, path[:-1]), value_at(data, path[:-1]))
+    model = model_of(holder)
+    if model is not None and str(path[-1]) in fields_by_key(model):
+        told = _key(model, str(path[-1])).meaning
+        if told:
+            return told
+    own = model_of(chosen(annotation_at(data, path), value_at(data, path)))
+    return summary_of(own) if own is not None else ""
+
+
+def words_of(annotation: object) -> list[str]:
+    """Return the words that a value may be: those of a closed list, true and false."""
+    annotation = bare(annotation)
+    if get_origin(annotation) is Literal:
+        return [str(one).lower() if isinstance(one, bool) else str(one) for one in get_args(annotation)]
+    if annotation is bool:
+        return ["true", "false"]
+    if isinstance(annotation, type) and issubclass(annotation, Enum):
+        return [str(one.value) for one in annotation]
+    if is_tagged(annotation):
+        return [word for one in branches(annotation).values() for word in words_of(one)]
+    return [word for one in _options(annotation) for word in words_of(one)]
+
+
+def takes_a_frame(annotation: object) -> bool:
+    """Whether a value names a frame."""
+    return any(getattr(one, "pattern", None) == REFERENCE_PATTERN for one in get_args(required(annotation))[1:])
+
+
+def in_si(annotation: object, text: str) -> str:
+    """Return a quantity in SI units and radians; empty for anything else."""
+    kind = _quantity_type(annotation)
+    try:
+        read = None if kind is None else kind.read(text)
+    except PydanticCustomError:
+        return ""
+    if isinstance(read, Quantity):
+        return f"{read.si:.9g}"
+    return "" if read is None else " ".join(f"{one:.9g}" for one in read.si)
+
+
+def _quantity_type(annotation: object) -> QuantityType | None:
+    metadata = get_args(required(annotation))[1:]
+    return next((one for one in metadata if isinstance(one, QuantityType)), None)
+
+
+def _key(model: type[BaseModel], name: str) -> Key:
+    field = fields_by_key(model)[name]
+    quantity = _quantity_type(inner(model, name))
+    units = f" Units: {', '.join(quantity.units())}." if quantity is not None else ""
+    example = re.sub(r"'", "", str(field.examples[0])) if field.examples else ""
+    told = field.description or _told_of(model, name)
+    return Key(name, f"{told}{units}".strip(), field.is_required(), example)
+
+
+def _told_of(model: type[BaseModel], name: str) -> str:
+    """Return what the docstring of a model says of a key, and that of the model which reads its value."""
+    value = next(_models(inner(model, name), None), None) or next(_models(inner(inner(model, name), 0), None), None)
+    kind = summary_of(value) if value is not None else ""
+    return f"{said_of(model, name)} {kind}".strip()
+
+
+def _models(annotation: object, data: Plain) -> Iterator[type[BaseModel]]:
+    """Yield the model of a mapping, or all of them where nothing tells which is meant yet."""
+    told = model_of(chosen(annotation, data))
+    if told is not None:
+        yield told
+        return
+    annotation = required(annotation)
+    several = bare(annotation)
+    for option in branches(annotation).values() if is_tagged(annotation) else _options(several):
+        yield from _models(option, data)
+
+
+def _options(annotation: object) -> tuple[object, ...]:
+    return get_args(annotation) if get_origin(annotation) in (Union, UnionType) else ()

@@ -1,0 +1,97 @@
+"""The names of a cell by what they name, where each is written, and which of them a key takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.source.document import Plain, SourceDocument
+from cellc.compiler.spec.wording import value_at
+from cellc.contract.diagnostics import YamlPath
+
+_SECTIONS: Mapping[str, YamlPath] = {
+    "device": ("devices",),
+    "frame": ("frames",),
+    "thing": ("scene",),
+    "host": ("hosts",),
+    "node": ("nodes",),
+    "calibration": ("calibrations",),
+    "interface": ("interfaces",),
+    "manager": ("managers",),
+    "controller": ("control", "controllers"),
+    "group": ("motion", "groups"),
+    "pose": ("motion", "poses"),
+    "goal": ("motion", "goals"),
+    "rehearsal": ("rehearsals",),
+}
+_ENDS = ("node", "controller", "device")
+_KINDS: Mapping[str, tuple[str, ...]] = {
+    **dict.fromkeys(("client", "server", "from", "to", "published_by"), _ENDS),
+    **dict.fromkeys(("device", "freeze", "delay", "through", "protective_stop", "emergency_stop"), ("device",)),
+    **dict.fromkeys(("program_stop", "program_start", "restart_driver", "brakes_closed", "grip"), ("device",)),
+    **dict.fromkeys(("joint", "joints", "stick", "jog"), ("joint",)),
+    **dict.fromkeys(("activate", "deactivate", "controller"), ("controller",)),
+    **dict.fromkeys(("parent", "frame", "tip", "base", "detect", "tcp", "drop_frame", "double_frame"), ("frame",)),
+    **dict.fromkeys(("call", "octomap"), ("interface",)),
+    "calibration": ("calibration",),
+    "group": ("group",),
+    "host": ("host",),
+    "independent_of": ("host", "device"),
+    "move": ("pose", "goal"),
+    "nic": ("nic",),
+    "node": ("node",),
+    "poses": ("group",),
+    "use": ("rehearsal",),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Names:
+    """Every name of a cell.
+
+    Args:
+        written: kind → name → where the spec writes it.
+        derived: kind → what follows from the devices: links as ``device/link``, joints as ``device/joint``.
+    """
+
+    written: Mapping[str, Mapping[str, YamlPath]] = field(default_factory=dict)
+    derived: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def of(self, kinds: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+        """Yield each name of some kinds with its kind."""
+        for kind in kinds:
+            yield from ((name, kind) for name in self.written.get(kind, ()))
+            yield from ((name, kind) for name in self.derived.get(kind, ()))
+
+    def place_of(self, name: str, kinds: tuple[str, ...]) -> YamlPath | None:
+        """Return where a name is written, as one of some kinds or else of any."""
+        sections = (self.written.get(kind, {}) for kind in (*kinds, *self.written))
+        return next((section[name] for section in sections if name in section), None)
+
+
+def names_of(document: SourceDocument, cell: Cell | None) -> Names:
+    """Return the names of a spec, and what follows from its devices where they could be linked."""
+    written = {kind: _below(document.data, section) for kind, section in _SECTIONS.items()}
+    for manager in written["manager"].values():
+        written["controller"] |= _below(document.data, (*manager, "controllers"))
+    written["nic"] = {}
+    for host in written["host"].values():
+        written["nic"] |= _below(document.data, (*host, "nics"))
+    derived = {"frame": ("world", *written["thing"])}
+    if cell is not None:
+        links = (f"{one.name}/{link}" for one in cell.devices for link in one.frames)
+        derived["frame"] = (*derived["frame"], *links)
+        derived["joint"] = tuple(f"{one.name}/{joint.local_name}" for one in cell.devices for joint in one.joints)
+    return Names(written, derived)
+
+
+def kinds_at(path: YamlPath) -> tuple[str, ...]:
+    """Return what the value at a path names, by its key; nothing where it names nothing of the cell."""
+    key = next((part for part in reversed(path) if isinstance(part, str)), "")
+    return _KINDS.get(key, ())
+
+
+def _below(data: Plain, section: YamlPath) -> dict[str, YamlPath]:
+    found = value_at(data, section)
+    return {name: (*section, name) for name in found} if isinstance(found, dict) else {}

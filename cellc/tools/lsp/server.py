@@ -1,0 +1,335 @@
+"""The language server on pygls: documents and messages of the protocol, and nothing that decides anything.
+
+Language Server Protocol 3.17: https://microsoft.github.io/language-server-protocol/specifications/lsp/3.17/specification
+"""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import os
+import threading
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from io import FileIO
+from pathlib import Path
+from typing import Any
+
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
+from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol
+from pygls.uris import from_fs_path, to_fs_path
+from pygls.workspace import PositionCodec, TextDocument
+
+from cellc.compiler.source.text import read_text
+from cellc.contract.diagnostics import Diagnostic, Severity, Span
+from cellc.contract.limits import limits, option
+from cellc.contract.printing import refuse
+from cellc.tools.edit.rewrite import Edit
+from cellc.tools.layout.layout import formatted
+from cellc.tools.lsp.answers import Symbol, by_file, completions, definition, fixes, hover, symbols
+from cellc.tools.lsp.cells import Cells
+from cellc.version import __version__
+
+_QUIET_S = 0.15
+"""How long nobody types before a cell is checked."""
+
+_LONGEST_HEADER = 1024
+_NOTHING = b'{"jsonrpc": "2.0", "method": "$/dropped"}'
+"""A notification without a meaning, which LSP 3.17 has every receiver ignore: `$ Notifications and Requests`."""
+
+_SEVERITIES = {
+    Severity.ERROR: lsp.DiagnosticSeverity.Error,
+    Severity.BLOCKER: lsp.DiagnosticSeverity.Warning,
+    Severity.WARNING: lsp.DiagnosticSeverity.Warning,
+    Severity.AUDIT: lsp.DiagnosticSeverity.Information,
+}
+_KINDS = {
+    "key": lsp.CompletionItemKind.Property,
+    "required key": lsp.CompletionItemKind.Property,
+    "word": lsp.CompletionItemKind.EnumMember,
+}
+
+
+class _Protocol(LanguageServerProtocol):
+    """The protocol of pygls, which itself leaves a request without an answer where its parameters are none."""
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """Return a message that came as a type; what is wrong with a request is answered too."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as problem:
+            if "method" in data and "id" in data:
+                self._send_response(data["id"], None, problem.to_response_error())
+            raise
+
+
+class CellServer(LanguageServer):
+    """A server with what it knows of the cells of its client."""
+
+    def __init__(self) -> None:
+        super().__init__("cellc", __version__, protocol_cls=_Protocol)
+        self.cells = Cells()
+        self._waiting: dict[str, asyncio.Task[None]] = {}
+        self._checking = asyncio.Lock()
+        self._writing: FileIO | None = None
+
+    def serve(self, source: int, sink: int) -> None:
+        """Answer what comes from one descriptor on another, until goodbye, the end of what comes, or a signal."""
+        # A thread of pygls reads, and cannot be woken while nothing comes: a pipe between can be closed.
+        reading, writing = os.pipe()
+        self._writing = os.fdopen(writing, "wb", buffering=0)
+        threading.Thread(target=_pump, args=(source, self._writing), daemon=True).start()
+        with _Messages(reading) as coming, os.fdopen(os.dup(sink), "wb") as going:
+            self.start_io(coming, going)
+
+    def shutdown(self) -> None:
+        """End the threads."""
+        if self._writing is not None:
+            self._writing.close()
+        end: Callable[[], None] = super().shutdown
+        end()
+
+    def text_of(self, uri: str) -> str:
+        """Return a document with line breaks as ``\\n``; empty for one that is neither open nor to be read."""
+        return self.known_text(uri) or ""
+
+    def known_text(self, uri: str) -> str | None:
+        """Return a document with line breaks as ``\\n``; None for one that is neither open nor to be read."""
+        if uri not in self.workspace.text_documents:
+            file = file_of(uri)
+            return read_text(Path(file), file, Span(file, 1, 1, 1, 1)).value
+        source = self.workspace.get_text_document(uri).source
+        return None if len(source) > limits().spec_bytes else normalised(source)
+
+    def soon(self, uri: str) -> None:
+        """Check the cell of a document once nobody types; a later change begins the wait again."""
+        spec = self.cells.spec_of(file_of(uri), self._opened())
+        before = self._waiting.pop(spec, None)
+        if before is not None:
+            before.cancel()
+        self._waiting[spec] = asyncio.get_running_loop().create_task(self._check(spec))
+
+    async def _check(self, spec: str) -> None:
+        await asyncio.sleep(_QUIET_S)
+        self._waiting.pop(spec, None)  # from here on a change begins another check, which comes after this one
+        async with self._checking:
+            opened = self._opened()
+            found, gone = await asyncio.to_thread(self.cells.check, spec, opened)
+        told = by_file(found)
+        for file in dict.fromkeys((*told, *gone)):
+            self._publish(file, told.get(file, ()), opened)
+
+    def _publish(self, file: str, found: Sequence[Diagnostic], opened: dict[str, str]) -> None:
+        path = Path(file)
+        if not path.is_absolute():
+            return  # the data of the package, which nobody edits here
+        text = opened.get(file) or self.cells.shown(file)
+        ranges = Ranges(self.workspace.position_codec, text)
+        told = [self._told(one, ranges) for one in found]
+        uri = from_fs_path(file) or ""
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, told))
+
+    def _told(self, found: Diagnostic, ranges: Ranges) -> lsp.Diagnostic:
+        related = [
+            lsp.DiagnosticRelatedInformation(self.location(one.span), one.message)
+            for one in found.related
+            if Path(one.span.file).is_absolute()
+        ]
+        message = f"{found.message}\nhelp: {found.help}" if found.help else found.message
+        return lsp.Diagnostic(
+            range=ranges.of(found.span),
+            message=message,
+            severity=_SEVERITIES[found.severity],
+            code=found.code,
+            source="cellc",
+            related_information=related or None,
+        )
+
+    def location(self, span: Span) -> lsp.Location:
+        """Return a place in any file."""
+        opened = self._opened()
+        text = opened.get(span.file) or self.cells.shown(span.file) or read_text(Path(span.file), "", span).value or ""
+        return lsp.Location(from_fs_path(span.file) or "", Ranges(self.workspace.position_codec, text).of(span))
+
+    def _opened(self) -> dict[str, str]:
+        documents: dict[str, TextDocument] = dict(self.workspace.text_documents)
+        most = limits().spec_bytes + 1  # of a larger one so much that it is refused as a file is
+        return {file_of(uri): normalised(one.source[:most]) for uri, one in documents.items()}
+
+
+class _Messages(io.BufferedReader):
+    """What an editor sends; a message that is longer than the limit is passed over."""
+
+    def __init__(self, descriptor: int) -> None:
+        super().__init__(os.fdopen(descriptor, "rb", buffering=0))
+
+    def readline(self, size: int | None = -1) -> bytes:
+        """Return a line of a header, or a part of one that is longer than any."""
+        return super().readline(_LONGEST_HEADER)
+
+    def read(self, size: int | None = -1) -> bytes:
+        """Return a message."""
+        most, left = limits().message_bytes, size or 0
+        if left <= most:
+            return super().read(left)
+        refuse(f"a message of {left} bytes is dropped; {option('message-bytes')}")
+        while left and (dropped := super().read(min(left, most))):
+            left -= len(dropped)
+        return b"" if left else _NOTHING
+
+
+def _pump(source: int, sink: FileIO) -> None:
+    with suppress(OSError, ValueError), sink:  # until either is closed
+        while data := os.read(source, 1 << 16):
+            while data:
+                data = data[sink.write(data) :]
+
+
+class Ranges:
+    """From the places of a text, counted in characters from 1, to those of a client."""
+
+    def __init__(self, codec: PositionCodec, text: str) -> None:
+        self._codec, self._lines = codec, text.split("\n")
+
+    def of(self, span: Span) -> lsp.Range:
+        """Return the range of a span."""
+        return lsp.Range(self._at(span.line, span.column), self._at(span.end_line, span.end_column))
+
+    def _at(self, line: int, column: int) -> lsp.Position:
+        line = min(line, len(self._lines))
+        before = self._lines[line - 1][: column - 1]
+        return lsp.Position(line - 1, self._codec.client_num_units(before))
+
+    def place(self, position: lsp.Position) -> tuple[int, int]:
+        """Return the line and column, from 1, of a client's position."""
+        at = self._codec.position_from_client_units(self._lines, position)
+        return at.line + 1, at.character + 1
+
+    def whole(self) -> lsp.Range:
+        """Return the range of the whole text."""
+        return lsp.Range(lsp.Position(0, 0), self._at(len(self._lines), len(self._lines[-1]) + 1))
+
+
+def file_of(uri: str) -> str:
+    """Return the absolute path of a document with forward slashes, as spans name it."""
+    # No file has a zero character in its name, and Python refuses to look for one.
+    return Path((to_fs_path(uri) or uri).replace("\0", "\ufffd")).as_posix()
+
+
+def normalised(text: str) -> str:
+    """Return a text as a reader of files gives it."""
+    return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+
+
+server = CellServer()
+
+_Touched = (
+    lsp.DidOpenTextDocumentParams
+    | lsp.DidChangeTextDocumentParams
+    | lsp.DidSaveTextDocumentParams
+    | lsp.DidCloseTextDocumentParams
+)
+
+
+async def _touched(of: CellServer, params: _Touched) -> None:
+    uri = params.text_document.uri
+    if len(of.workspace.text_documents) > limits().open_documents:
+        of.workspace.remove_text_document(uri)  # from here on it is what its file holds
+        refuse(f"`{file_of(uri)}` is one document too many; {option('open-documents')}")
+    of.soon(uri)
+
+
+for _event in (
+    lsp.TEXT_DOCUMENT_DID_OPEN,
+    lsp.TEXT_DOCUMENT_DID_CHANGE,
+    lsp.TEXT_DOCUMENT_DID_SAVE,
+    lsp.TEXT_DOCUMENT_DID_CLOSE,
+):
+    server.feature(_event)(_touched)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_HOVER)
+def _hover(of: CellServer, params: lsp.HoverParams) -> lsp.Hover | None:
+    text, ranges = _text(of, params.text_document.uri)
+    told = hover(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
+    if told is None:
+        return None
+    return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, told[0]), ranges.of(told[1]))
+
+
+@server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
+def _definition(of: CellServer, params: lsp.DefinitionParams) -> lsp.Location | None:
+    file = file_of(params.text_document.uri)
+    text, ranges = _text(of, params.text_document.uri)
+    span = definition(text, *ranges.place(params.position), of.cells.known(file), Path(file))
+    return None if span is None else of.location(span)
+
+
+@server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[":", " ", "{", "[", "/"]))
+def _completion(of: CellServer, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
+    if of.known_text(params.text_document.uri) is None:
+        return []
+    text, ranges = _text(of, params.text_document.uri)
+    found = completions(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
+    return [
+        lsp.CompletionItem(
+            label=one.word,
+            kind=_KINDS.get(one.kind, lsp.CompletionItemKind.Reference),
+            detail=one.kind,
+            documentation=lsp.MarkupContent(lsp.MarkupKind.Markdown, one.meaning) if one.meaning else None,
+            sort_text=f"{number:04}",
+            insert_text=f"{one.word}: " if one.kind.endswith("key") else one.word,
+        )
+        for number, one in enumerate(found)
+    ]
+
+
+@server.feature(lsp.TEXT_DOCUMENT_CODE_ACTION, lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix]))
+def _actions(of: CellServer, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+    uri, file = params.text_document.uri, file_of(params.text_document.uri)
+    document = of.cells.document(file)
+    if document is None or document.texts.get(file) != of.text_of(uri):
+        return []  # the places are those of another text: the next check will tell
+    lines = range(params.range.start.line + 1, params.range.end.line + 2)
+    found = [one for one in of.cells.found(file) if one.span.file == file and one.span.line in lines]
+    ranges = _text(of, uri)[1]
+    return [
+        lsp.CodeAction(
+            title=edit.message.replace("`", ""),
+            kind=lsp.CodeActionKind.QuickFix,
+            diagnostics=[one for one in params.context.diagnostics if one.code == about.code],
+            edit=lsp.WorkspaceEdit(changes={uri: [lsp.TextEdit(ranges.of(_span(edit)), edit.text)]}),
+        )
+        for about, edit in fixes(found, document)
+    ]
+
+
+@server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
+def _symbols(of: CellServer, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
+    text, ranges = _text(of, params.text_document.uri)
+    return [_symbol(one, ranges) for one in symbols(text)]
+
+
+@server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
+def _formatting(of: CellServer, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+    text, ranges = _text(of, params.text_document.uri)
+    made = formatted("", text).value
+    return [] if made is None or made == text else [lsp.TextEdit(ranges.whole(), made)]
+
+
+def _text(of: CellServer, uri: str) -> tuple[str, Ranges]:
+    text = of.text_of(uri)
+    return text, Ranges(of.workspace.position_codec, text)
+
+
+def _span(edit: Edit) -> Span:
+    return Span(edit.file, edit.line, edit.column, edit.line, edit.end_column)
+
+
+def _symbol(one: Symbol, ranges: Ranges) -> lsp.DocumentSymbol:
+    kind = lsp.SymbolKind.Namespace if one.inner else lsp.SymbolKind.Field
+    inner = [_symbol(each, ranges) for each in one.inner]
+    place = ranges.of(one.span)
+    return lsp.DocumentSymbol(one.name, kind, place, place, detail=one.detail, children=inner)

@@ -1,0 +1,227 @@
+"""Cells beside each other: what motion rests on in each, and who has which duty by the architecture of its devices.
+
+The questions are those of chapter 4, sections 8 and 9: two robots take the same trajectory under different contracts,
+and a device that is commanded past ROS 2 takes duties back. Every answer comes from the spec and the catalog.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.hardware import Effect
+from cellc.compiler.deploy.labels import real_driver, watchdog
+from cellc.compiler.formats.numbers import shortest
+from cellc.compiler.graph.versions import compatibility
+from cellc.contract.vocabulary import PASSIVE, CommandAuthority, Motion
+
+_NOT_STATED = "not stated"
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A question, and what each cell answers; ``common`` is what holds of every robot alike."""
+
+    question: str
+    answers: tuple[tuple[str, ...], ...]
+    common: str
+
+    @property
+    def same(self) -> bool:
+        """Whether all cells answer alike."""
+        return len(set(self.answers)) == 1
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Cells by the name that each is told apart by: the contract of motion, and the duties."""
+
+    cells: tuple[str, ...]
+    motion: tuple[Row, ...]
+    duties: tuple[Row, ...]
+
+
+def compare(named: Mapping[str, Cell]) -> Comparison:
+    """Put cells beside each other, each under the name that it is told apart by."""
+    compared = tuple(named.values())
+    return Comparison(
+        tuple(named),
+        tuple(_row(compared, *asked) for asked in _MOTION),
+        tuple(_row(compared, *asked) for asked in _DUTIES),
+    )
+
+
+def _row(cells: tuple[Cell, ...], question: str, answer: Callable[[Cell], Iterator[str]], common: str) -> Row:
+    return Row(question, tuple(tuple(answer(cell)) for cell in cells), common)
+
+
+def _moving(cell: Cell) -> tuple[Device, ...]:
+    return tuple(device for device in cell.devices if device.actuated_joints)
+
+
+def _start(cell: Cell) -> Iterator[str]:
+    for device in _moving(cell):
+        state = (
+            "" if device.hardware is None or "real" not in device.hardware.targets else f", starts {device.comes_up}"
+        )
+        yield f"{device.name}: {real_driver(device)}{state}"
+        if device.program is not None:
+            yield f"{device.name}: its program is played by {device.program.played_by}, {device.program.mode}"
+        effects = {} if device.hardware is None else device.hardware.effects
+        for moment, effect in effects.items():
+            if effect.motion is not Motion.NONE or effect.authority is CommandAuthority.TAKEN:
+                yield f"{device.name}: {moment.value}: {_effect(effect)}"
+        if device.unknown_effects:
+            yield f"{device.name}: not stated what {' and '.join(device.unknown_effects)} does"
+
+
+def _effect(effect: Effect) -> str:
+    moves = {Motion.NONE: "nothing moves", Motion.UNKNOWN: "UNKNOWN what moves"}.get(effect.motion, effect.motion.value)
+    taken = ", takes command" if effect.authority is CommandAuthority.TAKEN else ""
+    return f"{moves}{taken}: {effect.does}"
+
+
+def _timing(cell: Cell) -> Iterator[str]:
+    for manager in cell.managers:
+        host = cell.hosts.get(manager.host)
+        where = "a computer of no name" if host is None else f"{manager.host} ({host.scheduling})"
+        yield f"{manager.node}: {shortest(manager.update_rate_hz)} Hz on {where}"
+    for adapted in cell.adapters:
+        period, timeout = shortest(adapted.command_period_s), shortest(adapted.command_timeout_s)
+        yield f"{adapted.device}: its adapter sends every {period} s, and stops after {timeout} s without a command"
+    for device in _moving(cell):
+        if device.hardware is not None and device.hardware.command_timeout_s is not None:
+            timeout = shortest(device.hardware.command_timeout_s)
+            yield f"{device.name}: ends what it does after {timeout} s without a command"
+        if device.network is not None:
+            link = "a link of its own" if device.network.dedicated_link else "any link"
+            yield f"{device.name}: {link}, real-time kernel {device.network.realtime.replace('_', ' ')}"
+        if device.kind == "arm":
+            scaled = (
+                f"slowed down as {device.speed_scaling} says" if device.speed_scaling else "as planned, or are aborted"
+            )
+            yield f"{device.name}: trajectories run {scaled}"
+
+
+def _safety(cell: Cell) -> Iterator[str]:
+    stop, recovery = cell.safety.stop, cell.safety.recovery
+    independent = ", ".join(stop.independent_of) or _NOT_STATED
+    yield f"stopped by {stop.authority}, {stop.path}, independent of {independent}"
+    yield f"acknowledged by {recovery.acknowledge}; after a reconnect: {recovery.on_reconnect}"
+    for device in _moving(cell):
+        stops = ", ".join(state.name for state in device.safety.states if state.stops) or "UNKNOWN"
+        yield f"{device.name}: stops by itself in {stops}"
+        if device.safety.modes:
+            yield f"{device.name}: modes {', '.join(device.safety.modes)}"
+
+
+def _versions(cell: Cell) -> Iterator[str]:
+    moving = {cell.name, *(device.name for device in _moving(cell))}
+    for judged in compatibility(cell):
+        if judged.pin.holder in moving:
+            pinned = f"{judged.pin.text}: {judged.answer.value}" if judged.pin.known else "is not pinned"
+            yield f"{judged.pin.holder}: {judged.pin.part} {pinned}"
+
+
+def _mock_limit(cell: Cell) -> Iterator[str]:
+    for device in _moving(cell):
+        yield from (f"{device.name}: {text}" for text in device.mock_cannot_prove)
+
+
+_MOTION = (
+    ("start command", _start, "a diagram of the states, as they were seen"),
+    ("timing", _timing, "rate, jitter and missed cycles, as measured"),
+    ("safety", _safety, "a procedure for enabling, stop and recovery, and who signed it"),
+    ("versions", _versions, "the same tuple on every machine"),
+    ("what the mock cannot prove", _mock_limit, "a list of untested physics and safety"),
+)
+"""Question, answer, and what is evidence of it on every robot."""
+
+
+def _discovery(cell: Cell) -> Iterator[str]:
+    network, count = cell.network, len(cell.interfaces)
+    discovery = f"{network.discovery} discovery in domain {network.domain_id}"
+    yield f"ROS 2: {count} interfaces with types, {discovery}, {cell.versions.rmw_name}"
+    for device in _directly(cell):
+        address = None if device.connection is None else device.connection.address
+        yield f"{device.name}: the application knows the address {address or _NOT_STATED}; no graph shows it"
+
+
+def _frames(cell: Cell) -> Iterator[str]:
+    yield f"one TF tree of {len(cell.frames)} frames, of {', '.join(sorted({one.authority for one in cell.frames}))}"
+    yield f"owner {cell.owners.responsibilities.frames}"
+
+
+def _records(cell: Cell) -> Iterator[str]:
+    clocks = sorted({host.clock.domain for host in cell.hosts.values()})
+    yield f"clocks {', '.join(clocks) or _NOT_STATED}; {len(cell.recording.attempt_fields)} fields of every attempt"
+    for device in _outside(cell):
+        yield f"{device.name}: what its own loop sees is in no bag; only its library can log it"
+    yield f"owner {cell.owners.responsibilities.logging}"
+
+
+def _ownership(cell: Cell) -> Iterator[str]:
+    for controller in _commanding(cell):
+        claims = len(controller.claims("real"))
+        counted = f"{claims} command interface{'s' if claims != 1 else ''}"
+        yield f"{controller.label}: claims {counted}, commanded by {controller.client or 'no client'}"
+    for device in _driven(cell):
+        yield f"{device.name}: no controller claims it, {real_driver(device)} takes goals"
+    for adapted in cell.adapters:
+        yield f"{adapted.device}: {adapted.action} of its adapter, commanded by {adapted.client or 'no client'}"
+    yield f"owner {cell.owners.responsibilities.command}"
+
+
+def _servo(cell: Cell) -> Iterator[str]:
+    driven = {device.name for device in _driven(cell)}
+    for device in _moving(cell):
+        loop = "its own node has the deadline" if device.name in driven else _LOOP[device.architecture]
+        yield f"{device.name} ({device.architecture}): {loop}"
+    for controller in _commanding(cell):
+        yield f"{controller.label}: watchdog: {watchdog(cell, controller)}"
+    yield f"owner {cell.owners.responsibilities.watchdogs}"
+
+
+_LOOP = {
+    "ros2": "every command crosses the controller manager; its deadline is met by the computer, or missed",
+    "direct_sdk": "the application's own process has the deadline, the watchdog and the stop",
+    "hybrid": "the vendor's loop has the deadline; ROS 2 sends goals and reads states",
+}
+
+
+def _boundary(cell: Cell) -> Iterator[str]:
+    owners = cell.owners.responsibilities
+    yield f"vendor's safety: {owners.vendor_safety}; physical stop: {owners.physical_stop}, {cell.safety.stop.path}"
+
+
+def _commanding(cell: Cell) -> Iterator[Controller]:
+    commanding = (one for one in cell.controllers if one.behaviour not in PASSIVE and "real" in one.targets)
+    return (one for one in commanding if one.claims("real"))
+
+
+def _driven(cell: Cell) -> Iterator[Device]:
+    """Yield the devices that a node of their vendor moves on real hardware."""
+    adapted = {one.device for one in cell.adapters}
+    return (device for device in _moving(cell) if device.driver is not None and device.name not in adapted)
+
+
+def _directly(cell: Cell) -> Iterator[Device]:
+    return (device for device in _moving(cell) if device.architecture == "direct_sdk")
+
+
+def _outside(cell: Cell) -> Iterator[Device]:
+    return (device for device in _moving(cell) if device.architecture != "ros2")
+
+
+_DUTIES = (
+    ("discovery and types", _discovery, "ROS 2 has graph and types; a direct SDK has what the application configures"),
+    ("frames", _frames, "ROS 2 has TF and stamps; a direct SDK has a library of its own; one authority either way"),
+    ("time and records", _records, "ROS 2 has clocks, bags and diagnostics; a direct SDK has a logger of its own"),
+    ("command ownership", _ownership, "ROS 2 has claims and actions; a direct SDK has a state machine of its own"),
+    ("servo deadline", _servo, "neither is automatic: it is measured, in the vendor's loop or in a qualified one"),
+    ("safety", _boundary, "the robot's and the cell's authority, on a path of its own, by every architecture"),
+)
+"""Duty, who has it in the cell, and what the architectures bring."""

@@ -1,0 +1,188 @@
+"""Findings, differences and diagnoses as lines for people."""
+
+from __future__ import annotations
+
+import shlex
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cellc.contract.diagnostics import Diagnostic, Severity, Span
+from cellc.contract.printing import Line, Style, Styled
+from cellc.tools.report.snippet import Texts, render_snippet
+
+if TYPE_CHECKING:
+    from cellc.compiler.output.compare import Difference
+    from cellc.tools.diagnose.diagnose import Cause, Suspicion
+    from cellc.tools.diagnose.symptoms import LayerKnowledge
+
+SEVERITY_STYLES: Mapping[Severity, Style] = {
+    Severity.ERROR: Style.RED,
+    Severity.BLOCKER: Style.MAGENTA,
+    Severity.WARNING: Style.YELLOW,
+    Severity.AUDIT: Style.CYAN,
+}
+
+
+def render_text(diagnostics: Iterable[Diagnostic], texts: Mapping[str, str]) -> list[Line]:
+    """Return every finding with its place, the worst first, those alike by place, separated by empty lines.
+
+    Args:
+        texts: the text of every file that was read, by the name that spans carry, with line breaks as ``\\n``.
+    """
+    lines: Texts = {file: text.split("\n") for file, text in texts.items()}
+    shown: list[Line] = []
+    for diagnostic in sorted(diagnostics, key=_worst_first):
+        shown += ["", *_render(diagnostic, lines)]
+    return shown[1:]
+
+
+def _worst_first(diagnostic: Diagnostic) -> tuple[int, tuple[Span, str, str]]:
+    return tuple(Severity).index(diagnostic.severity), diagnostic.sort_key()
+
+
+def _render(diagnostic: Diagnostic, texts: Texts) -> Iterator[Line]:
+    style = SEVERITY_STYLES[diagnostic.severity]
+    gutter = _gutter(diagnostic)
+    head = Styled(f"{diagnostic.severity.value}[{diagnostic.code}]", style)
+    yield head, Styled(f": {diagnostic.message}", Style.BOLD)
+    yield from render_snippet(diagnostic.span, texts, gutter=gutter, mark="^", style=style)
+    for related in diagnostic.related:
+        yield Styled("note", Style.BLUE), f": {related.message}"
+        yield from render_snippet(related.span, texts, gutter=gutter, mark="-", style=Style.BLUE)
+    if diagnostic.help:
+        yield Styled("help", Style.GREEN), f": {diagnostic.help}"
+
+
+def _gutter(diagnostic: Diagnostic) -> int:
+    numbers = [diagnostic.span.line, *(related.span.line for related in diagnostic.related)]
+    return len(str(max(numbers)))
+
+
+def counts(diagnostics: Iterable[Diagnostic]) -> dict[str, int]:
+    """Return the number of findings of every severity, the worst first, zeros included."""
+    found = Counter(diagnostic.severity for diagnostic in diagnostics)
+    return {severity.value: found[severity] for severity in Severity}
+
+
+def summary(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Line:
+    """Return such as ``2 errors, 1 blocker in cells/a.yaml``, or that nothing was found.
+
+    Args:
+        files: the specs that were checked, as the user named them.
+    """
+    found = counts(diagnostics)
+    parts = [_part(severity, found[severity.value]) for severity in Severity if found[severity.value]]
+    place = files[0] if len(files) == 1 else f"{len(files)} files"
+    told = parts or [Styled("no findings", Style.GREEN)]
+    listed = (piece for part in told for piece in (", ", part))
+    return (*tuple(listed)[1:], f" in {place}")
+
+
+def summed_blockers(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
+    """Return in two lines how many blockers of which code keep the real target closed, and who shows each of them."""
+    found = Counter(one.code for one in diagnostics if one.severity is Severity.BLOCKER)
+    if not found:
+        return []
+    codes = ", ".join(f"{number} {code}" for code, number in sorted(found.items(), key=lambda one: (-one[1], one[0])))
+    command = shlex.quote(file)
+    return [
+        f"the real target stays closed: {codes}",
+        f"`cellc check {command}` shows each, `cellc audit {command}` asks the person who can answer",
+    ]
+
+
+def summed_errors(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
+    """Return in two lines how many errors there are and where the first is, and who shows each of them."""
+    errors = sorted((one for one in diagnostics if one.severity is Severity.ERROR), key=Diagnostic.sort_key)
+    if not errors:
+        return []
+    first = errors[0]
+    told = "" if len(errors) == 1 else ", the first"
+    return [
+        (_part(Severity.ERROR, len(errors)), f"{told} at {first.span}: {first.message}"),
+        f"`cellc check {shlex.quote(file)}` shows {'it' if len(errors) == 1 else 'each'}",
+    ]
+
+
+def _part(severity: Severity, number: int) -> Styled:
+    return Styled(severity.counted(number), SEVERITY_STYLES[severity])
+
+
+_WHY = {
+    "missing": "is missing",
+    "outdated": "is from an earlier build",
+    "edited": "was edited by hand",
+    "unexpected": "is no longer made by the cell",
+}
+
+
+def render_difference(difference: Difference, folder: Path) -> list[Line]:
+    """Return one difference: the file, why it differs, and its first differing line."""
+    path = (folder / difference.path).as_posix()
+    if not difference.line:
+        return [f"{path}: {_WHY[difference.kind]}"]
+    head = f"{path}:{difference.line}: {_WHY[difference.kind]}"
+    return [head, f"  - {_cut(difference.found)}", f"  + {_cut(difference.expected)}"]
+
+
+def _cut(line: str | None) -> str:
+    return "(end of file)" if line is None else line[:160]
+
+
+def render_suspicions(suspicions: tuple[Suspicion, ...]) -> list[Line]:
+    """Return every suspicion with its hypotheses, the best first, separated by empty lines."""
+    shown: list[Line] = []
+    for one in suspicions:
+        shown += ["", *_suspicion(one)]
+    return shown[1:]
+
+
+def render_symptoms(layers: Sequence[LayerKnowledge]) -> list[Line]:
+    """Return the name of every symptom under the layer that it belongs to."""
+    shown: list[Line] = []
+    for layer in layers:
+        shown += ["", (Styled(layer.title, Style.BOLD),), *(f"  {symptom.name}" for symptom in layer.symptoms)]
+    number = sum(len(layer.symptoms) for layer in layers)
+    example = layers[0].symptoms[0].name
+    return [
+        *shown[1:],
+        "",
+        f'{number} symptoms; `cellc diagnose "{example}" cell.yaml` tells the causes of one',
+    ]
+
+
+def render_nearest(nearest: Sequence[Suspicion], layers: Sequence[str]) -> list[Line]:
+    """Return that nothing fits, and what is nearest, each with its likeliest cause."""
+    shown: list[Line] = [
+        "UNKNOWN: no known symptom fits" + ("; the nearest, which may not be meant:" if nearest else "")
+    ]
+    for one in nearest:
+        shown.append(("  ", Styled(f"{one.layer}: {one.symptom}", Style.BOLD)))
+        shown.append(f"    likeliest: {one.causes[0].text}")
+    shown.append("say it in other words or paste a line of the log; `cellc diagnose` alone lists every symptom")
+    return [*shown, f"rule out in this order: {', '.join(layers)}"]
+
+
+def _suspicion(suspicion: Suspicion) -> Iterator[Line]:
+    yield (Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD),)
+    if suspicion.evidence:
+        yield f"  the line names: {', '.join(suspicion.evidence)}"
+    for name in suspicion.unknown:
+        yield f"  {name} is not part of this cell"
+    for number, cause in enumerate(suspicion.causes, 1):
+        yield from _cause(number, cause)
+    yield f"  do not: {suspicion.never}"
+    yield f"  who decides: {suspicion.owner}"
+    yield f"  source: {suspicion.source}"
+
+
+def _cause(number: int, cause: Cause) -> Iterator[Line]:
+    yield f"  {number}. {cause.text}?"
+    for step in cause.steps:
+        mark = "$" if step.is_command else "look at"
+        yield "     ", Styled(mark, Style.BLUE), f" {step.action}"
+        yield "       ", Styled("ruled out if", Style.GREEN), f" {step.refuted}"
+    if cause.omitted:
+        yield f"     and the same for {cause.omitted} more; name one in the symptom to see it alone"

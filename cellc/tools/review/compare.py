@@ -1,0 +1,327 @@
+"""Two packages into changes: facts compared by the table, and what no fact explains told as lines of its file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import PurePosixPath
+
+from cellc.contract.review import ReviewChange
+from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.edges import edge_changes, offers_less
+from cellc.tools.review.facts import OF_SPEC, Facts
+from cellc.tools.review.geometry import moved_places
+from cellc.tools.review.grading import grade
+from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
+from cellc.tools.review.lines import Known, LinesLeft, lines_left
+from cellc.tools.review.rows import FOLLOWS, ROWS
+from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, Rule, Thing, fits
+from cellc.tools.review.units import difference, shown
+
+_MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
+"""A spec that was moved makes the same package: its path stands in the head of every file."""
+
+_SAID_ELSEWHERE = ("places", "summary", "owners")
+"""Of a cell: where its author wrote what, and what its configuration does not rest on."""
+_SHOWN_LINES = 3
+_SHOWS = ("graph/", "README.md")
+"""Files that show people what the others say, in the order of the spec: they are told where a hand edited them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A change before those that are alike are told together.
+
+    Attributes:
+        words: words and figures that it explains in other files.
+        names: names of things that came or went with it.
+    """
+
+    area: ReviewArea
+    subject: str
+    quantity: str
+    before: str | None
+    after: str | None
+    grade: Grade
+    delta: str = ""
+    breaking: bool = False
+    why: str = ""
+    words: frozenset[str] = field(default=frozenset(), compare=False)
+    names: frozenset[str] = field(default=frozenset(), compare=False)
+    differing: frozenset[str] = field(default=frozenset(), compare=False)
+
+
+def changes_between(before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
+    """Return every change, the worst first, those that are alike as one."""
+    told = _told(before, after)
+    owners = _approvers(before, after)
+    merged: dict[Change, list[str]] = {}
+    for change in told:
+        merged.setdefault(replace(change, subject=""), []).append(change.subject)
+    found = [
+        _reviewed(change, tuple(subjects), owners.get(APPROVAL[change.area], "")) for change, subjects in merged.items()
+    ]
+    return tuple(sorted(found, key=_order))
+
+
+def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
+    """Return who approves: who did before the change, so that none chooses whom to ask; who is new beside them."""
+    were, are = before.contract.approvals, after.contract.approvals
+    return {
+        area: " and ".join(dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner))
+        for area in {*were, *are}
+    }
+
+
+def _order(change: ReviewChange) -> tuple[int, int, str, tuple[str, ...]]:
+    areas = tuple(ReviewArea)
+    return (-tuple(Grade).index(change.grade), areas.index(change.area), change.quantity, change.subjects)
+
+
+def _reviewed(change: Change, subjects: Sequence[str], owner: str) -> ReviewChange:
+    return ReviewChange(
+        area=change.area,
+        subjects=tuple(subjects),
+        quantity=change.quantity,
+        before=change.before,
+        after=change.after,
+        delta=change.delta,
+        grade=change.grade,
+        breaking=change.breaking,
+        why=change.why,
+        approval=APPROVAL[change.area],
+        owner=owner,
+    )
+
+
+def _told(before: Facts, after: Facts) -> list[Change]:
+    # What only specs say is compared where both sides were made of one.
+    both = before.cell is not None and after.cell is not None
+    deltas = [one for one in differences(before.leaves, after.leaves) if both or one.path[0] not in OF_SPEC]
+    came_or_went, rest = _things(deltas, before, after)
+    primary = [delta for delta in rest if not _follows(delta.path)]
+    told = [*came_or_went, *_effects(before, after)]
+    told += [change for delta in primary if (change := _of_value(delta, before, after)) is not None]
+    ids = _ids(before) | _ids(after)
+    known = _known(told, ids)
+    for delta in rest:
+        if _follows(delta.path) and not known.explains_leaf(delta):
+            change = _of_value(delta, before, after)
+            told += [] if change is None else [change]
+    known = _known(told, ids)
+    edited = before.edited | after.edited
+    renamed = before.contract.cell != after.contract.cell
+    left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
+    told += [_of_lines(one) for one in left if one.file in edited or not one.file.startswith(_SHOWS)]
+    return told or list(_unexplained(before, after))
+
+
+def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
+    """Yield that two cells are not the same, where no file of theirs shows in what."""
+    was, now = before.manifest.configuration_inputs.cell_sha256, after.manifest.configuration_inputs.cell_sha256
+    if not was or not now or was == now:
+        return
+    found = list[Delta]()
+    if before.cell is not None and after.cell is not None:
+        cells = (dict(flatten(as_json(before.cell))), dict(flatten(as_json(after.cell))))
+        found = [one for one in differences(*cells) if one.path[0] not in _SAID_ELSEWHERE]
+    for one in found or [Delta(("cell",), was[:12], now[:12])]:
+        yield Change(
+            ReviewArea.GATES,
+            " ".join(one.path),
+            "value that no file of the package shows",
+            shown(one.before, _unit_in(one.path[-1])),
+            shown(one.after, _unit_in(one.path[-1])),
+            Grade.REVIEW,
+        )
+
+
+def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
+    """Return the lines of every file, without what each repeats: where the spec lies, and a name that changed."""
+    opened = {
+        file: tuple(_MADE_FROM.sub("cellc build SPEC", line) for line in lines) for file, lines in facts.lines.items()
+    }
+    if not renamed:
+        return opened
+    name = re.compile(rf"(?<!\w){re.escape(facts.contract.cell)}(?!\w)")
+    return {file: tuple(name.sub("CELL", line) for line in lines) for file, lines in opened.items()}
+
+
+def _ids(facts: Facts) -> frozenset[str]:
+    """Return what follows from whatever is told: ids, names of files, and of spawners after their first controller."""
+    names = (name for manager in facts.contract.managers.values() for name in manager.controllers)
+    inputs = facts.manifest.configuration_inputs
+    ids = (facts.contract.configuration_id, inputs.urdf_sha256, inputs.cell_sha256)
+    files = (facts.contract.files.urdf_mock, facts.contract.files.urdf_real, facts.contract.files.srdf or "")
+    return frozenset((*ids, *files, *(f"spawner_{name}" for name in names)))
+
+
+def _known(told: Iterable[Change], ids: frozenset[str]) -> Known:
+    changes = list(told)
+    return Known(
+        frozenset().union(ids, *(change.words for change in changes)),
+        frozenset().union(*(_spelt(change.names) for change in changes)),
+        frozenset().union(*(change.differing for change in changes)),
+    )
+
+
+def _spelt(names: Iterable[str]) -> set[str]:
+    """Return names in the forms in which files have them: of a node full or bare, of a file with or without its end."""
+    paths = [PurePosixPath(name) for name in names]
+    return {form for path in paths for form in (path.as_posix(), path.as_posix().strip("/"), path.name, path.stem)}
+
+
+def _differing(before: Leaf | None, after: Leaf | None) -> frozenset[str]:
+    """Return the words that one side alone has, and their parts; a figure alone is no name of anything."""
+    alone = {*words(before)} ^ {*words(after)}
+    parts = {part for word in alone for part in (word, *word.split("/"))}
+    return frozenset(part for part in parts if not part.replace(".", "", 1).lstrip("-").isdigit() and len(part) > 1)
+
+
+def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[Change], list[Delta]]:
+    """Take out what came or went as a whole, and return it with the values that are left."""
+    old, new = prefixes(before.leaves), prefixes(after.leaves)
+    folded: dict[tuple[Path, Thing], list[Delta]] = {}
+    rest = []
+    for delta in deltas:
+        place = next(_folds(delta.path, old, new), None)
+        if place is None:
+            rest.append(delta)
+        else:
+            folded.setdefault(place, []).append(delta)
+    things = [(thing, _of_thing(path, thing, inner)) for (path, thing), inner in folded.items()]
+    told = [one for thing, one in things if not thing.follows]
+    return told + [one for thing, one in things if thing.follows and not _told_by(one, told)], rest
+
+
+def _told_by(following: Change, told: Sequence[Change]) -> bool:
+    """Tell whether something that came or went says of another that it did too, and no less gravely."""
+    grades = tuple(Grade)
+    worst = [grades.index(one.grade) for one in told if _spelt(one.names) & _spelt(following.names)]
+    return max(worst, default=-1) >= grades.index(following.grade)
+
+
+def _folds(path: Path, old: frozenset[Path], new: frozenset[Path]) -> Iterator[tuple[Path, Thing]]:
+    for length in range(1, len(path) + 1):
+        prefix = path[:length]
+        if (prefix in old) is not (prefix in new):
+            yield from ((prefix, thing) for thing in THINGS if fits(thing.parts, prefix) is not None)
+
+
+def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta]) -> Change:
+    came = inner[0].before is None
+    fit = fits(thing.parts, path)
+    names = () if fit is None else fit.subject
+    shown_leaf = next((one for one in inner if one.path == (*path, thing.shown)), None)
+    value = "present" if shown_leaf is None else shown(shown_leaf.after if came else shown_leaf.before, "")
+    return Change(
+        thing.area,
+        " ".join(names),
+        f"{thing.noun} {'added' if came else 'removed'}",
+        None if came else value,
+        value if came else None,
+        thing.came if came else thing.went,
+        breaking=thing.breaking and not came,
+        why=thing.why if (thing.came if came else thing.went) is Grade.DANGEROUS else "",
+        words=frozenset(word for one in inner for word in (*words(one.before), *words(one.after), *one.path)),
+        names=frozenset(names[-1:]),
+    )
+
+
+def _follows(path: Path) -> bool:
+    return any(fits(pattern, path) is not None for pattern in _FOLLOWS)
+
+
+_FOLLOWS = tuple(tuple(pattern.split(" ")) for pattern in FOLLOWS)
+
+
+def _of_value(delta: Delta, before: Facts, after: Facts) -> Change | None:
+    """Return a value that changed as a change; None where its order alone did, and that says nothing."""
+    row, fit = _row(delta.path)
+    if delta.before is not None and delta.after is not None and same(delta.before, delta.after, ordered=row.ordered):
+        return None
+    unit = _unit(row.unit or _unit_in(delta.path[-1]), fit.subject, before, after)
+    verdict = grade(row.rule, delta, before, after)
+    return Change(
+        verdict.area or row.area,
+        " ".join(fit.subject) or "cell",
+        " ".join((row.quantity, ".".join(fit.of))).rstrip(),
+        shown(delta.before, unit),
+        shown(delta.after, unit),
+        verdict.grade,
+        difference(delta.before, delta.after, unit),
+        row.breaking,
+        verdict.why or (row.why if verdict.grade is Grade.DANGEROUS else ""),
+        words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
+        differing=_differing(delta.before, delta.after),
+    )
+
+
+def _row(path: Path) -> tuple[Row, Fit]:
+    for row in ROWS:
+        fit = fits(row.parts, path)
+        if fit is not None:
+            return row, fit
+    in_file = path[0] == "file"
+    area = area_of_file(path[1]) if in_file else ReviewArea.DOCUMENTS
+    return Row("", area, "value", Rule.REVIEW), Fit(
+        path[1:2] if in_file else path[:1], path[2:] if in_file else path[1:]
+    )
+
+
+def area_of_file(file: str) -> ReviewArea:
+    """Return what a file of the package concerns, where nothing else tells it."""
+    return next((area for start, area in AREA_OF_FILE if file.startswith(start)), ReviewArea.DOCUMENTS)
+
+
+def _unit_in(name: str) -> str:
+    """Return the unit that the name of a value ends in."""
+    return next((unit for end, unit in (("_s", "s"), ("_hz", "Hz"), ("_m", "m")) if name.endswith(end)), "")
+
+
+def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:
+    """Return the unit of a value of a joint, or of the joints of a group: those of a gripper may be lengths."""
+    if not unit.startswith("joint"):
+        return unit
+    groups = (side.contract.groups.get(name) for side in (after, before) for name in names)
+    wanted = {*names, *(joint for group in groups if group is not None for joint in group.joints)}
+    joints = (joint for side in (after, before) for joint in side.joints.values() if joint.name in wanted)
+    return unit.replace("joint", "m" if any(joint.type == "prismatic" for joint in joints) else "rad")
+
+
+def _effects(before: Facts, after: Facts) -> Iterator[Change]:
+    """Yield what follows for motion and data, though no value of it changed."""
+    for one in moved_places(before, after):
+        sides = (shown(one.before, ""), shown(one.after, ""))
+        yield Change(
+            ReviewArea.MOTION, one.subject, one.quantity, *sides, Grade.REVIEW, difference(one.before, one.after, "")
+        )
+    for subject, missed in offers_less(before.contract, after.contract):
+        why = "subscribers outside the cell that request the old offer no longer connect"
+        yield Change(ReviewArea.QOS, subject, "offered QoS", "compatible", missed, Grade.REVIEW, breaking=True, why=why)
+    for edge in edge_changes(before.contract, after.contract):
+        taken = Grade.SAFE if edge.connects else Grade.DANGEROUS
+        why = "" if edge.connects else "samples no longer arrive" if edge.before else "no sample arrives"
+        yield Change(
+            ReviewArea.QOS, edge.subject, "edge", edge.before, edge.after, taken, breaking=not edge.connects, why=why
+        )
+
+
+def _of_lines(left: LinesLeft) -> Change:
+    area = area_of_file(left.file)
+    number = max(len(left.before), len(left.after))
+    told = f"{number} line{'s' if number != 1 else ''}"
+    return Change(
+        area,
+        left.file,
+        f"file {left.whole}" if left.whole else f"{told} (not classified)",
+        told if left.whole == "removed" else _some(left.before),
+        told if left.whole == "added" else _some(left.after),
+        Grade.REVIEW,
+    )
+
+
+def _some(lines: Sequence[str]) -> str | None:
+    more = len(lines) - _SHOWN_LINES
+    return " / ".join((*lines[:_SHOWN_LINES], *([f"and {more} more"] if more > 0 else []))) or None

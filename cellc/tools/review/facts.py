@@ -1,0 +1,339 @@
+"""A package of a cell as facts: the leaves of its data, and the lines of what is text alone."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import yaml
+from pydantic import BaseModel
+
+from cellc.compiler.cell.cell import Cell
+from cellc.contract.base import Json
+from cellc.contract.bring_up import TARGETS, BringUp, BringUpStep
+from cellc.contract.contract import Contract, ContractInterface
+from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.errors import CellcError
+from cellc.contract.limits import limits
+from cellc.contract.manifest import Manifest
+from cellc.contract.reading import FormatError, read_json
+from cellc.contract.rehearsals import Rehearsals
+from cellc.contract.transforms import Pose, identity
+from cellc.robot.description.model import Box, Collision, Cylinder, Description, Joint, Sphere
+from cellc.robot.description.urdf_reader import read_urdf
+from cellc.robot.description.xml_tree import read_xml
+from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
+from cellc.tools.review.units import shown
+
+CONTRACT, MANIFEST = "contract.json", "manifest.json"
+_AUDIT, _PROMOTION = "audit.md", "gates/promotion.md"
+_MATRIX = re.compile(r"\| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([A-Z]+) \| (.*) \|")
+# Values that only a checklist has; as one line of many they would be missed.
+_CHECKS = (
+    ("payload", re.compile(r"- \[ \] Set the payload of (.+?) to (.+?), by .*")),
+    ("tcp", re.compile(r"- \[ \] Check that the TCP of (.+?) is (.+)\. Record .*")),
+    (
+        "tool_voltage",
+        re.compile(r"- \[ \] Check each nameplate before plugging in: the tool connector of (.+?) supplies (.+)"),
+    ),
+    ("thresholds", re.compile(r"- \[ \] (.+): Set the collision thresholds (.+)")),
+    ("load", re.compile(r"- \[ \] (.+): Set the load beside the end effector (.+)")),
+    ("joint_impedance", re.compile(r"- \[ \] (.+): Set the joint impedance (.+)")),
+    ("tool_impedance", re.compile(r"- \[ \] (.+): Set the tool impedance (.+)")),
+    ("first_motion", re.compile(r"- \[ \] (Announce before moving): (.+)")),
+)
+_VERSIONS = "\n## Version tuple\n"
+_MIDDLEWARE = re.compile(r"middleware/(.+)\.sh")
+_EXPORT = re.compile(r"^export (\w+)=(.*)$", re.MULTILINE)
+OF_SPEC = ("spec", "area", "reference_points", "mounted", "excused")
+"""First parts of the paths of what a spec says and a package does not."""
+_Model = TypeVar("_Model", bound=BaseModel)
+
+
+class FactsError(CellcError):
+    """A file of a package is not what its name says; the text is one line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What one package says.
+
+    Attributes:
+        leaves: every value of its data by path; the first part of a path is the file, or what several files make up.
+        lines: lines of every file that is no data, by file.
+        joints: joints of the description for the real target, by the link that they carry.
+        edited: files that are not as the manifest has them.
+        cell: what the package was made of, which says more than it (``OF_SPEC``); None where only the package is
+            there.
+    """
+
+    contract: Contract
+    manifest: Manifest
+    leaves: Leaves
+    lines: Mapping[str, tuple[str, ...]]
+    joints: Mapping[str, Joint]
+    edited: frozenset[str]
+    cell: Cell | None
+
+
+def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequence[Diagnostic] = ()) -> Facts:
+    """Return what a package says.
+
+    Args:
+        files: text by path in the package.
+        cell: what it was made of; None where only the package is there.
+        excused: findings of the check that comments of the spec excuse.
+
+    Raises:
+        FactsError: a file is missing or not what its name says.
+    """
+    contract, manifest = _model(files, CONTRACT, Contract), _model(files, MANIFEST, Manifest)
+    named = contract.files
+    real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
+    read = {CONTRACT, MANIFEST, named.rehearsals, named.bring_up}
+    leaves: dict[Path, Leaf] = {}
+    for found in (
+        _of_contract(contract),
+        _of_manifest(manifest),
+        _of_claims(contract),
+        _of_placements(contract, real),
+        _of_description("real", real),
+        flatten(as_json(mock.hardware), ("mock", "hardware")),
+        flatten(_dumped(_model(files, named.rehearsals, Rehearsals))["rehearsals"], ("rehearsals",)),
+        _of_bring_up(_model(files, named.bring_up, BringUp)),
+        _of_texts(files, contract.cell),
+        _of_pairs(files, named.srdf),
+        () if cell is None else _of_spec(cell),
+        _of_excuses(excused),
+    ):
+        leaves.update(found)
+    of_manager = {path: ("parameters", of) for of, path in named.parameters.items()}
+    for path in sorted(files.keys() - read):
+        if path.endswith((".yaml", ".json")):
+            read.add(path)
+            leaves.update(flatten(_loaded(path, files[path]), of_manager.get(path, ("file", path))))
+    own = {named.urdf_real: "urdf/real", named.urdf_mock: "urdf/mock", named.srdf: "config/moveit/srdf"}
+    lines = {
+        own.get(path, path): _lines(files[path], is_srdf=path == named.srdf) for path in sorted(files.keys() - read)
+    }
+    joints = {joint.child: joint for joint in real.joints}
+    edited = {path for path, known in manifest.files.items() if path in files and _sha256(files[path]) != known}
+    return Facts(contract, manifest, leaves, lines, joints, frozenset(edited), cell)
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _lines(text: str, *, is_srdf: bool) -> tuple[str, ...]:
+    lines = (line.strip() for line in text.split("\n"))
+    return tuple(line for line in lines if line and not (is_srdf and line.startswith("<disable_collisions ")))
+
+
+def _text(files: Mapping[str, str], path: str) -> str:
+    if path not in files:
+        raise FactsError(f"{path}: is missing from the package")
+    return files[path]
+
+
+def _model(files: Mapping[str, str], path: str, model: type[_Model]) -> _Model:
+    try:
+        return read_json(_text(files, path), model)
+    except FormatError as error:
+        raise FactsError(f"{path}: {error}") from None
+
+
+def _dumped(model: BaseModel) -> dict[str, Json]:
+    dumped: dict[str, Json] = model.model_dump(mode="json")
+    return dumped
+
+
+def _described(files: Mapping[str, str], path: str) -> Description:
+    read = read_urdf(_text(files, path), path)
+    if read.value is None:
+        raise FactsError(f"{path}: line {read.diagnostics[0].span.line}: {read.diagnostics[0].message}")
+    return read.value
+
+
+def _loaded(path: str, text: str) -> Json:
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        _refuse_aliases_and_depth(path, yaml.parse(text, Loader=loader))
+        return _plain(yaml.load(text, Loader=loader))
+    except (yaml.YAMLError, ValueError, RecursionError):
+        raise FactsError(f"{path}: is not YAML") from None
+
+
+def _refuse_aliases_and_depth(path: str, events: Iterable[yaml.Event]) -> None:
+    """Refuse what the compiler never writes, and what makes much of little or exhausts the stack."""
+    depth = 0
+    for event in events:
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if isinstance(event, yaml.AliasEvent) or depth > limits().folder_depth:
+            raise FactsError(f"{path}: holds an alias, or is nested deeper than {limits().folder_depth} levels")
+
+
+def _plain(value: object) -> Json:
+    """Return what was loaded with every key as text, and every other kind of scalar, such as a date, too."""
+    if isinstance(value, dict):
+        return {str(key): _plain(inner) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [_plain(inner) for inner in value]
+    return value if value is None or isinstance(value, (str, int, float, bool)) else str(value)
+
+
+def _of_manifest(manifest: Manifest) -> Iterator[tuple[Path, Leaf]]:
+    """Yield what is told nowhere else: the id and the hashes are of what other leaves and lines tell."""
+    yield ("manifest", "cellc_version"), manifest.cellc_version
+    yield from flatten(dict(manifest.version_tuple), ("manifest", "version_tuple"))
+
+
+def _of_contract(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
+    """Yield the contract with the ends of its interfaces named by what they are, and without what others tell."""
+    data = _dumped(contract)
+    for name, interface in contract.interfaces.items():
+        told = _dumped(interface)
+        sources, sinks = _ends(interface)
+        told[sources], told[sinks] = told.pop("sources"), told.pop("sinks")
+        yield from flatten(told, ("interface", name))
+    for of, manager in contract.managers.items():
+        for name, controller in manager.controllers.items():
+            yield from flatten(_dumped(controller), ("controller", name))
+            yield ("controller", name, "manager"), of
+        yield from flatten({**_dumped(manager), "controllers": None}, ("manager", of))
+    for key in ("interfaces", "managers", "configuration_id", "format"):
+        del data[key]
+    for name, inner in data.items():
+        yield from flatten(inner, ("contract", name))
+
+
+def _ends(interface: ContractInterface) -> tuple[str, str]:
+    return ("publishers", "subscribers") if interface.kind == "topic" else ("servers", "clients")
+
+
+def _of_claims(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
+    """Yield who holds each command interface from the start, and who may."""
+    holders: dict[str, list[str]] = {}
+    for manager in contract.managers.values():
+        for name, controller in manager.controllers.items():
+            for claim in controller.command_interfaces:
+                holders.setdefault(claim, []).append(name if controller.active else f"{name} (inactive)")
+    for claim, names in holders.items():
+        yield ("claim", claim), ", ".join(sorted(names))
+
+
+def _of_placements(contract: Contract, description: Description) -> Iterator[tuple[Path, Leaf]]:
+    for joint in description.joints:
+        yield ("placement", joint.child), joint.pose
+    for name, frame in contract.frames.items():
+        if frame.pose is not None:
+            yield ("placement", name), Pose(frame.pose.xyz, frame.pose.quaternion)
+
+
+def _of_description(target: str, description: Description) -> Iterator[tuple[Path, Leaf]]:
+    """Yield what moves, collides and weighs, and what drives it; where joints stand is told as placements."""
+    for link in description.links:
+        yield from flatten(as_json(link.inertial), (target, "inertia", link.name))
+        if link.collisions:
+            yield (target, "shapes", link.name), tuple(map(_shape, link.collisions))
+        yield from flatten(as_json(link.visuals), (target, "visuals", link.name))
+    for joint in description.joints:
+        data = as_json(joint)
+        assert isinstance(data, dict)
+        yield from flatten({key: each for key, each in data.items() if key != "pose"}, (target, "joint", joint.name))
+    yield from flatten(as_json(description.hardware), (target, "hardware"))
+
+
+def _shape(collision: Collision) -> str:
+    """Return a shape with its size and place as people read them."""
+    geometry = collision.geometry
+    if isinstance(geometry, Box):
+        told = f"box {shown(geometry.size, 'm')}"
+    elif isinstance(geometry, Cylinder):
+        told = f"cylinder of radius {shown(geometry.radius, 'm')}, length {shown(geometry.length, 'm')}"
+    elif isinstance(geometry, Sphere):
+        told = f"sphere of radius {shown(geometry.radius, 'm')}"
+    else:
+        told = f"mesh {geometry.filename} by {shown(geometry.scale, '')}"
+    return told if collision.pose == identity() else f"{told} at {shown(collision.pose, '')}"
+
+
+def _of_bring_up(plan: BringUp) -> Iterator[tuple[Path, Leaf]]:
+    """Yield each step with what it waits for; of the order, what steps before one leave behind for its proof."""
+    for target in TARGETS:
+        steps = plan.steps(target)
+        for number, step in enumerate(steps):
+            path = ("step", target, step.name)
+            yield from flatten(_dumped(step.model_copy(update={"name": ""})), path)
+            earlier = tuple(sorted(before.name for before in steps[:number] if _feeds(before, step)))
+            if earlier:
+                yield (*path, "after"), earlier
+    for number, watch in enumerate(plan.watches):
+        yield from flatten(_dumped(watch), ("watch", f"{watch.manager} {watch.while_holds.topic}", str(number)))
+
+
+def _feeds(before: BringUpStep, after: BringUpStep) -> bool:
+    return any(proof in after.proof for proof in before.effect)
+
+
+def _of_texts(files: Mapping[str, str], cell: str) -> Iterator[tuple[Path, Leaf]]:
+    for line in files.get(_AUDIT, "").partition(_VERSIONS)[2].partition("\n## ")[0].split("\n"):
+        row = _MATRIX.fullmatch(line)
+        if row is not None:
+            yield ("matrix", row[2] if row[1] == cell else f"{row[1]}.{row[2]}"), Prose(f"{row[4]}: {row[5]}")
+    for line in files.get(_PROMOTION, "").split("\n"):
+        for name, pattern in _CHECKS:
+            told = pattern.fullmatch(line)
+            if told is not None:
+                yield ("check", name, told[1]), Prose(told[2])
+    for path, text in files.items():
+        host = _MIDDLEWARE.fullmatch(path)
+        if host is not None:
+            for variable in _EXPORT.finditer(text):
+                yield ("middleware", host[1], variable[1]), variable[2].strip("\"'")
+
+
+def _of_pairs(files: Mapping[str, str], srdf: str | None) -> Iterator[tuple[Path, Leaf]]:
+    if srdf is None:
+        return
+    read = read_xml(_text(files, srdf), srdf)
+    if read.value is None:
+        raise FactsError(f"{srdf}: line {read.diagnostics[0].span.line}: {read.diagnostics[0].message}")
+    for pair in read.value.all("disable_collisions"):
+        names = sorted(pair.attributes.get(key, "") for key in ("link1", "link2"))
+        yield ("pair", " and ".join(names)), pair.attributes.get("reason", "")
+
+
+def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
+    """Yield what a spec says and no other file of the package holds as data."""
+    yield from flatten(as_json(cell.safety), ("spec", "safety"))
+    yield from flatten(as_json(cell.bringup), ("spec", "bringup"))
+    yield from flatten(as_json(cell.recording), ("spec", "recording"))
+    yield from flatten(as_json(cell.network), ("spec", "network"))
+    yield from flatten(as_json(cell.targets), ("spec", "targets"))
+    yield from flatten(as_json({**cell.mock_plugins, **cell.mock_programs}), ("spec", "mock_statements"))
+    for frame in cell.frames:
+        if frame.reference_points:
+            yield ("reference_points", frame.name), frame.reference_points
+    for area in cell.areas:
+        yield from flatten(_without_place(as_json(area)), ("area", area.name))
+    for device in cell.devices:
+        if device.mounted_on is not None:
+            yield ("mounted", device.name), str(device.mounted_on)
+    for name, host in cell.hosts.items():
+        yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
+    for node in cell.nodes:
+        yield from flatten(_without_place(as_json(node)), ("spec", "nodes", node.full_name))
+
+
+def _of_excuses(excused: Sequence[Diagnostic]) -> Iterator[tuple[Path, Leaf]]:
+    for one in excused:
+        yield ("excused", one.severity.value, f"{one.code}: {one.message}"), "by a comment in the spec"
+
+
+def _without_place(entity: Json) -> Json:
+    assert isinstance(entity, dict)
+    return {key: value for key, value in entity.items() if key not in ("name", "path", "span")}

@@ -1,0 +1,112 @@
+"""The grade of one value that changed, by the rules of the table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cellc.compiler.cell.site import UNKNOWN
+from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.facts import Facts
+from cellc.tools.review.leaves import Delta, Leaf, said
+from cellc.tools.review.rules import Rule
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A grade, with what it rests on where the rule says more than the row; an area where the rule decides it."""
+
+    grade: Grade
+    why: str = ""
+    area: ReviewArea | None = None
+
+
+def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
+    """Return the grade of a change by a rule."""
+    if rule in _FIXED:
+        return Verdict(_FIXED[rule])
+    if rule is Rule.PLACED:
+        return _of_placement(delta, before, after)
+    return Verdict(_GRADES[rule](delta.before, delta.after))
+
+
+_FIXED = {Rule.SAFE: Grade.SAFE, Rule.REVIEW: Grade.REVIEW, Rule.DANGEROUS: Grade.DANGEROUS}
+
+
+def _more(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.DANGEROUS if after is None or _greater(after, before) else Grade.SAFE
+
+
+def _less(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.DANGEROUS if after is None or _greater(before, after) else Grade.SAFE
+
+
+def _looser(before: Leaf | None, after: Leaf | None) -> Grade:
+    """Zero is no bound at all: ros2_control checks no tolerance and no time that is zero."""
+    was_bound = before is not None and before != 0
+    loosened = after is None or after == 0 or _greater(after, before)
+    return Grade.DANGEROUS if was_bound and loosened else Grade.REVIEW
+
+
+def _back(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.DANGEROUS if after is None or _greater(before, after) else Grade.REVIEW
+
+
+def _named(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.DANGEROUS if after is None or str(after).split()[-1:] == [UNKNOWN] else Grade.REVIEW
+
+
+def _matrix(before: Leaf | None, after: Leaf | None) -> Grade:
+    was, now = (str(one).startswith("OK") for one in (before, after))
+    if was and not now:
+        return Grade.DANGEROUS
+    return Grade.SAFE if now and not was else Grade.REVIEW
+
+
+def _claim(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.REVIEW if after is None else Grade.DANGEROUS
+
+
+def _lost(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.DANGEROUS if _entries(before) - _entries(after) else Grade.REVIEW
+
+
+_GRADES = {
+    Rule.MORE: _more,
+    Rule.LESS: _less,
+    Rule.LOOSER: _looser,
+    Rule.FEWER: _back,
+    Rule.BACK: _back,
+    Rule.NAMED: _named,
+    Rule.MATRIX: _matrix,
+    Rule.CLAIM: _claim,
+    Rule.LOST: _lost,
+}
+
+
+def _entries(value: Leaf | None) -> set[str]:
+    if isinstance(value, tuple):
+        return {said(one) for one in value}
+    return set() if value is None else {str(value)}
+
+
+def _greater(one: Leaf | None, other: Leaf | None) -> bool:
+    """Tell whether a number is above another; what is no number counts as above, so that it is not passed over."""
+    if isinstance(one, (int, float)) and isinstance(other, (int, float)):
+        return one > other
+    return one is not None and other is not None
+
+
+def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    """A transform that was measured does not change without another measurement."""
+    frame = delta.path[1]
+    was, now = (side.contract.frames.get(frame) for side in (before, after))
+    name = None if now is None else now.calibration
+    if was is None or name is None or was.calibration != name:
+        return Verdict(Grade.REVIEW)
+    old, new = (side.contract.calibrations.get(name) for side in (before, after))
+    if old is None or new is None:
+        return Verdict(Grade.DANGEROUS, f"calibration `{name}` is not declared", ReviewArea.CALIBRATION)
+    if new.revision > old.revision:
+        return Verdict(Grade.REVIEW, f"calibration `{name}` changed from revision {old.revision} to {new.revision}")
+    why = f"calibration `{name}` measured it, and has no new revision after {old.revision}"
+    return Verdict(Grade.DANGEROUS, why, ReviewArea.CALIBRATION)

@@ -1,0 +1,122 @@
+"""Files that are text alone: which of their lines differ, and which of those no told change explains."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from cellc.tools.review.leaves import Delta, words
+from cellc.tools.review.tokens import tokens
+
+_MOST_PAIRS = 250_000
+"""Pairs of lines that are compared for the nearest; of a file with more, lines are taken in their order."""
+
+_Words = tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What the changes that are told explain elsewhere.
+
+    Attributes:
+        words: words and figures of values before and after.
+        names: names of things that came or went: a line that holds one follows from it.
+        differing: words of those values that one side alone has: a line that came or went with one follows, too.
+    """
+
+    words: frozenset[str]
+    names: frozenset[str]
+    differing: frozenset[str]
+
+    def explains(self, before: Sequence[str], after: Sequence[str], common: frozenset[str] = frozenset()) -> bool:
+        """Tell whether a text changed in nothing but what is known, or names what came or went.
+
+        Args:
+            common: words that both sides of a file have, which say nothing of a line without a counterpart.
+        """
+        gone, come = Counter(before), Counter(after)
+        differing = {*(gone - come), *(come - gone)}
+        if before and after:
+            return differing <= self.words or not self.names.isdisjoint(_with_parts(differing))
+        named = self.names | self.differing
+        return differing - common <= self.words or not named.isdisjoint(_with_parts(differing))
+
+    def explains_leaf(self, delta: Delta) -> bool:
+        """Tell the same of a value, which may stand under a name that came or went."""
+        if self.names.intersection(delta.path):
+            return True
+        return self.explains(words(delta.before), words(delta.after))
+
+
+def _with_parts(words: Iterable[str]) -> set[str]:
+    """Return words with the names that they are made of, such as those of a path."""
+    return {part for word in words for part in (word, *re.split("[/.]", word))}
+
+
+@dataclass(frozen=True, slots=True)
+class LinesLeft:
+    """Lines of one file that differ and that nothing explains; ``whole`` where the file itself came or went."""
+
+    file: str
+    before: tuple[str, ...]
+    after: tuple[str, ...]
+    whole: Literal["", "added", "removed"] = ""
+
+
+def lines_left(
+    before: Mapping[str, Sequence[str]], after: Mapping[str, Sequence[str]], known: Known
+) -> list[LinesLeft]:
+    """Return what is left of each file; the order of lines and of words in them says nothing."""
+    found = (_left(file, before.get(file, ()), after.get(file, ()), known) for file in sorted({*before, *after}))
+    return [one for one in found if one.before or one.after]
+
+
+def _left(file: str, before: Sequence[str], after: Sequence[str], known: Known) -> LinesLeft:
+    if not before or not after:
+        none = LinesLeft(file, (), ())
+        return (
+            none if before == after else LinesLeft(file, tuple(before), tuple(after), "removed" if before else "added")
+        )
+    if Counter(before) == Counter(after):
+        return LinesLeft(file, (), ())
+    old, new = _by_words(before), _by_words(after)
+    gone, come = _more(old, new), _more(new, old)
+    left_before, left_after = [], []
+    common = frozenset(word for line in old for word in line) & frozenset(word for line in new for word in line)
+    for one, other in _paired(gone, come):
+        if not known.explains(one, other, common):
+            left_before += [old[one][0]] if one else []
+            left_after += [new[other][0]] if other else []
+    return LinesLeft(file, tuple(left_before), tuple(left_after))
+
+
+def _by_words(lines: Sequence[str]) -> dict[_Words, list[str]]:
+    found: dict[_Words, list[str]] = {}
+    for line in lines:
+        found.setdefault(tokens(line), []).append(line)
+    return found
+
+
+def _more(one: Mapping[_Words, list[str]], other: Mapping[_Words, list[str]]) -> list[_Words]:
+    return [key for key, lines in one.items() for _ in range(len(lines) - len(other.get(key, ())))]
+
+
+def _paired(gone: list[_Words], come: list[_Words]) -> list[tuple[_Words, _Words]]:
+    """Pair each line that went with the nearest that came; what has no partner is beside nothing."""
+    if len(gone) * len(come) > _MOST_PAIRS:
+        return [*((one, ()) for one in gone), *(((), one) for one in come)]
+    waiting = [Counter(one) for one in come]
+    rest = list(range(len(come)))
+    pairs: list[tuple[_Words, _Words]] = []
+    for one in gone:
+        counted = Counter(one)
+        nearest = max(rest, key=lambda at: sum((counted & waiting[at]).values()), default=None)
+        if nearest is None or 4 * sum((counted & waiting[nearest]).values()) <= 3 * len(one):
+            pairs.append((one, ()))
+            continue
+        rest.remove(nearest)
+        pairs.append((one, come[nearest]))
+    return pairs + [((), come[at]) for at in rest]

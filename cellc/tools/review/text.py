@@ -1,0 +1,99 @@
+"""A review for people at a terminal: one line that sums it up, then changes by grade and area."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+
+from cellc.contract.printing import Line, Style, Styled
+from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal
+from cellc.contract.vocabulary import Grade
+
+_STYLE = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
+_FEW = 4
+
+
+def render_review(review: Review) -> Iterator[Line]:
+    """Yield the lines of a review."""
+    yield summed_up(review)
+    yield f"before  {review.before.name}, {review.before.configuration_id}"
+    yield f"after   {review.after.name}, {review.after.configuration_id}"
+    for note in review.notes:
+        yield f"note: {note}"
+    for grade, changes in groupby(review.changes, key=lambda change: change.grade):
+        yield ""
+        yield (Styled(grade.value, _STYLE[grade]),)
+        for change in changes:
+            yield from _change(change)
+    yield from findings_told("new findings", review.new_findings)
+    yield from findings_told("resolved findings", review.gone_findings)
+    if review.rehearsals:
+        yield ""
+        yield "rehearsals"
+        yield from (f"  {outcomes(one)}" for one in review.rehearsals)
+    if review.gates:
+        yield ""
+        yield "gates to repeat (their evidence is no longer valid)"
+        yield from (f"  {gate_line(gate)}" for gate in review.gates)
+
+
+def summed_up(review: Review) -> str:
+    """Return one line: how many changes of each grade."""
+    if not review.changes:
+        differing = len(review.files)
+        text = f"; {differing} files differ only in order or spelling" if differing else ""
+        return f"{review.after.name}: no change{text}"
+    counts = ((sum(change.grade is grade for change in review.changes), grade) for grade in reversed(Grade))
+    told = ", ".join(f"{number} {grade}" for number, grade in counts if number)
+    breaking = sum(change.breaking for change in review.changes)
+    more = f"; {breaking} break{'s' if breaking == 1 else ''} consumers outside the cell" if breaking else ""
+    number = len(review.changes)
+    return f"{review.after.name}: {number} change{'s' if number != 1 else ''} ({told}){more}"
+
+
+def subjects_of(change: ReviewChange) -> str:
+    """Return what changed; of many, the first and their number."""
+    shown = change.subjects if len(change.subjects) <= _FEW else change.subjects[:_FEW]
+    more = len(change.subjects) - len(shown)
+    return ", ".join(shown) + (f" and {more} more" if more else "")
+
+
+def values_of(change: ReviewChange) -> str:
+    """Return the values before and after, with the difference where it has a size."""
+    values = f"{change.before or 'nothing'} -> {change.after or 'nothing'}"
+    return f"{values} ({change.delta})" if change.delta else values
+
+
+def outcomes(rehearsal: ReviewRehearsal) -> str:
+    """Return how a rehearsal ended on both sides."""
+    before, after = rehearsal.before or "not run", rehearsal.after or "not run"
+    ended = before if before == after else f"{before} -> {after}"
+    return f"{rehearsal.name}: {ended}" + (", not as declared" if rehearsal.passed_after is False else "")
+
+
+def gate_line(gate: ReviewGate) -> str:
+    """Return a gate with the evidence to record again."""
+    because = f" (because of {', '.join(gate.because)})" if gate.because else ""
+    return f"{gate.code} {gate.title}: {gate.evidence}{because}"
+
+
+def approved_by(change: ReviewChange) -> str:
+    """Return whose approval a change needs; empty for one that is safe."""
+    return "" if change.grade is Grade.SAFE else f"approval {change.approval}: {change.owner or 'no owner'}"
+
+
+def _change(change: ReviewChange) -> Iterator[Line]:
+    breaking: tuple[str | Styled, ...] = ("  ", Styled("breaks consumers", Style.RED)) if change.breaking else ()
+    yield ("  ", Styled(change.area.value, Style.BOLD), f"  {subjects_of(change)}: {change.quantity}", *breaking)
+    yield f"      {values_of(change)}"
+    said = "; ".join(part for part in (change.why, approved_by(change)) if part)
+    if said:
+        yield ("      ", Styled(said, Style.DIM))
+
+
+def findings_told(title: str, findings: tuple[ReviewFinding, ...]) -> Iterator[Line]:
+    """Yield findings of the check under a title; nothing where there are none."""
+    if findings:
+        yield ""
+        yield title
+        yield from (f"  {found.severity}[{found.code}]: {found.message} ({found.place})" for found in findings)

@@ -1,0 +1,111 @@
+"""Values of a package as people read them: mm, degrees and percent."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+
+from cellc.contract.transforms import Pose, apart
+from cellc.tools.review.leaves import Leaf, Prose, said
+
+_FEW = 6
+"""Entries of a list that are shown; of a longer one, those that differ."""
+
+
+def shown(value: Leaf | None, unit: str) -> str | None:
+    """Return a value with its unit.
+
+    Args:
+        unit: SI unit of numbers, empty where they have none.
+    """
+    if value is None:
+        return None
+    if isinstance(value, Prose):
+        return value.text
+    if isinstance(value, Pose):
+        turn = " ".join(_number(math.degrees(angle)) for angle in value.rpy())
+        return f"xyz {_numbers(value.position, 1e3)} mm, rpy {turn} deg"
+    if isinstance(value, tuple):
+        return _shown_list(value, unit)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return value if isinstance(value, str) else _with_unit(value, unit)
+
+
+def _shown_list(value: tuple[str | float | int | bool, ...], unit: str) -> str:
+    if value and all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in value):
+        factor, name = _SHOWN.get(unit, (1.0, unit))
+        return f"{_numbers(tuple(float(one) for one in value), factor)} {name}".rstrip()
+    return ", ".join(said(one) for one in value) if len(value) <= _FEW else f"{len(value)} entries"
+
+
+_SHOWN = {
+    "m": (1e3, "mm"),
+    "rad": (math.degrees(1.0), "deg"),
+    "m/s": (1e3, "mm/s"),
+    "rad/s": (math.degrees(1.0), "deg/s"),
+    "m/s^2": (1e3, "mm/s^2"),
+    "rad/s^2": (math.degrees(1.0), "deg/s^2"),
+    "m/s^3": (1e3, "mm/s^3"),
+    "rad/s^3": (math.degrees(1.0), "deg/s^3"),
+}
+
+
+def _with_unit(value: float, unit: str) -> str:
+    if unit == "s" and 0.0 < abs(value) < 1.0:
+        return f"{_number(value * 1e3)} ms"
+    factor, name = _SHOWN.get(unit, (1.0, unit))
+    return f"{_number(value * factor)} {name}".rstrip()
+
+
+def _numbers(values: tuple[float, ...], factor: float) -> str:
+    return " ".join(_number(value * factor) for value in values)
+
+
+def _number(value: float) -> str:
+    return f"{round(value, 6) + 0.0:.7g}"
+
+
+def difference(before: Leaf | None, after: Leaf | None, unit: str) -> str:
+    """Return how much a value differs; empty where that has no size."""
+    if isinstance(before, Pose) and isinstance(after, Pose):
+        return motion(*apart(before, after))
+    if isinstance(before, tuple) and isinstance(after, tuple):
+        return _of_lists(before, after)
+    if isinstance(before, (bool, str, Prose)) or isinstance(after, (bool, str, Prose)):
+        return ""
+    if not isinstance(before, (int, float)) or not isinstance(after, (int, float)):
+        return ""
+    if isinstance(before, int) and isinstance(after, int):
+        return ""
+    if before and (unit not in ("m", "rad") or before > 0.0 < after):
+        return f"{_rounded(100.0 * (after - before) / abs(before)):+.10g} %"
+    sign = "+" if after > before else ""
+    return sign + _with_unit(after - before, unit)
+
+
+def motion(metres: float, radians: float) -> str:
+    """Return how far something moves and turns."""
+    parts = [f"moves {_length(metres)}"] if metres > 1e-9 else []
+    parts += [f"turns {_number(round(math.degrees(radians), 4))} deg"] if radians > 1e-7 else []
+    return ", ".join(parts)
+
+
+def _length(metres: float) -> str:
+    shown = _rounded(metres)
+    return f"{shown * 1e3:.10g} mm" if shown < 1.0 else f"{shown:.10g} m"
+
+
+def _rounded(value: float) -> float:
+    """Return three digits of a value, which is then written without a power of ten."""
+    return float(f"{value:.3g}")
+
+
+def _of_lists(before: tuple[str | float | int | bool, ...], after: tuple[str | float | int | bool, ...]) -> str:
+    if max(len(before), len(after)) <= 1 or not all(isinstance(one, str) for one in (*before, *after)):
+        return ""
+    gone, come = Counter(map(said, before)), Counter(map(said, after))
+    lost, new = sorted((gone - come).elements()), sorted((come - gone).elements())
+    parts = [f"lost {', '.join(lost)}"] if lost else []
+    parts += [f"new {', '.join(new)}"] if new else []
+    return "; ".join(parts) or "in another order"

@@ -1,0 +1,107 @@
+"""What an upgrade changes, for people: at a terminal, and as a comment of a pull request."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from cellc.contract.printing import Line, Style, Styled
+from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradeParameter, UpgradePin
+from cellc.tools.review.markdown import LONGEST, as_code, folded, render_markdown
+from cellc.tools.review.text import findings_told, gate_line, render_review
+
+_FEW = 6
+_STYLE = {"OK": Style.GREEN, "UNKNOWN": Style.YELLOW, "INCOMPATIBLE": Style.RED}
+
+
+def render_upgrade(upgrade: Upgrade) -> Iterator[Line]:
+    """Yield the lines of an upgrade for a terminal, what is asked first."""
+    yield summed_up(upgrade)
+    yield from (f"{upgrade.after}  {fact}" for fact in upgrade.facts)
+    yield from _section("to decide", upgrade.questions, Style.YELLOW)
+    yield from findings_told("errors of the check on it, so that no package is compared", upgrade.errors)
+    yield ""
+    yield "version tuple"
+    for pin in upgrade.pins:
+        yield f"  {_moved(pin)}"
+        yield ("      ", Styled(pin.answer, _STYLE[pin.answer]), Styled(f": {pin.evidence}", Style.DIM))
+    yield from _section("declared parameters", map(parameters_told, _alike(upgrade.parameters)))
+    yield from _section("names at the ROS graph", map(interface_told, upgrade.interfaces))
+    if upgrade.review is not None:
+        yield ""
+        yield from render_review(upgrade.review)
+    else:
+        yield from _section("gates to repeat (their evidence is no longer valid)", map(gate_line, upgrade.gates))
+
+
+def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
+    """Return an upgrade as a comment of a pull request.
+
+    Args:
+        longest: characters; what does not fit is counted.
+    """
+    head = [f"### {as_code(summed_up(upgrade))}", "", *(f"- {as_code(fact)}" for fact in upgrade.facts), ""]
+    head += folded("To decide", map(as_code, upgrade.questions), is_open=True)
+    errors = (f"{as_code(found.code)}: {as_code(found.message)}" for found in upgrade.errors)
+    head += folded("Errors of the check on it", errors, is_open=True)
+    pins = (f"{as_code(_moved(pin))} {pin.answer}: {as_code(pin.evidence)}" for pin in upgrade.pins)
+    head += folded("Version tuple", pins, is_open=True)
+    head += folded("Declared parameters", (as_code(parameters_told(one)) for one in _alike(upgrade.parameters)))
+    head += folded("Names at the ROS graph", (as_code(interface_told(one)) for one in upgrade.interfaces))
+    if upgrade.review is None:
+        return "\n".join((*head, *folded("Gates to repeat", (as_code(gate_line(one)) for one in upgrade.gates))))
+    own = "\n".join(head) + "\n"
+    return own + render_markdown(upgrade.review, longest - len(own))
+
+
+def summed_up(upgrade: Upgrade) -> str:
+    """Return one line: how many pins change, and how much is asked."""
+    pins = sum(pin.before != pin.after for pin in upgrade.pins)
+    asked = len(upgrade.questions)
+    told = f"{pins} pin{'s' if pins != 1 else ''} change{'s' if pins == 1 else ''}"
+    return f"{upgrade.cell}: {upgrade.before} to {upgrade.after}: {told}, {asked} question{'s' if asked != 1 else ''}"
+
+
+def _moved(pin: UpgradePin) -> str:
+    kept = f"stays {pin.before}" if pin.before == pin.after else f"{pin.before} -> {pin.after}"
+    return f"{pin.holder} {pin.part}: {kept}"
+
+
+def parameters_told(alike: Sequence[UpgradeParameter]) -> str:
+    """Return what becomes of parameters that the same nodes declare and of which the same becomes."""
+    first = alike[0]
+    what = f" {first.what}" if first.what else ""
+    named = ", ".join(one.parameter + _values(one) for one in alike)
+    return f"{_nodes(first.nodes)}: {first.change}{what}: {named}"
+
+
+def _values(one: UpgradeParameter) -> str:
+    stated = ", stated by the cell" if one.stated else ""
+    if one.change == "changes":
+        return f" ({one.before} -> {one.after}{stated})"
+    default = one.before if one.after is None else one.after
+    return f" ({default}{stated})" if default is not None else stated
+
+
+def _alike(parameters: Iterable[UpgradeParameter]) -> Iterator[Sequence[UpgradeParameter]]:
+    groups: dict[tuple[tuple[str, ...], str, str], list[UpgradeParameter]] = {}
+    for one in parameters:
+        groups.setdefault((one.nodes, one.change, one.what), []).append(one)
+    yield from groups.values()
+
+
+def interface_told(one: UpgradeInterface) -> str:
+    """Return a name that nodes gain or lose."""
+    return f"{one.change}: {one.right} {one.name} of {_nodes(one.nodes)}"
+
+
+def _nodes(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
+    return ", ".join(names[:_FEW]) + more
+
+
+def _section(title: str, lines: Iterable[str], style: Style | None = None) -> Iterator[Line]:
+    told = list(lines)
+    if told:
+        yield ""
+        yield title if style is None else (Styled(title, style),)
+        yield from (f"  {line}" for line in told)

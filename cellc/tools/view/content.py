@@ -1,0 +1,117 @@
+"""Everything that the page shows, computed: what stands in the cell, and its rehearsals as they ran."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass
+
+from cellc.contract.diagnostics import Severity, YamlPath
+from cellc.contract.diagnostics.diagnostic import format_path
+from cellc.contract.printing import progress
+from cellc.contract.review import Review
+from cellc.tools.view.playback import Run
+from cellc.tools.view.scene import Scene, scene_of
+from cellc.tools.view.skeleton import Skeleton
+from cellc.tools.view.standing import Standing
+from cellc.tools.view.subject import Subject, read_subject
+
+
+@dataclass(frozen=True, slots=True)
+class Before:
+    """Another state of the cell that this one is put against, and what changed since."""
+
+    scene: Scene
+    review: Review
+
+
+@dataclass(frozen=True, slots=True)
+class Content:
+    """What the page shows.
+
+    Attributes:
+        scene: None where nothing of the spec can be linked.
+        not_drawn: what the cell names and the drawing does not have, each with the reason.
+    """
+
+    subject: Subject
+    scene: Scene | None
+    runs: tuple[Run, ...]
+    not_drawn: tuple[tuple[str, str], ...] = ()
+    before: Before | None = None
+
+
+def content_of(subject: Subject, rehearsals: Sequence[str], seed: int) -> Content:
+    """Compute what is shown of a subject.
+
+    Args:
+        rehearsals: those that are played back; all of them if empty.
+
+    Raises:
+        MockError: the package has no rehearsal of a name, or its parts do not fit together.
+    """
+    if subject.standing is None:
+        return Content(subject, None, (), tuple(_not_drawn(subject, frozenset())))
+    skeleton = Skeleton(subject.standing)
+    scene = scene_of(subject.standing, subject.views, skeleton)
+    absent = (*_not_drawn(subject, _shown(subject.standing, scene)), *scene.left_out)
+    if subject.folder is None:
+        return Content(subject, scene, (), absent)
+    # Planning libraries load where there is a package to run.
+    from cellc.mock.cell import cell_of, in_turn
+    from cellc.tools.view.playback import play
+
+    cell = cell_of(subject.folder)
+    runs = []
+    with progress("view") as update:
+        for name in in_turn(cell, dict.fromkeys(rehearsals) or cell.rehearsals):
+            update(f"rehearsal {name}")
+            runs.append(play(cell, name, skeleton, seed))
+    return Content(subject, scene, tuple(runs), absent)
+
+
+def before_of(other: str, path: str) -> Before:
+    """Return the state of the cell that another spec, folder or git revision of it has, and what changed since.
+
+    Raises:
+        SideError: a side cannot be compared, or holds errors.
+    """
+    # Comparing loads the compiler.
+    from cellc.tools.review.review import review
+    from cellc.tools.review.sides import SideError, packages, sides
+
+    with packages(*sides((other, path))) as ((before, place), (after, _)):
+        subject = read_subject(place)
+        if subject.standing is None:
+            raise SideError(f"{other}: an error keeps the package from being made")
+        scene = scene_of(subject.standing, subject.views, Skeleton(subject.standing))
+        return Before(scene, review(before, after))
+
+
+def _shown(standing: Standing, scene: Scene) -> frozenset[YamlPath]:
+    """Return what the drawing has of what a cell names."""
+    frames = [one.name for one in scene.frames]
+    return frozenset(
+        (
+            *(("devices", name) for name in standing.roots),
+            *((section, name) for section in ("frames", "scene") for name in frames),
+            *(("motion", "poses", one.name) for one in scene.poses),
+            *(("motion", "goals", one.name) for one in scene.goals),
+        )
+    )
+
+
+def _not_drawn(subject: Subject, shown: Container[YamlPath]) -> Iterator[tuple[str, str]]:
+    """Yield what a reader may look for in vain: its own error, or that nothing says where it stands."""
+    findings = () if subject.findings is None else subject.findings.diagnostics
+    errors = [one for one in findings if one.severity is Severity.ERROR]
+    if errors and not subject.wanted:
+        yield "the whole cell", f"{errors[0].message} ({errors[0].span})"
+    for path, error in subject.wanted.items():
+        if path not in shown:
+            # What links and is still not drawn may stand in a circle, which a rule tells.
+            told = error or next((one for one in errors if one.yaml_path[: len(path)] == path), None)
+            yield format_path(path), _unplaced(subject) if told is None else f"{told.message} ({told.span})"
+
+
+def _unplaced(subject: Subject) -> str:
+    return "it needs what is not drawn" if subject.folder is None else "no pose on the mock is stated"

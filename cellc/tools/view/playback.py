@@ -1,0 +1,209 @@
+"""A rehearsal as it ran on the mock: where every group stood when, what was done, and which fault began when."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cellc.contract.rehearsals import FaultEntry
+from cellc.mock.cell import MockCell
+from cellc.mock.control import JointStateBlock
+from cellc.mock.engine.control_stack import GoalSent
+from cellc.mock.evidence.begun_faults import begun_faults
+from cellc.mock.plant import Plant
+from cellc.mock.result import AttemptRecord, RehearsalResult
+from cellc.tools.view.scene import Numbers, numbers
+from cellc.tools.view.skeleton import Carried, Skeleton
+
+_STEP_NS = 40_000_000
+"""Twenty-five pictures a second; between two of them the page goes on a straight line."""
+_MS = 1_000_000
+_STILL = 1e-5
+"""Below it, in rad or m from one picture to the next, a joint stands."""
+
+_Positions = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A span of the time line in s: an attempt at a step and its outcome."""
+
+    from_s: float
+    until_s: float
+    name: str
+    outcome: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class FaultMark:
+    """When a fault began, and what it is."""
+
+    at_s: float
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """Where a group stood at each time of the run: seven numbers for each."""
+
+    group: int
+    poses: Numbers
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A rehearsal to play back.
+
+    Attributes:
+        times: of the pictures, s; none where the cell never came up.
+        base: seven numbers for each group as the run begins.
+        tracks: of the groups that moved.
+        reason: why it ended as it did.
+    """
+
+    name: str
+    outcome: str
+    expected: str
+    passed: bool
+    reason: str
+    end_s: float
+    times: Numbers
+    base: Numbers
+    tracks: tuple[Track, ...]
+    moments: tuple[Moment, ...]
+    faults: tuple[FaultMark, ...]
+
+
+class _Listener:
+    """Keeps joint states as they are published, 25 a second."""
+
+    def __init__(self, plant: Plant) -> None:
+        self.plant = plant
+        self.rows: dict[tuple[str, str], list[tuple[int, dict[str, float]]]] = {}
+        plant.control.watch(self)
+
+    def configured(self) -> None:
+        """Nothing was published yet."""
+
+    def goal_sent(self, sent: GoalSent) -> None:
+        """Goals are known from the attempts."""
+
+    def joint_states(self, manager: str, controller: str, block: JointStateBlock) -> None:
+        rows = self.rows.setdefault((manager, controller), [])
+        slots = block.stamps_ns // _STEP_NS
+        last = rows[-1][0] // _STEP_NS if rows else -1
+        for index in np.flatnonzero(np.diff(slots, prepend=last)).tolist():
+            taken = dict(zip(block.names, block.positions[index].tolist(), strict=True))
+            rows.append((int(block.stamps_ns[index]), taken))
+
+
+def play(cell: MockCell, name: str, skeleton: Skeleton, seed: int) -> Run:
+    """Run a rehearsal and keep what the page plays back.
+
+    Raises:
+        MockError: it names what the contract does not have.
+    """
+    heard: list[_Listener] = []
+    entry = cell.entry(name)
+    result = cell.rehearse(entry, seed=seed, watch=lambda plant: heard.append(_Listener(plant)))
+    if not heard:
+        return _run(entry.faults, result, (), [], 0.0)
+    plant, end_ns = heard[0].plant, heard[0].plant.now_ns
+    joints = _joints(heard[0])
+    times = _kept(joints, [at for name in plant.world.objects() for at in _handed_over(plant, name)], end_ns)
+    postures = [
+        tuple(numbers(pose) for pose in skeleton.posture(_at(joints, time_ns), _carried(plant, time_ns)))
+        for time_ns in times
+    ]
+    return _run(entry.faults, result, [time_ns / 1e9 for time_ns in times], postures, end_ns / 1e9)
+
+
+@dataclass(frozen=True, slots=True)
+class _Signal:
+    """Positions of one joint over time."""
+
+    name: str
+    stamps_ns: NDArray[np.int64]
+    positions: _Positions
+
+
+def _joints(heard: _Listener) -> list[_Signal]:
+    """Return the signal of each joint from the manager that drives it."""
+    signals: list[_Signal] = []
+    for key, rows in heard.rows.items():
+        stamps = np.array([stamp for stamp, _ in rows], dtype=np.int64)
+        for joint in heard.plant.control.histories[key].names:
+            values = np.array([taken.get(joint, np.nan) for _, taken in rows])
+            good = np.isfinite(values)
+            if good.any():
+                signals.append(_Signal(joint, stamps[good], values[good]))
+    return signals
+
+
+def _kept(joints: Sequence[_Signal], handed_over: Sequence[int], end_ns: int) -> list[int]:
+    """Return the times of the pictures: a picture between two equal ones is left out."""
+    times = np.arange(0, end_ns + _STEP_NS, _STEP_NS)
+    times[-1] = end_ns
+    table = np.array([np.interp(times, one.stamps_ns, one.positions) for one in joints]).reshape(
+        len(joints), len(times)
+    )
+    moved = (np.abs(np.diff(table, axis=1)) > _STILL).any(axis=0)
+    wanted = np.concatenate([[True], moved]) | np.concatenate([moved, [True]])
+    # A picture before and one at the change: what is handed over does not glide.
+    around = [at for change in handed_over for at in (max(0, change - _MS), change)]
+    return sorted({*times[wanted].tolist(), *around})
+
+
+def _handed_over(plant: Plant, name: str) -> Iterator[int]:
+    return (one.from_ns for one in plant.world.placements(name)[1:])
+
+
+def _at(joints: Sequence[_Signal], time_ns: int) -> dict[str, float]:
+    return {one.name: float(np.interp(time_ns, one.stamps_ns, one.positions)) for one in joints}
+
+
+def _carried(plant: Plant, time_ns: int) -> Carried:
+    carried = {}
+    for name in plant.world.objects():
+        placements = plant.world.placements(name)
+        index = bisect_right(placements, time_ns, key=lambda one: one.from_ns) - 1
+        carried[name] = (placements[max(0, index)].link, placements[max(0, index)].pose)
+    return carried
+
+
+def _run(
+    faults: Sequence[FaultEntry],
+    result: RehearsalResult,
+    times: Sequence[float],
+    postures: Sequence[Sequence[Numbers]],
+    end_s: float,
+) -> Run:
+    first = postures[0] if postures else ()
+    moving = [number for number in range(len(first)) if any(row[number] != first[number] for row in postures)]
+    return Run(
+        name=result.name,
+        outcome=result.outcome.value,
+        expected=result.expected.value,
+        passed=result.passed,
+        reason=result.reason,
+        end_s=round(end_s, 3),
+        times=tuple(round(time, 3) for time in times),
+        base=tuple(value for pose in first for value in pose),
+        tracks=tuple(Track(one, tuple(value for row in postures for value in row[one])) for one in moving),
+        moments=tuple(_moment(record) for record in result.attempts[:-1]),
+        faults=tuple(FaultMark(round(at, 3), _said(fault)) for at, fault in begun_faults(faults, result.attempts)),
+    )
+
+
+def _moment(record: AttemptRecord) -> Moment:
+    from_s, until_s = record.started_ns / 1e9, record.ended_ns / 1e9
+    return Moment(round(from_s, 3), round(until_s, 3), record.step, record.outcome.value, record.fault_code)
+
+
+def _said(fault: FaultEntry) -> str:
+    return f"{fault.kind.value.replace('_', ' ')} {fault.target}"

@@ -1,0 +1,101 @@
+"""The cell as rigid groups: what no joint between them can move apart, so that a posture is one pose for each group."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from cellc.contract.base import ContractPose
+from cellc.contract.contract import ContractFrame
+from cellc.contract.transforms import Pose, identity
+from cellc.mock.world.world import LinkTree, link_tree
+from cellc.robot.description.model import Description
+from cellc.tools.view.standing import Standing
+
+Carried = Mapping[str, tuple[str, Pose]]
+"""Where dynamic frames stand: the link that each hangs from, and its pose there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A place that does not move in its group."""
+
+    group: int
+    pose: Pose
+
+
+class Skeleton:
+    """Groups of links, and of what perception finds.
+
+    Attributes:
+        groups: name of the first link of each group, and of each dynamic frame that the mock places.
+        frames: where each frame of the cell is held; dynamic ones that nothing places are left out.
+    """
+
+    def __init__(self, standing: Standing) -> None:
+        """Find the groups of what stands."""
+        description = standing.description
+        self._tree: LinkTree = link_tree(description)
+        self._start = dict(_start_positions(description))
+        moved = {joint.child for joint in description.joints if joint.movable}
+        self._links = tuple(link.name for link in description.links)
+        roots = [name for name in self._links if name in moved or name not in self._tree.joints]
+        self._placed: Carried = {
+            name: (frame.simulated_parent, pose_of(frame.simulated_pose))
+            for name, frame in standing.frames.items()
+            if frame.simulated_parent in self._links and frame.simulated_pose is not None
+        }
+        self.groups: tuple[str, ...] = (*roots, *self._placed)
+        self._numbers = {name: number for number, name in enumerate(self.groups)}
+        self.frames = dict(self._frames(standing.frames))
+
+    def posture(self, positions: Mapping[str, float], carried: Carried | None = None) -> tuple[Pose, ...]:
+        """Return the pose of each group in the root link.
+
+        Args:
+            positions: rad or m by joint; the others stand where the mock begins.
+            carried: dynamic frames that stand elsewhere than at first.
+        """
+        at = {**self._start, **positions}
+        placed = {**self._placed, **(carried or {})}
+        return tuple(
+            self._tree.pose(placed[name][0], at) @ placed[name][1] if name in placed else self._tree.pose(name, at)
+            for name in self.groups
+        )
+
+    def held(self, link: str) -> Held:
+        """Return where a link is held."""
+        pose = identity()
+        while link not in self._numbers:
+            joint = self._tree.joints[link]
+            pose, link = joint.origin @ pose, joint.parent
+        return Held(self._numbers[link], pose)
+
+    def _frames(self, frames: Mapping[str, ContractFrame]) -> Iterator[tuple[str, Held]]:
+        for name in frames:
+            found = self._frame(name, frames, 0)
+            if found is not None:
+                yield name, found
+
+    def _frame(self, name: str, frames: Mapping[str, ContractFrame], depth: int) -> Held | None:
+        if name in self._links or name in self._placed:
+            return self.held(name)
+        frame = frames.get(name)
+        if frame is None or frame.pose is None or depth > len(frames):
+            return None
+        parent = self._frame(frame.parent, frames, depth + 1)
+        return None if parent is None else Held(parent.group, parent.pose @ pose_of(frame.pose))
+
+
+def pose_of(written: ContractPose) -> Pose:
+    """Return a pose of the contract."""
+    return Pose(written.xyz, written.quaternion)
+
+
+def _start_positions(description: Description) -> Iterable[tuple[str, float]]:
+    """Yield where the joints of the mock begin, as the description tells its hardware."""
+    for component in description.hardware:
+        for joint in component.joints:
+            for interface in joint.state_interfaces:
+                if interface.name == "position" and interface.initial_value:
+                    yield joint.name, float(interface.initial_value)
