@@ -291,6 +291,24 @@ def test_meshes_of_collision_shapes_come_along_and_no_others(here: Path) -> None
     assert "license BSD" in (here / "mine" / "device.yaml").read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("named", ["hull.stl", "meshes/hull.stl", "assets/left/hull.stl"])
+def test_a_mesh_that_is_named_from_the_file_comes_along(named: str, here: Path) -> None:
+    # As in the SO-100, whose repository is not a package.
+    triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\nendloop\nendfacet\n"
+    names = (named, "assets/right/hull.stl")
+    for name in names:
+        mesh = here / "urdf" / name
+        mesh.parent.mkdir(parents=True, exist_ok=True)
+        mesh.write_text(f"solid a\n{triangle}endsolid {name}\n", encoding="utf-8")
+    shapes = (f'<collision><geometry><mesh filename="{name}"/></geometry></collision>' for name in names)
+    text = _robot(*ARM).replace('<link name="a">', f'<link name="a">{"".join(shapes)}')
+    (here / "urdf/arm.urdf").write_text(text, encoding="utf-8")
+    assert run("import", "urdf/arm.urdf", "-o", "mine").code == 0
+    copies = {file.read_text(encoding="utf-8").split()[-1] for file in (here / "mine").rglob("*.stl")}
+    assert copies == set(names)
+    assert "are missing" not in (here / "mine/device.yaml").read_text(encoding="utf-8")
+
+
 def test_package_behind_three_slashes_is_the_package(here: Path) -> None:
     # As in example-robot-data's TALOS.
     (here / "talos_data").mkdir()

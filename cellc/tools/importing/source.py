@@ -136,12 +136,14 @@ def _packaged(name: str, file: Path) -> str:
     if separator and scheme != "file":
         # `package:///PKG/…` stands in vendors' files, and their loaders take it; so do `//` and `..` within a package.
         return PACKAGE + posixpath.normpath(path.lstrip("/")) if scheme in ("package", "model") else name
-    absolute = Path(os.path.normpath(path if separator else file.parent / name))
+    here = Path(os.path.normpath(file.absolute().parent))
+    absolute = Path(os.path.normpath(here / (path if separator else name)))
     for above in absolute.parents:
         if (above / MANIFEST).is_file():
             package = declared_name((above / MANIFEST).as_posix()) or above.name
             return f"{PACKAGE}{package}/{absolute.relative_to(above).as_posix()}"
-    return f"{PACKAGE}meshes/{absolute.name}"
+    below = absolute.relative_to(here if here in absolute.parents else absolute.parent)
+    return f"{PACKAGE}meshes/{below.as_posix().removeprefix('meshes/')}"
 
 
 def packages_elsewhere(robot: Robot, folder: Path) -> tuple[str, ...]:
