@@ -64,7 +64,7 @@ ROWS: tuple[tuple[str, str, str], ...] = (
     ("shape", '<box size="2 1 1"/>', ""),
     ("shape", '<cylinder radius="1" length="2"/>', ""),
     ("shape", '<sphere radius="1"/>', ""),
-    ("shape", '<mesh filename="package://p/m.stl" scale="2 2 2"/>', "m.stl first, are missing"),
+    ("shape", '<mesh filename="package://p/m.stl" scale="2 2 2"/>', "meshes that are missing, package://p/m.stl"),
     ("joint", f'{_LIMIT}<origin xyz="1 0 0" rpy="0 1 0"/>', ""),
     ("joint", f'{_LIMIT}<axis xyz="0 1 0"/>', ""),
     ("joint", '<limit lower="-1" upper="2" velocity="1" effort="10"/>', ""),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -74,9 +74,14 @@ def questions(robot: Robot, role: Role, judged: Judged) -> Iterator[str]:
     asked = [pair for pair, because in judged.allowed.items() if because.startswith("UNKNOWN")]
     if asked:
         shown = ", ".join(f"{first} and {second}" for first, second in asked[:3])
-        yield f"{len(asked)} pairs of links touch at home, {shown} among them: may they?"
+        yield f"links touch at home, {shown}{_more(asked[3:])}: may they?"
     if robot.missing:
-        yield f"{len(robot.missing)} meshes of collision shapes, {robot.missing[0]} first, are missing: where are they?"
+        more = _more(robot.missing[1:])
+        yield f"collision shapes name meshes that are missing, {robot.missing[0]}{more}: where are they?"
+
+
+def _more(others: Sequence[object]) -> str:
+    return f", and {len(others)} more" if others else ""
 
 
 def device_facts(robot: Robot, role: Role, judged: Judged, day: str) -> Facts:
