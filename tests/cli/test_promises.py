@@ -6,7 +6,9 @@ import os
 import re
 import shutil
 import struct
+import threading
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -49,11 +51,16 @@ def _bounded(monkeypatch: pytest.MonkeyPatch, **bounds: int) -> None:
     monkeypatch.setattr("cellc.tools.cli.limit_option.raised", lambda _given: Limits(**bounds))
 
 
+_PROSE = 16
+"""How many of the texts fit into a summary: the last, those of Markdown among them."""
+
+
 def _with_texts(texts: Mapping[str, str]) -> str:
     """Return a cell with a text in each parameter of a node, and one in its summary."""
     spec: Any = yaml.safe_load(TINY[0].replace("./parts/", "./"))
     spec["nodes"]["seer"]["parameters"] = dict(texts)
-    spec["summary"] = next(iter(texts.values()))
+    marks = [text.replace("\n", " ") for text in texts.values()][-_PROSE:]
+    spec["summary"] = " ".join(marks)  # is prose in Markdown
     return yaml.safe_dump(spec, sort_keys=False, allow_unicode=True)
 
 
@@ -184,10 +191,23 @@ def test_a_key_that_a_mesh_has_twice_is_refused(cell: Path) -> None:
 
 @pytest.mark.parametrize("line", ["mtllib {}", "mtl\\\nlib {}", "\fmtllib {}"], ids=ascii)
 def test_no_line_of_a_mesh_has_another_file_read(line: str, cell: Path) -> None:
-    # Whatever opened the pipe would wait for its writer until the child is ended, which is a finding.
-    os.mkfifo(cell / "pipe")
-    make(cell, mesh("a.obj", OBJ + line.format(cell / "pipe") + "\n"))
+    # A pipe tells that it is opened, which a file does not. The library looks beside its copy of the mesh.
+    pipe, opened, over = cell / "pipe", threading.Event(), threading.Event()
+    os.mkfifo(pipe)
+
+    def wait_for_a_reader() -> None:
+        while not over.wait(0.005):
+            with suppress(OSError):  # nobody reads
+                os.close(os.open(pipe, os.O_WRONLY | os.O_NONBLOCK))
+                opened.set()
+
+    waiting = threading.Thread(target=wait_for_a_reader)
+    waiting.start()
+    make(cell, mesh("a.obj", OBJ + line.format(f"{'../' * 40}{pipe.as_posix().lstrip('/')}") + "\n"))
     ran = run("check", "cell.yaml")
+    over.set()
+    waiting.join()
+    assert not opened.is_set()
     assert (ran.code, "mesh" in ran.out) == (0, False), ran.out
 
 
