@@ -24,6 +24,11 @@ def _kinds() -> dict[str, str]:
     return {name: one.model.kind for name, one in found.items() if one is not None}
 
 
+def _mounts(*names: str) -> dict[str, str]:
+    found = {name: load_device(name).value for name in names}
+    return mounts_of({name: one.model for name, one in found.items() if one is not None})
+
+
 @pytest.mark.parametrize("models", [_ONE_OF_A_KIND, _TWO_RATES, *_SUBSETS], ids=lambda models: "-".join(models))
 def test_a_cell_of_any_devices_passes_and_moves(
     models: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -40,7 +45,7 @@ def test_a_cell_of_any_devices_passes_and_moves(
 def test_of_any_two_devices_only_tools_stand_on_an_arm() -> None:
     kinds = _kinds()
     for one, other in itertools.permutations(device_names(), 2):
-        mounts = mounts_of({name: load_device(name).value.model for name in (one, other)})  # type: ignore[union-attr]
+        mounts = _mounts(one, other)
         carrier = mounts[one].partition("parent: ")[2].partition("/")[0]
         if carrier == other and kinds[other] == "arm":
             assert kinds[one] in _ON_ARMS, (one, other)
@@ -52,7 +57,7 @@ def test_of_any_two_devices_only_tools_stand_on_an_arm() -> None:
 
 def test_tool_hangs_on_the_sensor_of_its_arm_and_arm_stands_on_the_rail() -> None:
     names = ("ur5e", "robotiq_2f_85", "ati_axia80", "linear_axis", "realsense_d435i")
-    mounts = mounts_of({name: load_device(name).value.model for name in names})  # type: ignore[union-attr]
+    mounts = _mounts(*names)
     assert mounts == {
         "linear_axis": "{parent: world, xyz: 0 0 0 m}",
         "ur5e": "{parent: linear_axis/mount}",

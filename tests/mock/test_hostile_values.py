@@ -21,7 +21,7 @@ from tests.cli.run import Ran, run
 from tests.printing.payloads import harm
 
 _Place: TypeAlias = "tuple[str | int, ...]"
-VALUES = (
+VALUES: tuple[Any, ...] = (
     "../../x",
     "/abs",
     "\x1b[2J\n::error::f",

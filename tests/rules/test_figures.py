@@ -6,8 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from cellc.compiler.pipeline import check
 from cellc.compiler.rules.motion.timeout_below_motion import _alone_s
 from cellc.compiler.rules.run import ALL_RULES
+from tests.cells import CORPUS, ROOT
 from tests.rules.examples import diagnose_example, examples
 
 FIGURES = {
@@ -53,3 +55,12 @@ def test_figure_of_a_rule_is_that_of_the_hand(code: str, folder: Path) -> None:
 )
 def test_joint_alone_takes(way: float, velocity: float, acceleration: float | None, expected_s: float) -> None:
     assert _alone_s(way, velocity, acceleration) == pytest.approx(expected_s)
+
+
+def test_a_wrong_velocity_limit_is_shown_where_the_description_has_it() -> None:
+    checked = check(CORPUS / "invalid/missing-velocity-limit-zero.yaml")
+    (finding,) = (one for one in checked if one.code == "missing-velocity-limit")
+    (described,) = finding.related
+    file = Path(described.span.file)
+    assert file.suffix in (".urdf", ".xacro")
+    assert "<joint" in (ROOT / file).read_text(encoding="utf-8").splitlines()[described.span.line - 1]

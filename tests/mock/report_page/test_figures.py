@@ -33,8 +33,8 @@ def computations(source: str, drawing: tuple[str, ...]) -> Iterator[str]:
         for inner in ast.walk(node)
     }
     for node in ast.walk(tree):
-        if id(node) not in left_out and _computes(node):
-            yield f"{node.lineno}: {ast.unparse(node)}"  # type: ignore[attr-defined]
+        if isinstance(node, (ast.expr, ast.stmt)) and id(node) not in left_out and _computes(node):
+            yield f"{node.lineno}: {ast.unparse(node)}"
 
 
 def _computes(node: ast.AST) -> bool:
