@@ -3,8 +3,9 @@
 ``python benchmarks/mutants.py [--count 200] [--seed 1] [--stage NAME] [--folder DIR]``. Mutants are drawn evenly by
 lines of code over the stages. ``FOLDERS`` says which tests are the nearest of a stage. They run once with probes, so
 that it is known which test executes which statement; then each mutant runs those alone, near and quick ones first, up
-to the first failure. What no test executes survives. Everything happens in a copy of the checkout in ``--folder``: a
-second call goes on where the first ended, and probes only files of tests that have changed.
+to the first failure. What none executes by itself is looked at by all that are near. Everything happens in a copy of
+the checkout in ``--folder``: a second call goes on where the first ended, and probes only files of tests that have
+changed.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from mutation.probe import Told, plant, record, statements
 from mutation.swap import swap
 
 ROOT = Path(__file__).resolve().parents[1]
+_PROGRAMS = "consumers/test_bring_up.py consumers/test_first_goal.py consumers/test_installed_versions.py"
 FOLDERS = {
     "__main__.py": "cli",
     "adapter": "mock/adapter",
@@ -42,13 +44,17 @@ FOLDERS = {
     "cell": "cell link",
     "compiler": "report",
     "compute": "compute",
-    "contract": "mock",
+    "contract": "spec mock",
     "deploy": "deploy",
     "diagnostics": "report",
     "edit": "cli",
     "emit": "emit",
+    "emit/launch/bring_up_program.py": _PROGRAMS,
+    "emit/launch/first_goal_program.py": _PROGRAMS,
+    "emit/launch/installed_versions_program.py": _PROGRAMS,
     "importing": "foreign cli",
     "limits.py": "description source",
+    "link": "link corpus",
     "pins.py": "link",
     "pipeline.py": "cli",
     "printing.py": "printing",
@@ -61,10 +67,10 @@ FOLDERS = {
     "version.py": "cli",
     "vocabulary.py": "mock",
 }
-"""The nearest tests of a stage, where they are others than the folder of its name."""
+"""The nearest tests of a stage, or of one of its files, where they are others than the folder of its name."""
 _LOADED = "numpy pydantic networkx yaml jsonschema click hypothesis xdist pinocchio ruckig xacro yourdfpy lxml.etree"
 _QUIET = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-o", "addopts=")
-_LONGEST_S = 10.0
+_LONGEST_S = 60.0
 """So long a file of tests may take with probes; what it tests beyond that is not asked."""
 _FEW = 25
 _NOTICED = ("killed", "endless")
@@ -103,7 +109,7 @@ def main() -> None:
     for name in _LOADED.split():
         importlib.import_module(name)
     wanted = options.stage or stages()
-    reached = reach(options, list(dict.fromkeys(folder for one in wanted for folder in folders_of(f"/{one}"))))
+    reached = reach(options, list(dict.fromkeys(near for file in sources(wanted) for near in nearest(file))))
     if options.probe:
         return
     chosen, tree = draw(options.count, options.seed, wanted), copied(options.folder / "tree")
@@ -168,10 +174,16 @@ def stage_of(file: str) -> str:
     return within[0] if within[0] in FOLDERS or not within[0].endswith(".py") else wing
 
 
-def folders_of(file: str) -> list[str]:
-    """Return the nearest tests of a source, as folders."""
-    stage = stage_of(file)
-    return [f"tests/{folder}" for folder in FOLDERS.get(stage, stage).split()]
+def sources(wanted: list[str]) -> list[str]:
+    """Return the sources of some parts of cellc."""
+    files = sorted(file.relative_to(ROOT).as_posix() for file in (ROOT / "cellc").rglob("*.py"))
+    return [file for file in files if stage_of(file) in wanted]
+
+
+def nearest(file: str) -> list[str]:
+    """Return the nearest tests of a source, as folders and files."""
+    named = FOLDERS.get(file.split("/", 2)[-1]) or FOLDERS.get(stage_of(file), stage_of(file))
+    return [f"tests/{name}" for name in named.split()]
 
 
 def draw(count: int, seed: int, wanted: list[str]) -> list[Mutant]:
@@ -223,7 +235,7 @@ def reach(options: argparse.Namespace, wanted: list[str]) -> Reached:
     folder: Path = options.folder
     store = folder / "reached"
     store.mkdir(exist_ok=True)
-    files = list(dict.fromkeys(file for name in wanted for file in sorted((ROOT / name).rglob("test_*.py"))))
+    files = list(dict.fromkeys(file for name in wanted for file in _tests_of(ROOT / name)))
     kept = {file: store / f"{hashlib.sha256(file.read_bytes()).hexdigest()[:24]}.json" for file in files}
     missing = [file for file in files if not kept[file].exists()]
     if missing and not options.known:
@@ -241,6 +253,10 @@ def reach(options: argparse.Namespace, wanted: list[str]) -> Reached:
                 executed[source, line].add(test)
                 called[source].add(test)
     return Reached(took, executed, called)
+
+
+def _tests_of(near: Path) -> list[Path]:
+    return [near] if near.name.startswith("test_") else sorted(near.rglob("test_*.py"))
 
 
 def _probe_each(probed: Path, missing: list[Path], places: list[tuple[str, int]], kept: dict[Path, Path]) -> int:
@@ -267,16 +283,15 @@ def _probe(probed: Path, file: Path, places: list[tuple[str, int]], kept: Path) 
 
 @dataclass(frozen=True, eq=False)  # pytest keeps its plugins in a set
 class Chosen:
-    """A plugin of pytest that runs these tests alone, in this order, and those that were not there before."""
+    """A plugin of pytest that runs these tests alone, in this order."""
 
     order: dict[str, int]
-    known: dict[str, float]
     told: Path
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        kept = [item for item in items if item.nodeid in self.order or item.nodeid not in self.known]
-        items[:] = sorted(kept, key=lambda item: self.order.get(item.nodeid, len(self.order)))
+        kept = [item for item in items if item.nodeid in self.order]
+        items[:] = sorted(kept, key=lambda item: self.order[item.nodeid])
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         if report.failed:
@@ -307,10 +322,10 @@ def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached) -> tupl
     told = tree.parent / "failed.txt"
     told.write_text("", encoding="utf-8")
     files = sorted({test.partition("::")[0] for test in tests})
-    plugin = Chosen({test: at for at, test in enumerate(tests)}, reached.took, told)
+    plugin = Chosen({test: at for at, test in enumerate(tests)}, told)
 
     def work() -> int:
-        if mutant.statements:
+        if not _at_import(mutant, reached):
             source = (ROOT / mutant.file).read_bytes()
             swap(tree / mutant.file, source, mutant.applied(source))
         else:
@@ -327,34 +342,44 @@ def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached) -> tupl
     return ("endless" if code == ENDLESS else "killed"), told.read_text(encoding="utf-8") or f"exit code {code}"
 
 
+def _at_import(mutant: Mutant, reached: Reached) -> bool:
+    """Tell whether what a mutant changes is evaluated by an import alone, or only in a copy, as an emitted program."""
+    return not mutant.statements or not _executing(mutant, reached)
+
+
+def _executing(mutant: Mutant, reached: Reached) -> set[str]:
+    """Return the tests that execute what a mutant changes in a function."""
+    probed = {line for line, _ in statements((ROOT / mutant.file).read_bytes())}
+    line = next((one for one in mutant.statements if one in probed), 0)
+    return reached.executed.get((mutant.file, line), set())
+
+
 def candidates(mutant: Mutant, reached: Reached) -> list[str]:
     """Return the tests that may notice a mutant: those that execute it, the rest of their files, the quickest first.
 
     Others of a file matter where the first of them builds what all look at. What a module evaluates as it is
-    imported is looked at by each test that calls a function of it, or by every one where it has none.
+    imported may be looked at by every test; those that call a function of it go first.
     """
-    folders = tuple(f"{folder}/" for folder in folders_of(mutant.file))
-    near = {test for test in reached.took if test.startswith(folders)}
-    if mutant.statements:
-        probed = {line for line, _ in statements((ROOT / mutant.file).read_bytes())}
-        line = next((one for one in mutant.statements if one in probed), 0)
-        direct = reached.executed.get((mutant.file, line), set()) & near
-    else:
-        direct = (reached.called.get(mutant.file, set()) & near) or near
-    own = Path(mutant.file).stem
-
-    def nearness(test: str) -> tuple[bool, bool, float]:
-        return not test.startswith(folders[0]), own not in test, reached.took[test]
-
+    folders = [(f"{name}/", f"{name}::") for name in nearest(mutant.file)]
+    near = {test for test in reached.took if any(test.startswith(one) for one in folders)}
+    direct = _executing(mutant, reached) & near if mutant.statements else reached.called.get(mutant.file, set()) & near
+    own, around = Path(mutant.file).stem, f"/{Path(mutant.file).parent.name}/"
     files = {test.partition("::")[0] for test in direct}
-    beside = [test for test in near - direct if test.partition("::")[0] in files]
-    return [*_within(sorted(direct, key=nearness), reached), *_within(sorted(beside, key=nearness), reached)]
+    at_import = _at_import(mutant, reached)
+    beside = {test for test in near - direct if at_import or test.partition("::")[0] in files}
+
+    def nearness(test: str) -> tuple[bool, bool, bool, bool, float]:
+        named = test.replace("-", "_")  # as codes are written in the names of cases
+        return not test.startswith(folders[0]), own not in named, test in beside, around not in test, reached.took[test]
+
+    return _within(sorted(direct | beside, key=nearness), reached)
 
 
 def _within(tests: list[str], reached: Reached) -> list[str]:
     """Return the first of some tests, as far as the time for one mutant goes."""
-    sums = accumulate(reached.took[test] for test in tests)
-    return [test for test, total in zip(tests, sums, strict=True) if total < reached.seconds]
+    short = [test for test in tests if reached.took[test] < reached.seconds]
+    sums = accumulate(reached.took[test] for test in short)
+    return [test for test, total in zip(short, sums, strict=True) if total < reached.seconds]
 
 
 def _mark_as_new(file: Path) -> None:

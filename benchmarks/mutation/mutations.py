@@ -3,7 +3,8 @@
 Changed are comparisons, conditions, ``and`` and ``or``, arithmetic, signs, figures and truth values, ``min`` and
 ``max``, the order of two arguments, calls for their effect, and what a function returns. Left out is what no test can
 tell: texts and what stands in f-strings, docstrings, annotations, decorators, asserts, ``__all__`` and its kind, what
-is asked of the platform, and keywords that only forbid (``strict``, ``frozen``, ``slots``, ``repr``).
+is asked of the platform, keywords that only forbid (``strict``, ``frozen``, ``slots``, ``repr``), and the order of what
+a symmetric function takes.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ _ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {
 _DEFAULTS = {"bool": "False", "int": "0", "float": "0.0", "str": "''", "tuple": "()", "list": "[]", "dict": "{}"}
 _TEXT = (ast.JoinedStr, ast.List, ast.Tuple)
 _FORBIDDING = {"strict", "frozen", "slots", "repr"}
+_AS_THEY_ARE = {"isinstance", "issubclass", "cast", "dist", "gcd", "hypot", "isclose", "maximum", "minimum"}
+"""Calls whose first two arguments no test can tell apart, or whose order mypy holds."""
 _NAMES = {"__all__", "__slots__", "model_config"}
 _PLATFORM = ("TYPE_CHECKING", "__name__", "sys.platform", "sys.version_info", "os.name")
 
@@ -149,7 +152,7 @@ def _calls(node: ast.Call) -> Iterator[tuple[str, ast.expr]]:
     name = node.func.id if isinstance(node.func, ast.Name) else ""
     if name in ("min", "max"):
         yield "extreme", _with(node, func=ast.Name("max" if name == "min" else "min"))
-    elif name not in ("isinstance", "issubclass", "cast") and len(node.args) > 1:
+    elif ast.unparse(node.func).rpartition(".")[2] not in _AS_THEY_ARE and len(node.args) > 1:
         first, second, *rest = node.args
         kinds = (ast.Name, ast.Attribute, ast.Subscript)
         if isinstance(first, kinds) and isinstance(second, kinds):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -211,3 +212,12 @@ def test_expander_answers_any_text(body: str, tmp_path_factory: pytest.TempPathF
     folder = tmp_path_factory.mktemp("fuzz")
     outcome = expand_here(str(_write(folder, body)), {}, str(folder))
     assert outcome.value is not None or outcome.diagnostics
+
+
+def test_wildcard_takes_every_file_that_it_matches_in_order_of_names(tmp_path: Path) -> None:
+    for name in ("parts/b.xacro", "parts/a.xacro", "parts/c.txt", "d.xacro"):
+        _write(tmp_path, f'<link name="{Path(name).stem}"/>', name)
+    file = _write(tmp_path, '<xacro:include filename="parts/*.xacro"/><xacro:include filename="parts/../?.xacro"/>')
+    expanded = expand_here(str(file), {}, str(tmp_path)).value
+    assert expanded is not None
+    assert re.findall(r'<link name="(\w)"', str(expanded)) == ["a", "b", "d"]

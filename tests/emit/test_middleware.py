@@ -73,6 +73,26 @@ def test_cyclone_profile_is_what_cyclone_declares(discovery: str) -> None:
         schema.validate(files[f"middleware/{host}.cyclonedds.xml"])
 
 
+@pytest.mark.parametrize(
+    ("discovery", "multicast", "peers"),
+    [
+        ("multicast", "true", None),
+        ("unicast, peers: [10.10.0.11]", "false", ["127.0.0.1"]),  # ROS_STATIC_PEERS adds the other
+        ("localhost", "false", ["127.0.0.1"]),
+    ],
+)
+def test_cyclone_finds_others_by_multicast_or_by_their_addresses(
+    discovery: str, multicast: str, peers: list[str] | None
+) -> None:
+    domain = ElementTree.fromstring(
+        emitted_once(_text("rmw_cyclonedds_cpp", discovery))["middleware/control_pc.cyclonedds.xml"]
+    )
+    assert domain.findtext("{*}Domain/{*}General/{*}AllowMulticast") == multicast
+    found = domain.find("{*}Domain/{*}Discovery")
+    assert (found is None) is (peers is None)
+    assert [one.get("Address") for one in domain.iterfind(".//{*}Peer")] == (peers or [])
+
+
 @pytest.mark.parametrize("distro", ["humble", "kilted"])
 def test_every_host_asks_every_discovery_server(distro: str) -> None:
     files = emitted_once(_text("rmw_fastrtps_cpp", SERVERS, distro))

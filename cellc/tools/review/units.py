@@ -93,7 +93,7 @@ def motion(metres: float, radians: float) -> str:
 
 def _length(metres: float) -> str:
     shown = _rounded(metres)
-    return f"{shown * 1e3:.10g} mm" if shown < 1.0 else f"{shown:.10g} m"
+    return f"{shown * 1e3:.9f}".rstrip("0").rstrip(".") + " mm" if shown < 1.0 else f"{shown:.10g} m"
 
 
 def _rounded(value: float) -> float:

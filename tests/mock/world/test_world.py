@@ -76,8 +76,27 @@ def test_axis_is_normalised_and_mimic_joint_follows(links: LinkTree) -> None:
     assert pose.rpy() == pytest.approx((0.0, 0.0, 2 * 0.25 + 0.5))
 
 
-def test_positions_between_messages_are_linear() -> None:
-    assert history_of([0.0, 1.0]).at(MS // 2) == {"slide": pytest.approx(0.25)}
+@pytest.mark.parametrize(
+    ("at_ms", "position"),
+    [(-1.0, 3.0), (0.0, 3.0), (0.5, 3.25), (1.5, 3.75), (2.0, 4.0), (3.0, 6.0), (4.0, 8.0), (5.0, 8.0)],
+)
+def test_positions_are_linear_between_messages_and_held_beyond_them(at_ms: float, position: float) -> None:
+    assert history_of([3.0, 4.0, 8.0]).at(round(at_ms * MS)) == {"slide": pytest.approx(position)}
+
+
+def test_without_a_message_no_position_is_known() -> None:
+    assert JointStateHistory(horizon_s=1.0, period_ns=2 * MS).at(0) == {}
+
+
+def test_joints_of_another_manager_are_left_out_and_other_joints_begin_anew() -> None:
+    history = JointStateHistory(horizon_s=1.0, period_ns=2 * MS, foreign=frozenset({"b"}))
+    for stamp, names, row in ((0, ("a", "b", "c"), [1.0, 2.0, 3.0]), (2 * MS, ("a", "c", "b"), [4.0, 5.0, 6.0])):
+        values = np.array([row])
+        history.append(JointStateBlock(np.array([stamp]), names, values, values, values))
+    assert history.at(MS) == {"a": 2.5, "c": 4.0}
+    values = np.array([[7.0]])
+    history.append(JointStateBlock(np.array([4 * MS]), ("a",), values, values, values))
+    assert (history.stamps.tolist(), history.positions.tolist()) == ([4 * MS], [[7.0]])
 
 
 def test_missed_cycles_are_counted_from_gaps() -> None:
@@ -89,6 +108,14 @@ def test_cycles_that_are_being_missed_are_counted_too() -> None:
     history = history_of([0.0] * 20)  # the last one at 38 ms
     assert history.missed_until(40 * MS) == 0
     assert history.missed_until(48 * MS) == 4
+    history.silent = True
+    assert history.missed_until(48 * MS) == 0
+
+
+def test_count_of_missed_cycles_begins_anew() -> None:
+    history = history_of([0.0] * 20, skip=frozenset({5}))
+    history.count_anew()
+    assert history.missed_until(38 * MS) == 0
 
 
 def test_late_joint_states_are_not_known_before_they_arrive() -> None:
@@ -97,6 +124,8 @@ def test_late_joint_states_are_not_known_before_they_arrive() -> None:
     assert history.arrived(8 * MS) == 5
     assert history.arrived(29 * MS) == 5
     assert history.arrived(30 * MS) == 6
+    history.release(14 * MS, 20 * MS)  # those of 10 and 12 ms arrive at 30 and 32, that of 14 at once
+    assert history.arrivals(np.array([8, 10, 12, 14]) * MS).tolist() == [8 * MS, 30 * MS, 32 * MS, 14 * MS]
 
 
 def test_history_stays_bounded_and_keeps_its_horizon() -> None:

@@ -60,7 +60,7 @@ def _wrong(view: ViewAnswer, field: FieldOfView | None) -> str:
     """Say where an object lies that is not seen; empty where it is seen. Without a field it must lie in front."""
     x, y, z = view.place
     if z <= 0.0:
-        return f"{-z:.3g} m behind the camera"
+        return f"{abs(z):.3g} m behind the camera"
     if field is None:
         return ""
     aside, above = math.atan2(abs(x), z), math.atan2(abs(y), z)
