@@ -57,7 +57,7 @@ def main() -> None:
     parser.add_argument("parts", nargs="*")
     parser.add_argument("-o", "--output", type=Path)
     given = parser.parse_args()
-    robots = [one for one in _robots(given.robots.resolve()) if not given.parts or _named(one, given.parts)]
+    robots = [robot for robot in _robots(given.robots.resolve()) if not given.parts or _named(robot, given.parts)]
     with tempfile.TemporaryDirectory() as place, ThreadPoolExecutor(2) as pool:
         rows = []
         for row in pool.map(partial(_through, given.output or Path(place)), robots):

@@ -1,8 +1,8 @@
 """How much of what is said of a mistake points at it: one value of a clean cell is changed at a time.
 
 ``python benchmarks/precision.py [--every 1]`` changes every value in each way that fits it: a number ten times as
-large, one of the other sign, another unit of its kind, and a name that stands under the same key elsewhere. Of each
-changed cell the findings count that the cell did not have before. A finding points at the change where it stands on its
+large, one of the other sign, another unit of its kind, and a name that is under the same key elsewhere. Of each
+changed cell the findings count that the cell did not have before. A finding points at the change where it is on its
 line, or relates to it. A change that is no mistake, such as a rate of 30 Hz for 10, is counted as the others are: that
 nothing is said of it is no fault, and what is said elsewhere is one.
 """
@@ -33,7 +33,7 @@ _NAME = re.compile(r"[A-Za-z_][\w/]*")
 
 @dataclass(frozen=True, slots=True)
 class Leaf:
-    """A value of a spec: its key, its text, its line from 1, and where it stands in the text."""
+    """A value of a spec: its key, its text, its line from 1, and where it is in the text."""
 
     key: str
     text: str
@@ -43,7 +43,7 @@ class Leaf:
 
 
 def leaves(node: yaml.Node, key: str = "") -> Iterator[Leaf]:
-    """Yield every value that stands on one line."""
+    """Yield every value that is on one line."""
     if isinstance(node, yaml.MappingNode):
         for name, value in node.value:
             yield from leaves(value, str(name.value))
@@ -66,7 +66,7 @@ def changes(leaf: Leaf, all_leaves: list[Leaf]) -> Iterator[tuple[str, str]]:
     if number is not None and unit in _OTHER_UNIT:
         yield "unit", leaf.text.removesuffix(unit) + _OTHER_UNIT[unit]
     if _NAME.fullmatch(leaf.text):
-        other = next((one.text for one in all_leaves if one.key == leaf.key and one.text != leaf.text), None)
+        other = next((item.text for item in all_leaves if item.key == leaf.key and item.text != leaf.text), None)
         if other is not None and _NAME.fullmatch(other):
             yield "name", other
 
@@ -86,8 +86,8 @@ def main() -> None:
         for leaf in known[::every]:
             for kind, other in changes(leaf, known):
                 spoilt = text[: leaf.start] + other + text[leaf.end :]
-                new = [one for one in _found(spoilt) if (one.code, one.message) not in before]
-                right = [one for one in new if leaf.line in _lines(one)]
+                new = [item for item in _found(spoilt) if (item.code, item.message) not in before]
+                right = [item for item in new if leaf.line in _lines(item)]
                 changed[kind] += 1
                 said[kind] += bool(new)
                 named[kind] += bool(right)
@@ -109,7 +109,7 @@ def _found(text: str) -> tuple[Diagnostic, ...]:
 
 
 def _lines(found: Diagnostic) -> set[int]:
-    return {found.span.line, *(one.span.line for one in found.related)}
+    return {found.span.line, *(item.span.line for item in found.related)}
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from pathlib import Path
 
 from cellc.contract.compute.cluster import cluster
 from cellc.contract.compute.processes import processes
-from cellc.contract.compute.work import Hire
+from cellc.contract.compute.work import ExecutorFactory
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.sweep.sweep import SweepRun, sweep
@@ -50,7 +50,7 @@ def endless(folder: Path) -> MockCell:
     return cell_of(replace(read, uncertainty=read.uncertainty.model_copy(update={"expected": {}})))
 
 
-def measured(cell: MockCell, rehearsal: str, runs: int, hire: Hire) -> Measured:
+def measured(cell: MockCell, rehearsal: str, runs: int, factory: ExecutorFactory) -> Measured:
     """Sweep a rehearsal."""
     ended_s: list[float] = []
     written = 0
@@ -61,7 +61,7 @@ def measured(cell: MockCell, rehearsal: str, runs: int, hire: Hire) -> Measured:
         written += len(json.dumps(asdict(run), separators=(",", ":"))) + 1
 
     begun_s = time.perf_counter()
-    sweep(cell, cell.entry(rehearsal), seed=1, most=runs, hire=hire, known={}, keep=keep)
+    sweep(cell, cell.entry(rehearsal), seed=1, most=runs, factory=factory, known={}, keep=keep)
     first = runs // 5
     rate_hz = (runs - 1 - first) / (ended_s[-1] - ended_s[first])
     return Measured(rate_hz, time.perf_counter() - begun_s, written / runs)

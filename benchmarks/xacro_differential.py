@@ -45,7 +45,7 @@ def main() -> None:
     """Print a row for each file that differs, and how many do what."""
     given = sys.argv[1:]
     every = int(given.pop(given.index("--every") + 1)) if "--every" in given else 1
-    folders = [Path(one).resolve() for one in given if one != "--every"]
+    folders = [Path(argument).resolve() for argument in given if argument != "--every"]
     files = [file for folder in folders for file in sorted(folder.rglob("*.xacro")) if file.is_file()][::every]
     rows = []
     with multiprocessing.get_context("fork").Pool(2, maxtasksperchild=20) as pool:
@@ -114,11 +114,11 @@ def _differences(real: ElementTree.Element, ours: ElementTree.Element, found: di
     """Yield what is otherwise in two trees: tags, attributes, texts without their white space, in order."""
     theirs, mine = (
         (
-            one.tag,
-            {name: _named(value, found) for name, value in one.attrib.items()},
-            " ".join((one.text or "").split()),
+            item.tag,
+            {name: _named(value, found) for name, value in item.attrib.items()},
+            " ".join((item.text or "").split()),
         )
-        for one in (real, ours)
+        for item in (real, ours)
     )
     if theirs != mine:
         yield f"{theirs} and {mine}"

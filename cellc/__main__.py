@@ -16,7 +16,7 @@ from cellc.contract.signals import run_program
 
 
 def main() -> None:
-    """Run the command; what is imported stands inside, so that a signal while it loads ends without a traceback too."""
+    """Run the command; what is imported is inside, so that a signal while it loads ends without a traceback too."""
     if sys.flags.optimize > 1:
         from cellc.contract.printing import refuse
 

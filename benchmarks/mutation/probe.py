@@ -1,6 +1,6 @@
 """Which tests execute which statement: a plugin of pytest, and what it writes into a copy of the sources.
 
-A probe stands before each statement of a function. It notes the test that runs, from the variable that pytest sets for
+A probe is before each statement of a function. It notes the test that runs, from the variable that pytest sets for
 processes that a test starts too. Each file of tests runs in a process of its own: what is built once and kept for a
 session is built again, so that each file reaches what it rests on.
 """
@@ -92,7 +92,7 @@ def _first(tree: ast.Module) -> int:
 
 
 class Told:
-    """Notes how long each test takes and which fails, and lets probes begin anew with each."""
+    """Notes how long each test takes and which fails, and lets probes start again with each."""
 
     def __init__(self, seconds: float) -> None:
         self._until = _spent() + seconds

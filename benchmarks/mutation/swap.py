@@ -14,7 +14,7 @@ def swap(file: Path, was: bytes, becomes: bytes) -> None:
     """Give every loaded function of a file the code that it has in another source with the same functions."""
     before, after = (_places(compile(source, str(file), "exec")) for source in (was, becomes))
     instead = {(code.co_name, code.co_firstlineno): after.get(place) for place, code in before.items()}
-    for function in [one for one in gc.get_objects() if isinstance(one, FunctionType)]:
+    for function in [item for item in gc.get_objects() if isinstance(item, FunctionType)]:
         code = function.__code__
         if code.co_filename == str(file):
             new = instead.get((code.co_name, code.co_firstlineno))

@@ -34,7 +34,7 @@ from cellc.robot.description.packages import root_of
 
 DESCRIPTIONS = (".urdf", ".xacro")
 """Files of a robot alone, which no cell holds."""
-_ON_MODELS = tuple(one for one in ALL_RULES if one.family == "MOD" or one.code == "missing-velocity-limit")
+_ON_MODELS = tuple(rule for rule in ALL_RULES if rule.family == "MOD" or rule.code == "missing-velocity-limit")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -116,7 +116,9 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     found += run_rules(graph)
     kept = _excused(found, texts)
     known = frozenset(kept)
-    return replace(_checked(file, texts, kept, graph), excused=tuple(one for one in found if one not in known))
+    return replace(
+        _checked(file, texts, kept, graph), excused=tuple(diagnostic for diagnostic in found if diagnostic not in known)
+    )
 
 
 def _is_device(path: Path, document: SourceDocument | None) -> bool:
@@ -203,7 +205,9 @@ def _beyond_limits(graph: CellGraph) -> tuple[Diagnostic, ...]:
 
     code, groups = "geometry-too-large", graph.cell.groups
     found = beyond_limits(graph, disabled_links(graph)) if groups else ()
-    return tuple(Diagnostic(code, Severity.ERROR, one.message, one.span, one.path, one.help) for one in found)
+    return tuple(
+        Diagnostic(code, Severity.ERROR, finding.message, finding.span, finding.path, finding.help) for finding in found
+    )
 
 
 def _checked(

@@ -18,7 +18,7 @@ class ContractModel(BaseModel):
 
 
 class ContractPose(ContractModel):
-    """A rigid transform: metres and a unit quaternion x, y, z, w."""
+    """A rigid transform: meters and a unit quaternion x, y, z, w."""
 
     xyz: tuple[Coordinate, Coordinate, Coordinate] = Field(description="Position, m.")
     quaternion: UnitQuaternion = Field(description="Unit quaternion x, y, z, w.")

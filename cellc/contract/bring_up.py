@@ -1,4 +1,4 @@
-"""``config/bring_up.json``: the steps from processes that came up to a cell that may move, and the proof of each.
+"""``config/bring_up.json``: the steps from processes that started to a cell that may move, and the proof of each.
 
 Read by ``lib/<package>/bring_up`` on the robot's computers and by the mock, so that what is rehearsed is what is done.
 """

@@ -63,7 +63,7 @@ class ContractClock(ContractModel):
 
 
 class ContractFrame(ContractModel):
-    """One TF frame; a pose that the robot description holds stands there alone, so that it has one truth."""
+    """One TF frame; a pose in the robot description is not repeated here."""
 
     parent: str = Field(description="Parent frame; empty for the root.")
     authority: str = Field("robot_state_publisher", description="Who publishes the edge.")
@@ -204,7 +204,7 @@ def hand_group(device: str, kind: str) -> str:
 
 
 def several_groups(groups: Iterable[str]) -> str:
-    """Return the group of the SRDF that several groups are, whose poses are reached at once."""
+    """Return the group of the SRDF that several groups are, whose poses are reached together."""
     return "_and_".join(groups)
 
 

@@ -1,6 +1,6 @@
 """How much cellc reads, expands and simulates before it refuses: one table, which every reader asks.
 
-The files come from strangers. A bound is far above what a real cell needs, and keeps a hostile one from costing more
+The files are untrusted. A bound is far above what a real cell needs, and keeps a hostile one from costing more
 than seconds and some hundred megabytes. `docs/limits.md` is this table; `--limit NAME=VALUE` raises a row of it for one
 call.
 
@@ -107,11 +107,11 @@ class Limits:
     mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
 
 
-class PurseError(CellcError):
+class BudgetError(CellcError):
     """The pieces of work took what they may take together."""
 
 
-class Purse:
+class Budget:
     """Seconds that several pieces of work may take together."""
 
     def __init__(self, seconds: float, clock: Callable[[], float]) -> None:
@@ -129,10 +129,10 @@ class Purse:
         self._end_s = self._clock()
 
     def over(self, work: Iterable[_Work]) -> Iterator[_Work]:
-        """Yield piece after piece; raise PurseError before one for which nothing is left."""
+        """Yield piece after piece; raise BudgetError before one for which nothing is left."""
         for piece in work:
             if not self.left_s:
-                raise PurseError
+                raise BudgetError
             yield piece
 
 

@@ -20,7 +20,7 @@ def is_commit(version: str) -> bool:
 
 
 def version_number(text: str) -> str:
-    """Return the number in a pin; empty where there is none, as in one that names a commit."""
+    """Return the number in a pin; empty without one, as in one that names a commit."""
     last = last_word(text)
     match = None if is_commit(last) else _NUMBER.search(last)
     return match.group() if match else ""

@@ -1,7 +1,7 @@
 """The one door to standard output and standard error: nobody else prints.
 
-Every text that comes here is taken for a stranger's. It is shown on its line, with an escape for each character that
-hides text or steers a terminal, and no line of it is a command to the program that runs CI. Colours are ours and are
+Every text that comes here is untrusted. It is shown on its line, with an escape for each character that
+hides text or steers a terminal, and no line of it is a command to the program that runs CI. Colors are ours and are
 passed beside the text. Escape sequences: ECMA-48, SGR.
 """
 
@@ -26,7 +26,7 @@ from cellc.contract.signals import CLOSED_PIPE, drop_output
 
 
 class Style(Enum):
-    """How a piece of a line looks; the values are what a terminal is told."""
+    """How a piece of a line looks; the values are what a terminal gets."""
 
     BOLD = "\x1b[1m"
     DIM = "\x1b[2m"
@@ -100,13 +100,13 @@ class Stream(Enum):
 
 
 def show(*lines: Line | WorkflowCommand, to: Stream = Stream.OUT) -> None:
-    """Print lines, coloured where that is wanted."""
+    """Print lines, colored where that is wanted."""
     stream = to.opened()
-    _write(stream, as_text(lines, colour=wants_colour(stream.isatty(), os.environ)))
+    _write(stream, as_text(lines, color=wants_color(stream.isatty(), os.environ)))
 
 
 def refuse(reason: str) -> None:
-    """Print on standard error why nothing came of a command."""
+    """Print on standard error why there is no result of a command."""
     show(f"error: {reason}", to=Stream.ERR)
 
 
@@ -123,28 +123,28 @@ def clear() -> None:
 
 
 def columns() -> int:
-    """Return how wide the terminal is; 100 columns where nobody says, so that a file is the same everywhere."""
+    """Return how wide the terminal is; 100 columns where it is not stated, so that a file is the same everywhere."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else 100
 
 
 def show_document(text: str) -> None:
-    """Print a text of several lines that we wrote, such as Markdown or JSON; what it quotes may be of strangers."""
-    _write(sys.stdout, as_text(text.removesuffix("\n").split("\n"), colour=False) if text else "")
+    """Print a text of several lines that we wrote, such as Markdown or JSON; what it quotes may be untrusted."""
+    _write(sys.stdout, as_text(text.removesuffix("\n").split("\n"), color=False) if text else "")
 
 
-def as_text(lines: Iterable[Line | WorkflowCommand], *, colour: bool) -> str:
+def as_text(lines: Iterable[Line | WorkflowCommand], *, color: bool) -> str:
     """Return lines as they are printed, each ending in a line break."""
-    return "".join(f"{_line(one, colour)}\n" for one in lines)
+    return "".join(f"{_line(line, color)}\n" for line in lines)
 
 
-def _line(line: Line | WorkflowCommand, colour: bool) -> str:
+def _line(line: Line | WorkflowCommand, color: bool) -> str:
     if isinstance(line, WorkflowCommand):
         return line.text()
     if isinstance(line, str):
         return harmless_line(escaped(line))
     plain = "".join(escaped(piece if isinstance(piece, str) else piece.text) for piece in line)
     harmless = harmless_line(plain)
-    if not colour or harmless != plain:  # nothing of ours looks like a command
+    if not color or harmless != plain:  # nothing of ours looks like a command
         return harmless
     return "".join(_piece(piece) for piece in line)
 
@@ -201,11 +201,11 @@ def overheard() -> Iterator[list[str]]:
             lines += kept.read(_HEARD_BYTES).decode(errors="backslashreplace").splitlines()
 
 
-def wants_colour(is_terminal: bool, environment: Mapping[str, str]) -> bool:
-    """Return whether to colour what goes to a stream.
+def wants_color(is_terminal: bool, environment: Mapping[str, str]) -> bool:
+    """Return whether to color what goes to a stream.
 
     NO_COLOR (no-color.org) wins over FORCE_COLOR (force-color.org) and CLICOLOR_FORCE, these over CLICOLOR
-    (bixense.com/clicolors); without them a terminal is coloured unless it is dumb.
+    (bixense.com/clicolors); without them a terminal is colored unless it is dumb.
     """
     if environment.get("NO_COLOR"):
         return False
@@ -246,7 +246,7 @@ def run_to_end(run: Callable[[], int]) -> int:
 
 
 def _show_bug() -> None:
-    """Print the traceback of the exception in work: what it quotes may be of strangers as well."""
+    """Print the traceback of the exception in work: what it quotes may be untrusted."""
     import traceback  # loads for 5 ms, and is for bugs alone
 
     show(*traceback.format_exc().rstrip("\n").split("\n"), "error: this is a bug of cellc", to=Stream.ERR)
@@ -280,8 +280,8 @@ def progress(
 ) -> Iterator[Callable[[str], None]]:
     """Give a function that tells what is being done; it shows after two seconds and is erased at the end.
 
-    Only a terminal gets it, on one line that is written anew. Erasing uses spaces and a carriage return, so that it
-    needs no colour. Inside another one, it takes over the line and gives it back.
+    Only a terminal gets it, on one line that is written again. Erasing uses spaces and a carriage return, so that it
+    needs no color. Inside another one, it takes over the line and gives it back.
 
     Args:
         stream: standard error if None.
@@ -384,7 +384,7 @@ class _ProgressLine:
         label, step, stage = self._told[-1]
         # The last cell stays free: some terminals wrap after it. Escapes of wide text may need two cells a character.
         room = shutil.get_terminal_size().columns - 1
-        text = harmless_line(escaped(f"{label}: {', '.join(one for one in (step, stage) if one) or 'at work'}"))
+        text = harmless_line(escaped(f"{label}: {', '.join(item for item in (step, stage) if item) or 'at work'}"))
         text = text[: room if text.isascii() else room // 2]
         if text != self._drawn:
             self._next_s = self._clock() + _REDRAW_S

@@ -1,7 +1,7 @@
 """The kinds of numbers in the files between compiler and mock, and what each kind may be where a folder is read.
 
 The compiler writes what its rules let through, and these types let it: nothing is checked where a model is built. Who
-reads a folder of a stranger validates with ``context=limits()``, and nothing past that door asks again whether a rate
+reads an untrusted folder validates with ``context=limits()``, and nothing past that door asks again whether a rate
 is above zero or a duration can be counted in nanoseconds.
 """
 

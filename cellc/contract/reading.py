@@ -1,4 +1,4 @@
-"""The one door through which contract.json, rehearsals.json and manifest.json of a stranger come in."""
+"""The one door through which contract.json, rehearsals.json and manifest.json of an untrusted folder come in."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ class FaultEvent(ContractModel):
     """What a fault waits for: how far a step has come.
 
     ``started`` is before the first action of the step, ``accepted`` when a controller took its goal, ``moving`` when a
-    joint of that controller was first reported elsewhere than where it stood.
+    joint of that controller was first reported elsewhere than where it was.
     """
 
     step: int = Field(description="Number of the step, from 1.", ge=1)
@@ -74,7 +74,7 @@ class RehearsalEntry(ContractModel):
 
     @property
     def is_plain(self) -> bool:
-        """Whether a campaign adds faults to it: it has none of its own, and how the real target comes up is no step."""
+        """Whether a campaign adds faults to it: it has none of its own, and how the real target starts is no step."""
         return not self.faults and self.bring_up == "mock"
 
 

@@ -86,4 +86,4 @@ class Review(ContractModel):
 
     def rehearsals_differ(self) -> bool:
         """Tell whether a rehearsal ends otherwise than before."""
-        return any(one.before != one.after for one in self.rehearsals)
+        return any(rehearsal.before != rehearsal.after for rehearsal in self.rehearsals)

@@ -26,7 +26,7 @@ STOPPING = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, nam
 
 _Result = TypeVar("_Result")
 CLOSED_PIPE = 128 + 13
-"""Exit code where nobody reads the output any more: that of a process that SIGPIPE ends."""
+"""Exit code where nothing reads the output any more: that of a process that SIGPIPE ends."""
 
 _PATIENCE = 3  # signals that are not raised again while the program cleans up
 
@@ -40,7 +40,7 @@ class Stopped(BaseException):
 
 
 class _Watch:
-    """What the handlers know: signals that came, and whether they are held back for now."""
+    """What the handlers know: signals that arrived, and whether they are held back for now."""
 
     def __init__(self) -> None:
         self.came = 0
@@ -50,7 +50,7 @@ class _Watch:
         self.over = False
 
     def on_signal(self, number: int, frame: FrameType | None) -> None:
-        """Raise the first signal; the ones after it only where nothing came of it."""
+        """Raise the first signal; the ones after it only where there was no result."""
         if self.over:
             return
         if self.holding:
@@ -162,10 +162,10 @@ def within(seconds: float, work: Callable[[], _Result]) -> _Result | None:
 
 
 @contextmanager
-def deaf_children() -> Iterator[None]:
+def signals_blocked_in_children() -> Iterator[None]:
     """Have processes that are started in the block hear none of these signals: who started them ends them.
 
-    A terminal signals all processes of a program at once. Children inherit the mask for good. SIGTERM still ends them:
+    A terminal signals all processes of a program together. Children inherit the mask for good. SIGTERM still ends them:
     it is what Python's machinery of processes ends them by.
     """
     if sys.platform == "win32":
@@ -179,19 +179,19 @@ def deaf_children() -> Iterator[None]:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def start_deaf_tracker() -> None:
+def start_tracker_without_signals() -> None:
     """Start the process by which Python's multiprocessing follows what it has to clean up, to hear no signal at all.
 
     It ignores SIGINT and SIGTERM by itself, and is ended by any other that reaches a whole group of processes: a closed
     terminal's, or SIGXCPU of a batch system. Python then starts another, which complains of what it never heard of.
-    It uses no processor time, and ends with its last client. Call it before ``deaf_children``: Python opens SIGINT
-    again in the process that starts it.
+    It uses no processor time, and ends with its last client. Call it before
+    ``signals_blocked_in_children``: Python opens SIGINT again in the process that starts it.
     """
     if sys.platform == "win32":  # Python has none there
         return
     from multiprocessing import resource_tracker  # takes longer to load than most commands last
 
-    with deaf_children():
+    with signals_blocked_in_children():
         signal.pthread_sigmask(signal.SIG_BLOCK, STOPPING)
         resource_tracker.ensure_running()
 

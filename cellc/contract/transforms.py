@@ -1,4 +1,4 @@
-"""A rigid transform, right-handed, metres and unit quaternions (REP-103)."""
+"""A rigid transform, right-handed, meters and unit quaternions (REP-103)."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class Pose:
 
     def __matmul__(self, other: Pose) -> Pose:
         """Compose: ``parent_to_a @ a_to_b`` is the pose of b in parent."""
-        return Pose(self.apply(other.position), _normalised(_product(self.quaternion, other.quaternion)))
+        return Pose(self.apply(other.position), _normalized(_product(self.quaternion, other.quaternion)))
 
     def apply(self, point: Vector3) -> Vector3:
-        """Express a point of the child frame in the parent frame, in metres."""
+        """Express a point of the child frame in the parent frame, in meters."""
         rotated = _rotate(self.quaternion, point)
         x, y, z = self.position
         return (x + rotated[0], y + rotated[1], z + rotated[2])
@@ -79,7 +79,7 @@ def identity() -> Pose:
 
 
 def from_xyz_rpy(xyz: Vector3, rpy: Vector3) -> Pose:
-    """Build a pose from metres and fixed-axis roll, pitch, yaw in radians, as URDF ``<origin>`` means them."""
+    """Build a pose from meters and fixed-axis roll, pitch, yaw in radians, as URDF ``<origin>`` means them."""
     roll, pitch, yaw = (angle / 2.0 for angle in rpy)
     cr, sr = math.cos(roll), math.sin(roll)
     cp, sp = math.cos(pitch), math.sin(pitch)
@@ -117,7 +117,7 @@ def _slerp(start: Quaternion, end: Quaternion, fraction: float) -> Quaternion:
         sine = math.sin(angle)
         weights = (math.sin((1.0 - fraction) * angle) / sine, sign * math.sin(fraction * angle) / sine)
     x, y, z, w = (weights[0] * a + weights[1] * b for a, b in zip(start, end, strict=True))
-    return _normalised((x, y, z, w))
+    return _normalized((x, y, z, w))
 
 
 def _product(a: Quaternion, b: Quaternion) -> Quaternion:
@@ -142,7 +142,7 @@ def _rotate(quaternion: Quaternion, point: Vector3) -> Vector3:
     )
 
 
-def _normalised(quaternion: Quaternion) -> Quaternion:
+def _normalized(quaternion: Quaternion) -> Quaternion:
     x, y, z, w = quaternion
     length = math.sqrt(x * x + y * y + z * z + w * w)
     return (x / length, y / length, z / length, w / length)

@@ -16,9 +16,9 @@ Axis = Literal["x", "y", "z", "rx", "ry", "rz", "offset"]
 
 
 class UncertainQuantity(ContractModel):
-    """One number that each run draws anew.
+    """One number that each run draws again.
 
-    ``calibration``: the frame ``target`` really stands displaced along (x, y, z), or turned about (rx, ry, rz), an axis
+    ``calibration``: the frame ``target`` really is displaced along (x, y, z), or turned about (rx, ry, rz), an axis
     of its own; so do ``place``, where something lies that nobody looks at, and ``repeatability``, the tip of an arm.
     Several of one frame add up. ``region``: the object that frame ``target`` follows lies displaced along, or is turned
     about, an axis of the parent of its simulated pose. ``clock``: the clock ``target`` reads so much more.

@@ -1,6 +1,6 @@
 """What ``cellc upgrade --format json`` prints: what another distribution of ROS 2 makes of a cell.
 
-Values are texts as people read them. A question is what only a person can answer; empty where there is none.
+Values are texts as people read them. A question is what only a person can answer; empty without one.
 """
 
 from typing import Literal

@@ -1,6 +1,6 @@
 """The closed lists of words that catalog, contract, compiler and mock share, each declared here and nowhere else.
 
-Members are strings with the text that stands in YAML, JSON and messages. What differs between distributions is a
+Members are strings with the text that is in YAML, JSON and messages. What differs between distributions is a
 feature in one table: code asks `Feature.X in features(distro)` and compares with no distribution's name.
 """
 
@@ -11,7 +11,7 @@ from enum import Enum
 
 
 class Term(str, Enum):
-    """A word of a closed list; it prints as the text that it stands for."""
+    """A word of a closed list; it prints as the text that it means."""
 
     __str__ = str.__str__
 
@@ -110,7 +110,7 @@ OF_ONE_DEVICE = PASSIVE | {Behaviour.OWN_MOTION}
 
 
 class AttemptOutcome(Term):
-    """How an attempt ends; each failure is told apart from every other."""
+    """How an attempt ends; each failure is distinguished from every other."""
 
     SUCCEEDED = "succeeded"
     CANCELLED = "cancelled"
@@ -192,7 +192,7 @@ class Motion(Term):
     MOVES = "moves"
     """It moves by itself, on a path that no set point asked for."""
     JUMPS = "jumps"
-    """It goes at once to set points that were kept from before, wherever it was moved meanwhile."""
+    """It goes immediately to set points that were kept from before, wherever it was moved meanwhile."""
     FALLS = "falls"
     """It is held by nothing."""
     UNKNOWN = "unknown"
@@ -251,7 +251,7 @@ class Unmet(Term):
 
 
 class BringUpPhase(Term):
-    """What is released at once in a bring-up: by the launch file on the mock, each by a person on the real target."""
+    """What is released together in a bring-up: by the launch file on the mock, each by a person on the real target."""
 
     START = "start"
     ACTIVATE = "activate"

@@ -55,7 +55,7 @@ def _arguments() -> _Parser:
 
 
 def main() -> int:
-    """Parse the command line and run; the import stands inside, so that Ctrl-C while it loads ends well too."""
+    """Parse the command line and run; the import is inside, so that Ctrl-C while it loads ends well too."""
     from cellc.contract.limits import LimitError, raised, use
     from cellc.mock.command.options import MockOptions, run_mock
 

@@ -115,9 +115,9 @@ def assemble(
     """Create every node of the cell at time zero; nothing runs yet.
 
     Args:
-        bring_up: target whose steps are taken; with ``real`` devices act as those of the robot do when they come up.
+        bring_up: target whose steps are taken; with ``real`` devices act as those of the robot do when they start.
         reality: where the cell differs from what its folder says.
-        standing: a control stack that came up before; None for one that is off.
+        standing: a control stack that started before; None for one that is off.
 
     Raises:
         ManagerAbortedError: a controller manager ended while it started.
@@ -206,7 +206,9 @@ def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerMana
         )
         for name, manager in contract.managers.items()
     }
-    fingers = {one.gripper.joint: one.gripper.max_velocity for one in contract.devices.values() if one.gripper}
+    fingers = {
+        device.gripper.joint: device.gripper.max_velocity for device in contract.devices.values() if device.gripper
+    }
     as_they_are = ContractSimulatedJoint()
     for joint in dict.fromkeys((*fingers, *contract.simulated_joints)):
         facts = contract.simulated_joints.get(joint, as_they_are)
@@ -235,7 +237,7 @@ def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:
         interface = plant.contract.interfaces[facts.camera.topic]
         topic = topics.setdefault(facts.camera.topic, Topic[Image](facts.camera.topic, interface, plant.network))
         source = interface.sources[0].node if interface.sources else device
-        # Where the network is simulated the edge brings the latency; else the stated budget stands for it.
+        # Where the network is simulated the edge brings the latency; else the stated budget represents it.
         transport_s = interface.transport_s if interface.simulated is None else 0.0
         plant.cameras[device] = Camera(
             source, facts.camera, topic, transport_s, plant.clocks.of(device), plant.simulation

@@ -36,7 +36,7 @@ class LogMark:
         self._length = len(manager.log.lines())
 
     def reasons(self) -> str:
-        """Return the warnings and errors written since, joined to one line; empty where there are none."""
+        """Return the warnings and errors written since, joined to one line; empty without one."""
         lines = self._manager.log.lines()[self._length :]
         return "; ".join(" ".join(line.text.split()) for line in lines if line.level.value in _LEVELS)
 
@@ -128,7 +128,7 @@ class PlanTaker:
 def discover(plant: Plant) -> Waiting[StageEvidence]:
     """List hardware components and endpoints; a description that was refused is a problem.
 
-    Endpoints that do not connect are facts: the cell comes up without the data, as it does in reality.
+    Endpoints that do not connect are facts: the cell starts without the data, as it does in reality.
     """
     yield Wait(plant.now_ns)
     facts: list[str] = []
@@ -277,7 +277,7 @@ class Bringup:
     """Brings a plant up.
 
     Attributes:
-        evidence: of each stage that was begun.
+        evidence: of each stage that was started.
     """
 
     def __init__(self, plant: Plant) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from time import process_time
 
 from cellc.contract.contract import Contract
-from cellc.contract.limits import Purse, PurseError, limits, option
+from cellc.contract.limits import Budget, BudgetError, limits, option
 from cellc.contract.printing import stage
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.signals import within
@@ -21,7 +21,7 @@ from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
-from cellc.mock.faults.registry import Injection, any_begun, build_fault
+from cellc.mock.faults.registry import Injection, any_started, build_fault
 from cellc.mock.folder import GeneratedFolder, read_folder
 from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
@@ -109,7 +109,7 @@ class _Run:
         return _run_task(plant, ports, rehearsal, self.seed, injections, evidence, may_oversleep)
 
     def _resumed(self, standing: StandingMemory) -> tuple[Plant, tuple[StageEvidence, ...]] | None:
-        """Return a plant that stands after its bring-up; None where it must be brought up."""
+        """Return a plant that is after its bring-up; None where it must be brought up."""
         known = standing.get()
         if known is None:
             return None
@@ -139,7 +139,7 @@ def _run_task(
     for injection in injections:
         if injection.entry.phase is None:
             injection.schedule(ports, begun_ns)
-    disturbed = partial(any_begun, injections)
+    disturbed = partial(any_started, injections)
     deadline_ns = begun_ns + round(rehearsal.timeout_s * 1e9)
     task = Task(rehearsal, TaskContext(plant, deadline_ns, seed, disturbed, may_oversleep))
     plant.simulation.run_process(task.run())
@@ -169,7 +169,11 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
         return None
     ended = next((record for record in attempts if record.outcome != AttemptOutcome.SUCCEEDED), attempts[-1])
     # What began after that end did not cause it.
-    begun = [one.begun_ns for one in injections if one.begun_ns is not None and one.begun_ns <= ended.ended_ns]
+    begun = [
+        injection.begun_ns
+        for injection in injections
+        if injection.begun_ns is not None and injection.begun_ns <= ended.ended_ns
+    ]
     if not begun:
         return None
     if ended.outcome == AttemptOutcome.CANCELLED and ended.cancel is not None:
@@ -367,10 +371,10 @@ def in_turn(cell: MockCell, names: Iterable[str]) -> Iterator[str]:
     Raises:
         MockError: they took the processor time that those of one folder may take together.
     """
-    purse = Purse(limits().rehearsal_seconds, process_time)
+    budget = Budget(limits().rehearsal_seconds, process_time)
     try:
-        yield from purse.over(names)
-    except PurseError:
+        yield from budget.over(names)
+    except BudgetError:
         most = f"must take at most {limits().rehearsal_seconds} s of processor time together, got more"
         raise MockError(cell.contract.files.rehearsals, f"{most}; {option('rehearsal-seconds')}") from None
 

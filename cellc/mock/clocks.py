@@ -174,7 +174,7 @@ class Clocks:
         """Return the clocks that have this name or belong to the domain of this name.
 
         Raises:
-            KeyError: there is none.
+            KeyError: the name is unknown.
         """
         chosen = tuple(clock for clock in self._clocks.values() if name in (clock.name, clock.domain))
         if not chosen:

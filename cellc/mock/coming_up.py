@@ -26,10 +26,10 @@ def played(real: Sequence[BringUpStep], mock: Sequence[BringUpStep], contract: C
     must show before a motion.
     """
     keys = {
-        (f"{manager.namespace}/controller_manager", one.full_name.rpartition("/")[2])
+        (f"{manager.namespace}/controller_manager", controller.full_name.rpartition("/")[2])
         for manager in contract.managers.values()
-        for one in manager.controllers.values()
-        if "mock" in one.targets
+        for controller in manager.controllers.values()
+        if "mock" in controller.targets
     }
     claimed = {
         (step.request.manager, name)

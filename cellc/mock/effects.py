@@ -30,7 +30,7 @@ STARTED_AFTER_NS = 300_000_000
 LOCKED_NS = 3_000_000_000
 """Seconds, says the source of a gripper that is asked every second whether it has come to an end of its stroke."""
 _BY_PEOPLE = (Need.BRAKES_OPEN, Need.INTERFACE_ENABLED, Need.PROGRAM_RUNNING)
-"""What people bring about at the robot, after its driver has come up and before a claim."""
+"""What people bring about at the robot, after its driver has started and before a claim."""
 _MOVING = (Motion.MOVES, Motion.JUMPS, Motion.FALLS, Motion.UNKNOWN)
 JOG_NS = 10_000_000
 JOG_SPEED = 0.25
@@ -39,11 +39,11 @@ JOG_SPEED = 0.25
 
 @dataclass(frozen=True, slots=True)
 class UncommandedMotion:
-    """A joint that moved and that nobody had commanded to.
+    """A joint that moved without a command.
 
     Attributes:
         step: rad or m that it moved in the cycle.
-        distance: rad or m from where it stood to the set point that it goes to.
+        distance: rad or m from where it was to the set point that it goes to.
     """
 
     device: str
@@ -65,7 +65,7 @@ class Effects:
     """What holds of each device now, and what came of it.
 
     Attributes:
-        motions: that nobody commanded.
+        motions: motions without a command.
         given_up: controllers that gave up their claim because of a watch, with the reason, until they are active again.
         ignored: devices that ignore the set points which they are sent, with the reason.
     """
@@ -128,7 +128,7 @@ class Effects:
             told = any(device in self._publishers(topic) for topic in proven)
             ready = [need for need in late if need is not Need.PROGRAM_RUNNING or told]
             self.expect(BringUpPhase.CLAIM, partial(self._prepare, device, ready))
-            states = {one.name: one.state for one in self._manager(device).list_hardware_components()}
+            states = {component.name: component.state for component in self._manager(device).list_hardware_components()}
             state = states[self._component(device)]
             if state == "active":
                 self.activate(self._component(device))
@@ -173,7 +173,7 @@ class Effects:
         """Let people do what they do once the cell is up: jog a robot whose program does not run yet, and start it."""
         self._coming_up = False
         for history in self._control.histories.values():
-            history.count_anew()
+            history.count_again()
         for device in self.silenced:
             joints = sorted(self._claims(device))
             if joints:
@@ -268,7 +268,7 @@ class Effects:
     # -- set points --------------------------------------------------------------------------------------------------
 
     def _fall_silent(self, device: str) -> None:
-        """Let set points no longer reach a device: it stands, and whoever watches it hears of it."""
+        """Let set points no longer reach a device: it stops, and whoever watches it hears of it."""
         manager = self._manager(device)
         manager.disturbances.ignore_commands(self._component(device))
         manager.disturbances.rest(self._component(device))
@@ -333,10 +333,10 @@ class Effects:
                 return
             measure = partial(self._note_jump, device, worst, positions[worst], apart[worst], why)
             self._simulation.at(self._simulation.now_ns + manager.period_ns, measure)
-        manager.disturbances.heed_commands(component)
+        manager.disturbances.accept_commands(component)
 
     def _is_ignored(self, device: str, joint: str, distance: float, why: str) -> bool:
-        """Tell whether a device ignores a set point so far from where it stands, and keep that in mind."""
+        """Tell whether a device ignores a set point so far from where it is, and keep that in mind."""
         start = self._facts(device).effects.get(Moment.PROGRAM_START)
         followed = None if start is None else start.largest_step
         if followed is None or distance <= followed:
@@ -354,9 +354,9 @@ class Effects:
         self._control.changed.fire(now_ns)
 
     def recover(self) -> None:
-        """Let devices that ignore set points begin anew from where their joints stand."""
+        """Let devices that ignore set points start again from where their joints stand."""
         for device in tuple(self.ignored):
             del self.ignored[device]
             manager = self._manager(device)
             manager.disturbances.stand(self._component(device))
-            manager.disturbances.heed_commands(self._component(device))
+            manager.disturbances.accept_commands(self._component(device))

@@ -28,7 +28,7 @@ from cellc.mock.world.world import World
 
 @dataclass(frozen=True, slots=True)
 class TaskNode:
-    """The node that the task stands for: what reaches it, what it shows of itself, and what is asked of it.
+    """The node that the task represents: what reaches it, what it shows of itself, and what is asked of it.
 
     Attributes:
         name: of the node in the contract.

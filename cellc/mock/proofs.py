@@ -114,7 +114,7 @@ class Proofs:
             return f"no manager {proof.manager}"
         key = self.controllers(proof.manager).get(proof.controller)
         listed = self._plant.control.managers[self.managers[proof.manager]].list_controllers()
-        state = next((one.state for one in listed if one.name == key), "not loaded")
+        state = next((state.state for state in listed if state.name == key), "not loaded")
         passed = ("inactive", "active") if proof.state == "inactive" else ("active",)
         return "" if state in passed else f"controller {proof.controller} must be {proof.state}, is {state}"
 
@@ -122,7 +122,7 @@ class Proofs:
         if proof.manager not in self.managers:
             return f"no manager {proof.manager}"
         listed = self._plant.control.managers[self.managers[proof.manager]].list_hardware_components()
-        state = next((one.state for one in listed if one.name == proof.component), "not there")
+        state = next((state.state for state in listed if state.name == proof.component), "not there")
         return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
 
     def _topic(self, proof: TopicProof) -> str:
@@ -136,7 +136,7 @@ class Proofs:
 
     def _heard(self) -> set[str]:
         """Return the broadcasters, and adapters, of whom a joint state was heard."""
-        return {one.broadcaster for one in self._plant.control.histories.values() if len(one.stamps)}
+        return {history.broadcaster for history in self._plant.control.histories.values() if len(history.stamps)}
 
     def _action(self, proof: ActionProof) -> str:
         interface = self._plant.contract.interfaces.get(proof.action)
@@ -146,7 +146,9 @@ class Proofs:
     def _connected(self, frame: str) -> set[str]:
         """Return a frame and those above it, as far as transforms have arrived."""
         frames, joints = self._plant.contract.frames, self._plant.robot_state_publisher.links.joints
-        named = {name for one in self._plant.control.histories.values() if len(one.stamps) for name in one.names}
+        named = {
+            name for history in self._plant.control.histories.values() if len(history.stamps) for name in history.names
+        }
         found: set[str] = set()
         while frame in frames and frame not in found:
             found.add(frame)

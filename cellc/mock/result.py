@@ -47,9 +47,10 @@ class MadeStep:
 
 @dataclass(frozen=True, slots=True)
 class CancelRecord:
-    """A cancel request: ``held_ns`` is the first stamp from which all joints stood still, None where they did not.
+    """A cancel request: ``held_ns`` is the first stamp from which all joints were at standstill, None where they did
+    not.
 
-    Without a ``return_code`` nobody has answered it.
+    Without a ``return_code`` no person has answered it.
     """
 
     requested_ns: int
@@ -77,7 +78,7 @@ class AttemptRecord:
         goal_stamp: stamp at which the goal's frame was looked up.
         joint_state_age: age of the joint state that was planned against.
         tf_lookup_age: age of the transform when it was looked up.
-        fault_code: the reason in the words of whoever failed; empty on success.
+        fault_code: the reason in the words of the failed part; empty on success.
         operator_intervention: ``none``, or what a person has to do before the next attempt.
     """
 
@@ -161,13 +162,13 @@ class RehearsalResult:
     """The end of one rehearsal with its evidence; nothing in it depends on the host or the hour.
 
     Attributes:
-        outcome: of the failure that ended it, or succeeded; a run failure where the cell never came up.
+        outcome: of the failure that ended it, or succeeded; a run failure where the cell never started.
         sim_time_s: simulated time from the end of the bring-up to the end.
         response_s: simulated time from the fault taking effect to the bounded end; None without a fault.
-        within_s: bound of ``response_s``; None where there is none.
+        within_s: bound of ``response_s``, or None.
         findings: what was odd, such as endpoints that do not connect or a second authority of a frame.
         edited: the folder was not as its manifest has it, so that this is evidence of no configuration.
-        unseen: links with a shape whose mesh is not there: nobody looked whether they touch anything.
+        unseen: links with a shape whose mesh is not there: nothing checked whether they touch anything.
         vacuous: it shows nothing of a fault, which never began although no other one ended the run; a finding says why.
     """
 
@@ -222,8 +223,13 @@ class RehearsalResult:
 
     def _repr_html_(self) -> str:
         rows = (
-            (one.step, one.outcome.value, f"{(one.ended_ns - one.started_ns) / 1e9:.2f}", one.fault_code)
-            for one in self.attempts
+            (
+                attempt.step,
+                attempt.outcome.value,
+                f"{(attempt.ended_ns - attempt.started_ns) / 1e9:.2f}",
+                attempt.fault_code,
+            )
+            for attempt in self.attempts
         )
         return html_table(repr(self).strip("<>"), ("step", "outcome", "s simulated", "reason"), rows)
 

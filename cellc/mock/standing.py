@@ -1,8 +1,8 @@
-"""A cell that stands after its bring-up, copied for every run whose bring-up would be the same.
+"""A cell after its bring-up, copied for every run whose bring-up would be the same.
 
 What a run draws, where things really are and what clocks read, reaches the control stack by the task's goals alone. So
-controllers come up alike in every run of a rehearsal; cameras, networks and transforms, which see what was drawn, are
-made anew and catch up. A run of ten seconds of a six-joint arm takes 10 ms of processor time less with it.
+controllers start alike in every run of a rehearsal; cameras, networks and transforms, which see what was drawn, are
+made again and catch up. A run of ten seconds of a six-joint arm takes 10 ms of processor time less with it.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class Standing:
     events: int
 
     def control(self) -> ControlStack:
-        """Return a copy of the stack, in which nobody listens."""
+        """Return a copy of the stack, without listeners."""
         stack: ControlStack = _Reader(io.BytesIO(self.content), self.shared).load()
         for server in stack.servers():
             server.journal.listening = False
@@ -114,7 +114,7 @@ class StandingMemory:
 
 
 def _copy(plant: Plant, evidence: tuple[StageEvidence, ...]) -> Standing | None:
-    """Return a copy; None of a plant that cannot be copied, or whose runs do not come up alike."""
+    """Return a copy; None of a plant that cannot be copied, or whose runs do not start alike."""
     announced_ns = plant.robot_state_publisher.announced_ns
     if announced_ns is None or not comes_up_alike(plant):
         return None

@@ -35,7 +35,7 @@ class TaskRequests:
         return kind in self._cancels
 
     def displace_goal(self, goal: str, offset: Vector3) -> None:
-        """Move a Cartesian goal by metres along the axes of its frame."""
+        """Move a Cartesian goal by meters along the axes of its frame."""
         self._displaced[goal] = offset
 
     def restore_goal(self, goal: str) -> None:

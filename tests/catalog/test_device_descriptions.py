@@ -172,12 +172,12 @@ def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
     pairs = zip(turns, endless, strict=True)
     q = np.array([part for turn, twice in pairs for part in ((math.cos(turn), math.sin(turn)) if twice else (turn,))])
     pinocchio.computeCollisions(model, data, geometry, geometry_data, q, False)
-    neighbours = {frozenset((joint.parent, joint.child)) for joint in _description(name).joints}
+    neighbors = {frozenset((joint.parent, joint.child)) for joint in _description(name).joints}
     found = set()
     for pair, result in zip(geometry.collisionPairs, geometry_data.collisionResults, strict=True):
         ends = [geometry.geometryObjects[index] for index in (pair.first, pair.second)]
         first, second = sorted(model.frames[end.parentFrame].name for end in ends)
-        if result.isCollision() and first != second and frozenset((first, second)) not in neighbours:
+        if result.isCollision() and first != second and frozenset((first, second)) not in neighbors:
             found.add((first, second))
     return found
 

@@ -139,10 +139,10 @@ def test_jaws_part_by_twice_the_way_of_a_finger(finger: float, gap_mm: float) ->
         assert link is not None
         frame = transform(hand, "fr3_hand", link.name, positions)
         boxes = [(shape.pose.position[1], shape.geometry) for shape in link.collisions]
-        sizes = [(centre, box.size[1]) for centre, box in boxes if isinstance(box, Box)]
+        sizes = [(center, box.size[1]) for center, box in boxes if isinstance(box, Box)]
         assert len(sizes) == len(boxes)
         # The right finger is turned by half a turn: its y points to the other side.
-        inner.append(sign * min(sign * (frame[1, 3] + frame[1, 1] * centre) - width / 2 for centre, width in sizes))
+        inner.append(sign * min(sign * (frame[1, 3] + frame[1, 1] * center) - width / 2 for center, width in sizes))
     assert (inner[0] - inner[1]) * 1000 == pytest.approx(gap_mm, abs=1e-6)
 
 

@@ -81,8 +81,8 @@ def test_a_campaign_is_the_same_on_a_cluster_as_here(dask: Dask) -> None:
     plan, baselines = make_plan(cell, possible_faults(cell.contract), 0)
     runs = tuple(plan.singles())[::15]
     here, there = (
-        conduct(cell, runs, baselines, seed=0, hire=hire, progress=lambda *_: None)
-        for hire in (None, cluster(dask.address))
+        conduct(cell, runs, baselines, seed=0, factory=factory, progress=lambda *_: None)
+        for factory in (None, cluster(dask.address))
     )
     assert there.ends == here.ends
     # A type of numpy in one of the two compares as equal; what is written shows it.

@@ -12,7 +12,7 @@ import pytest
 
 from cellc.compiler.pipeline import check
 from cellc.contract.diagnostics import Diagnostic
-from cellc.contract.limits import DEFAULTS, Purse, children_seconds, in_force, limits
+from cellc.contract.limits import DEFAULTS, Budget, children_seconds, in_force, limits
 from cellc.robot.description.mesh_numbers import read_meshes
 from cellc.robot.description.meshes import MeshError, identify
 from cellc.robot.description.xacro_expansion import expand_here, expand_xacro
@@ -155,8 +155,8 @@ def test_busy_machine_gives_the_answer_of_an_idle_one(tmp_path: Path, monkeypatc
         return run(command, timeout=timeout, **options)
 
     monkeypatch.setattr("cellc.robot.description.confined_child.subprocess.run", watched)
-    purse = Purse(limits().xacro_seconds_together, children_seconds)
-    assert expand_xacro(_write(tmp_path, f"{_HEAD}<link name='a'/></robot>"), {}, tmp_path, purse=purse).value
+    budget = Budget(limits().xacro_seconds_together, children_seconds)
+    assert expand_xacro(_write(tmp_path, f"{_HEAD}<link name='a'/></robot>"), {}, tmp_path, budget=budget).value
     triangle = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
     (tmp_path / "a.stl").write_text(f"solid a\n{triangle}endsolid a\n", encoding="utf-8")
     (read,) = read_meshes((identify(f"file://{tmp_path}/a.stl", (tmp_path,), ()),))

@@ -71,20 +71,20 @@ def _rows(graph: nx.DiGraph[str]) -> list[list[_Node]]:
     """Return rows from top to bottom, with lanes for edges that pass a row, ordered so that few lines cross."""
     rows: list[list[_Node]] = [sorted(row) for row in nx.topological_generations(graph)]
     row_of = {node: number for number, row in enumerate(rows) for node in row}
-    neighbours: dict[_Node, list[_Node]] = {node: [] for row in rows for node in row}
+    neighbors: dict[_Node, list[_Node]] = {node: [] for row in rows for node in row}
     for edge in sorted(graph.edges):
         way = list(_way(edge, row_of[edge[0]], row_of[edge[1]]))
         for number, lane in enumerate(way[1:-1], row_of[edge[0]] + 1):
             rows[number].append(lane)
-            neighbours[lane] = []
+            neighbors[lane] = []
         for upper, lower in pairwise(way):
-            neighbours[upper].append(lower)
-            neighbours[lower].append(upper)
+            neighbors[upper].append(lower)
+            neighbors[lower].append(upper)
     for _ in range(_SWEEPS):
         for sweep in (rows[1:], rows[-2::-1]):
             for row in sweep:
                 position = {node: index / len(each) for each in rows for index, node in enumerate(each)}
-                row.sort(key=lambda node: (_mean([position[other] for other in neighbours[node]]), str(node)))
+                row.sort(key=lambda node: (_mean([position[other] for other in neighbors[node]]), str(node)))
     return rows
 
 

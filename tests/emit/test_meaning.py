@@ -107,8 +107,8 @@ def test_semantics_name_groups_states_and_the_tool() -> None:
         (pair.get("link1"), pair.get("link2")): pair.get("reason") for pair in robot.iterfind("disable_collisions")
     }
     # The base and the tool have no shape that could touch anything.
-    neighbours = {(f"arm_link_{number}", f"arm_link_{number + 1}") for number in range(1, 6)}
-    assert {pair for pair, reason in pairs.items() if reason == "Adjacent"} == neighbours
+    neighbors = {(f"arm_link_{number}", f"arm_link_{number + 1}") for number in range(1, 6)}
+    assert {pair for pair, reason in pairs.items() if reason == "Adjacent"} == neighbors
 
 
 def test_launch_starts_each_process_once_and_real_hardware_behind_its_gate() -> None:

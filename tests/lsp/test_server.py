@@ -204,11 +204,11 @@ async def _mend(editor: Editor, done: Session) -> None:
         lsp.DocumentFormattingParams(editor.document, lsp.FormattingOptions(2, True))
     )
     done.formatted = "".join(one.new_text for one in made or ())
-    editor.change(_mended(_WRONG, done.actions))
+    editor.change(_corrected(_WRONG, done.actions))
     done.found_mended = await editor.findings()
 
 
-def _mended(text: str, actions: list[lsp.CodeAction]) -> str:
+def _corrected(text: str, actions: list[lsp.CodeAction]) -> str:
     lines = text.split("\n")
     for edit in _edits(actions):
         line = lines[edit.range.start.line]

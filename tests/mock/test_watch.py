@@ -26,10 +26,10 @@ def test_missed_cycles_are_seen_at_the_instant_at_which_looking_all_the_time_see
     load_with: LoadWith, monkeypatch: pytest.MonkeyPatch, at_s: float
 ) -> None:
     cell = load_with(fault("skip_cycles", "control", at_s, cycles=20), expect="missed_cycle")
-    calm = cell.run("faulty")
+    restore_topic = cell.run("faulty")
     monkeypatch.setattr(context, "next_look_ns", _always)
-    assert calm.outcome == "missed_cycle"
-    assert repr(asdict(calm)) == repr(asdict(cell.run("faulty")))
+    assert restore_topic.outcome == "missed_cycle"
+    assert repr(asdict(restore_topic)) == repr(asdict(cell.run("faulty")))
 
 
 def test_a_quiet_rehearsal_ends_bit_by_bit_as_with_every_look_and_needs_fewer(
@@ -46,9 +46,9 @@ def test_a_quiet_rehearsal_ends_bit_by_bit_as_with_every_look_and_needs_fewer(
         return _always(plant, disturbed=disturbed)
 
     monkeypatch.setattr(context, "next_look_ns", seldom)
-    calm = cell.run("pick_and_place")
+    restore_topic = cell.run("pick_and_place")
     monkeypatch.setattr(context, "next_look_ns", always)
-    assert repr(asdict(calm)) == repr(asdict(cell.run("pick_and_place")))
+    assert repr(asdict(restore_topic)) == repr(asdict(cell.run("pick_and_place")))
     assert looks["seldom"] < 0.7 * looks["always"]
 
 

@@ -19,20 +19,20 @@ payloads = pytest.mark.parametrize("text", PAYLOADS.values(), ids=PAYLOADS.keys(
 @payloads
 def test_text_stays_on_its_line_and_is_obeyed_by_nobody(text: str) -> None:
     lines: tuple[Line, ...] = (text, (text, Styled("ours", Style.BOLD)), (Styled(text, Style.RED), text), ("a", text))
-    plain = as_text(lines, colour=False)
+    plain = as_text(lines, color=False)
     assert plain.count("\n") == len(lines)
     assert harm(plain) == []
-    assert without_colour(as_text(lines, colour=True)) == plain
+    assert without_colour(as_text(lines, color=True)) == plain
 
 
 def test_mark_that_two_texts_make_together_is_broken_too() -> None:
-    assert harm(as_text([("#", "#[error]a"), (":", ":error::a")], colour=False)) == []
-    assert harm(without_colour(as_text([("#", Styled("#[error]a", Style.RED))], colour=True))) == []
+    assert harm(as_text([("#", "#[error]a"), (":", ":error::a")], color=False)) == []
+    assert harm(without_colour(as_text([("#", Styled("#[error]a", Style.RED))], color=True))) == []
 
 
 def test_text_that_steers_nothing_is_shown_as_it_is() -> None:
     plain = "Größe 5 µm – 漢字 \u26a0\ufe0f 1\ufe0f\u20e3, a::b, # 1, ## 2, C:\\x [a]"
-    assert as_text([plain], colour=False) == f"{plain}\n"
+    assert as_text([plain], color=False) == f"{plain}\n"
 
 
 @payloads

@@ -9,7 +9,7 @@ import threading
 
 import pytest
 
-from cellc.contract.printing import progress, show, stage, wants_colour
+from cellc.contract.printing import progress, show, stage, wants_color
 
 
 class _Terminal(io.StringIO):
@@ -42,8 +42,8 @@ class _Clock:
     ],
 )
 def test_colour_follows_the_conventions(environment: dict[str, str], on_terminal: bool, in_pipe: bool) -> None:
-    assert wants_colour(True, environment) is on_terminal
-    assert wants_colour(False, environment) is in_pipe
+    assert wants_color(True, environment) is on_terminal
+    assert wants_color(False, environment) is in_pipe
 
 
 def test_progress_is_silent_for_two_seconds_and_erased_at_the_end() -> None:

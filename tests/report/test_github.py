@@ -15,7 +15,7 @@ HOME = PurePosixPath("/project")
 
 
 def _shown(found: list[Diagnostic]) -> str:
-    return as_text(render_github(found, HOME), colour=False)
+    return as_text(render_github(found, HOME), color=False)
 
 
 def test_command_names_place_code_and_help() -> None:

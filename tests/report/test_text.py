@@ -16,17 +16,17 @@ from cellc.tools.report.text_report import SEVERITY_STYLES, render_text, summary
 from tests.report.findings import FILE, finding
 
 
-def _shown(found: Sequence[Diagnostic], texts: Mapping[str, str], *, colour: bool) -> str:
-    return as_text(render_text(found, texts), colour=colour)
+def _shown(found: Sequence[Diagnostic], texts: Mapping[str, str], *, color: bool) -> str:
+    return as_text(render_text(found, texts), color=color)
 
 
 def _summary(found: Sequence[Diagnostic], files: Sequence[str]) -> str:
-    return as_text([summary(found, files)], colour=False).rstrip("\n")
+    return as_text([summary(found, files)], color=False).rstrip("\n")
 
 
 def _rows(line: str, start: int, end: int) -> tuple[str, str]:
     """Return the source line and the carets below it, without gutter."""
-    shown = _shown([finding(Span(FILE, 1, start, 1, end))], {FILE: line}, colour=False).split("\n")
+    shown = _shown([finding(Span(FILE, 1, start, 1, end))], {FILE: line}, color=False).split("\n")
     source, carets = shown[3], shown[4]
     return source.removeprefix("1 | "), carets.removeprefix("  | ")
 
@@ -36,7 +36,7 @@ def test_finding_looks_like_that_of_a_compiler() -> None:
     found = finding(
         Span(FILE, 10, 8, 10, 10), advice="swap them", related=(Related("lower is here", Span(FILE, 9, 1, 9, 6)),)
     )
-    assert _shown([found], {FILE: text}, colour=False) == (
+    assert _shown([found], {FILE: text}, color=False) == (
         "error[reversed-limits]: limit is reversed\n"
         "  --> cells/a.yaml:10:8\n"
         "   |\n"
@@ -54,25 +54,25 @@ def test_finding_looks_like_that_of_a_compiler() -> None:
 def test_error_stands_before_the_blockers_above_it() -> None:
     blocker = replace(finding(Span(FILE, 1, 1, 1, 2), "asked"), severity=Severity.BLOCKER)
     error = finding(Span(FILE, 9, 1, 9, 2), "wrong")
-    shown = _shown([blocker, error], {}, colour=False)
+    shown = _shown([blocker, error], {}, color=False)
     assert shown.index("wrong") < shown.index("asked")
 
 
 def test_findings_stand_in_the_order_of_the_file() -> None:
     later, earlier = finding(Span(FILE, 2, 1, 2, 2), "later"), finding(Span(FILE, 1, 1, 1, 2), "earlier")
-    shown = _shown([later, earlier], {}, colour=False)
+    shown = _shown([later, earlier], {}, color=False)
     assert shown.index("earlier") < shown.index("later")
     assert shown.count("\n\n") == 1
-    assert shown == _shown([earlier, later], {}, colour=False)
+    assert shown == _shown([earlier, later], {}, color=False)
 
 
 def test_nothing_found_is_no_text() -> None:
-    assert _shown([], {}, colour=True) == ""
+    assert _shown([], {}, color=True) == ""
 
 
 @pytest.mark.parametrize("line", [0, 7])
 def test_place_without_text_is_only_named(line: int) -> None:
-    shown = _shown([finding(Span(FILE, line, 1, line, 1))], {FILE: "a\n"}, colour=False)
+    shown = _shown([finding(Span(FILE, line, 1, line, 1))], {FILE: "a\n"}, color=False)
     assert shown.endswith(f"--> cells/a.yaml:{line}:1\n")
 
 
@@ -102,7 +102,7 @@ def test_carets_stand_under_the_culprit(line: str, start: int, end: int, source:
 
 
 def test_span_of_several_lines_is_marked_to_the_end_of_the_first() -> None:
-    shown = _shown([finding(Span(FILE, 1, 4, 3, 2))], {FILE: "a: |\n  b\n  c\n"}, colour=False)
+    shown = _shown([finding(Span(FILE, 1, 4, 3, 2))], {FILE: "a: |\n  b\n  c\n"}, color=False)
     assert "1 | a: |\n  |    ^\n" in shown
 
 
@@ -126,16 +126,16 @@ _STYLES = re.compile(r"\x1b\[[0-9;]*m")
 @given(line=st.text(max_size=60), start=st.integers(1, 80), length=st.integers(0, 80), message=st.text(max_size=40))
 def test_hostile_text_cannot_drive_the_terminal(line: str, start: int, length: int, message: str) -> None:
     found = finding(Span(message, 1, start, 1, start + length), message, advice=message)
-    plain = _shown([found], {message: line}, colour=False)
-    coloured = _shown([found], {message: line}, colour=True)
+    plain = _shown([found], {message: line}, color=False)
+    colored = _shown([found], {message: line}, color=True)
     assert not re.search("[\x00-\x09\x0b-\x1f\x7f-\x9f\u200b-\u200f\u2028-\u202e\u2066-\u2069]", plain)
-    assert _STYLES.sub("", coloured) == plain
+    assert _STYLES.sub("", colored) == plain
     plain.encode()
 
 
 def test_severity_has_its_colour() -> None:
     for severity in Severity:
-        shown = _shown([finding(severity=severity)], {FILE: "abc"}, colour=True)
+        shown = _shown([finding(severity=severity)], {FILE: "abc"}, color=True)
         assert f"{SEVERITY_STYLES[severity].value}{severity.value}[reversed-limits]" in shown
         assert f"{SEVERITY_STYLES[severity].value}^^^" in shown
 
@@ -153,7 +153,7 @@ def test_summary_counts_by_severity() -> None:
     [("\x1b", "\\x1b"), ("\x9b", "\\x9b"), ("\u202e", "\\u202e"), ("\u2028", "\\u2028"), ("\ud800", "\\ud800")],
 )
 def test_steering_character_is_shown_as_its_escape(character: str, shown: str) -> None:
-    text = _shown([finding(message=f"a{character}b")], {FILE: f"c{character}d"}, colour=False)
+    text = _shown([finding(message=f"a{character}b")], {FILE: f"c{character}d"}, color=False)
     assert f"a{shown}b" in text
     assert f"c{shown}d" in text
     assert character not in text

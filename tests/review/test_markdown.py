@@ -81,14 +81,14 @@ def test_outcomes_of_rehearsals_are_told_on_both_sides() -> None:
     )
     lost = ReviewRehearsal(name="stale", before="stale_state", passed_before=True)
     review = _review(rehearsals=(ended, lost))
-    text = as_text(render_review(review), colour=False)
+    text = as_text(render_review(review), color=False)
     assert "  pick: succeeded -> planning_failure, not as declared\n" in text
     assert "  stale: stale_state -> not run\n" in text
     assert "`pick: succeeded -> planning_failure, not as declared`" in render_markdown(review)
 
 
 def test_what_a_terminal_would_obey_is_escaped() -> None:
-    text = as_text(render_review(_review(_change())), colour=True)
+    text = as_text(render_review(_review(_change())), color=True)
     assert "\x1b[31m \u202e" not in text
     assert all(not line.startswith("::") for line in text.splitlines())
 

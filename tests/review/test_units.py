@@ -87,5 +87,5 @@ def test_difference(before: Leaf | None, after: Leaf | None, unit: str, text: st
         (0.0, 1e-4, "turns 0.0001 deg"),
     ],
 )
-def test_motion(metres: float, degrees: float, text: str) -> None:
-    assert motion(metres, math.radians(degrees)) == text
+def test_motion(meters: float, degrees: float, text: str) -> None:
+    assert motion(meters, math.radians(degrees)) == text

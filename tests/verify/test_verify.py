@@ -102,8 +102,8 @@ def test_frame_below_a_dynamic_edge_has_no_pose() -> None:
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-4, 0.3, 3.0])
 def test_distance_of_two_poses_is_exact_for_small_and_large_angles(angle: float) -> None:
     turned = from_xyz_rpy((3.0, 4.0, 0.0), (0.0, angle, 0.0))
-    metres, radians = apart(identity(), turned)
-    assert metres == pytest.approx(5.0)
+    meters, radians = apart(identity(), turned)
+    assert meters == pytest.approx(5.0)
     assert radians == pytest.approx(angle, rel=1e-6, abs=1e-15)
 
 

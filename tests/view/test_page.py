@@ -97,9 +97,9 @@ def test_names_of_strangers_are_data(of_folder: Content) -> None:
         scene=replace(scene, frames=tuple(replace(one, name=HOSTILE) for one in scene.frames)),
         runs=(replace(first, name=HOSTILE, reason=HOSTILE),),
     )
-    calm, found = Page(to_html(of_folder, three_js())), Page(to_html(hostile, three_js()))
-    assert len(found.scripts) == len(calm.scripts)
-    assert found.scripts[1:] == calm.scripts[1:]
+    restore_topic, found = Page(to_html(of_folder, three_js())), Page(to_html(hostile, three_js()))
+    assert len(found.scripts) == len(restore_topic.scripts)
+    assert found.scripts[1:] == restore_topic.scripts[1:]
     assert not [tag for tag, attributes in found.elements if tag == "img" and "onerror" in attributes]
     assert found.data["scene"]["frames"][0]["name"] == HOSTILE
     assert found.data["runs"][0]["name"] == HOSTILE

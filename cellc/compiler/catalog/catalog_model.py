@@ -81,14 +81,14 @@ class CatalogModel(BaseModel):
 
 
 def summary_of(model: type[BaseModel]) -> str:
-    """Return what the docstring of a model says of it as a whole."""
+    """Return what the docstring of a model says about it as a whole."""
     return " ".join((model.__doc__ or "").partition(_ATTRIBUTES)[0].split()).replace("``", "`")
 
 
 def said_of(model: type[BaseModel], name: str) -> str:
     """Return what the docstring of a model, or of one that it extends, says of a key under ``Attributes``."""
-    for one in model.__mro__:
-        told = re.search(rf"^ +{re.escape(name)}: (.*(?:\n {{8}}.*)*)", _attributes(one), re.MULTILINE)
+    for kind in model.__mro__:
+        told = re.search(rf"^ +{re.escape(name)}: (.*(?:\n {{8}}.*)*)", _attributes(kind), re.MULTILINE)
         if told is not None:
             return " ".join(told[1].split()).replace("``", "`")
     return ""
@@ -104,4 +104,4 @@ def _units_told(field: JsonSchemaValue) -> str:
         return f" Units: {', '.join(map(str, field['x-units']))}."
     inner = (*field.get("anyOf", ()), field.get("items"), *field.get("patternProperties", {}).values())
     values = (*inner, field.get("additionalProperties"))
-    return next((told for one in values if isinstance(one, dict) and (told := _units_told(one))), "")
+    return next((told for value in values if isinstance(value, dict) and (told := _units_told(value))), "")

@@ -9,7 +9,7 @@ from cellc.contract.diagnostics.diagnostic import CodePage
 from cellc.contract.limits import DEFAULTS, MIB
 
 # Each is the whole text of a description, in which a test finds it reported at its mark and nowhere else; or, after
-# `$`, what a shell is told beside a sound `cell.yaml`, where the last command reports it.
+# `$`, what a shell gets beside a sound `cell.yaml`, where the last command reports it.
 _EXAMPLES: Mapping[str, str] = {
     "urdf-bad-geometry": """
 <robot name="arm">

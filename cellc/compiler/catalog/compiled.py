@@ -18,14 +18,14 @@ from cellc.contract.store.swap import write_whole
 
 CATALOG = Path(__file__).parent
 SHOWN = "cellc/compiler/catalog"
-"""Stands for the folder of the package in messages: where that lies on the machine is of no interest to a reader."""
+"""Placeholder for the folder of the package in messages: its place on the machine does not matter there."""
 
 DEVICE_FILE = "device.yaml"
 FAMILY_FILE = ".family.yaml"
 """How the name of the file ends that states what the models of a family share."""
 
 MODEL = "{model}"
-"""Stands in a family's texts for the name of the model."""
+"""Placeholder for the name of the model in the texts of a family."""
 
 _COMPILED = "compiled"
 Places = Mapping[tuple[str, str], Span]
@@ -140,10 +140,10 @@ def _data(file: Path) -> object:
 def _files_of(name: str) -> tuple[Path, ...]:
     """Name what a device is made from: all of its folder, or its own file and what its vendor's models share."""
     file = device_file(name)
-    beside = sorted(one for one in file.parent.iterdir() if one.is_file())
-    others = () if file.name == DEVICE_FILE else [one for one in beside if one.suffix == ".yaml" and one != file]
+    beside = sorted(path for path in file.parent.iterdir() if path.is_file())
+    others = () if file.name == DEVICE_FILE else [path for path in beside if path.suffix == ".yaml" and path != file]
     shared = sorted((CATALOG / "devices").glob("*.xacro"))
-    return (*shared, *(one for one in beside if one not in others or one.name.endswith(FAMILY_FILE)))
+    return (*shared, *(path for path in beside if path not in others or path.name.endswith(FAMILY_FILE)))
 
 
 def _written(name: str, sources: Sequence[Path], content: Mapping[str, object]) -> tuple[Path, str]:

@@ -160,7 +160,7 @@ class ControllerKind(CatalogModel):
         return {name: facts.as_in(distro) for name, facts in self.parameters.items() if facts.declared_in(distro)}
 
     def parameter(self, name: str, distro: Distro) -> ParameterFacts | None:
-        """Return the declaration of a parameter by the name that a user writes; None where there is none."""
+        """Return the declaration of a parameter by the name that a user writes, or None."""
         declared = self.parameters_in(distro)
         return declared.get(name) or next((facts for key, facts in declared.items() if is_named(key, name)), None)
 

@@ -2,7 +2,7 @@
 
 Texts may carry placeholders that link fills in: ``{device}`` the name in the spec, ``{prefix}`` that of its ROS names,
 ``{bare_prefix}`` the prefix without its last underscore, ``{prefix_namespace}`` the same as a namespace, ``{stem}`` the
-same or, where there is none, the name, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's
+same or, without one, the name, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's
 card, ``{carrier_address}`` that of the device on which this one is mounted, ``{controller_KIND}`` the full name of the
 cell's controller of that kind on this device, ``{share:PACKAGE}`` the share folder of an installed package,
 ``{played_by}`` who starts its program, ``{thresholds}`` those of collisions as a request, ``{load}`` what
@@ -174,7 +174,7 @@ class AllowedPair(CatalogModel):
 Excusable = Literal["impossible-inertia", "mimic-of-nothing", "missing-joint-limits", "missing-velocity-limit"]
 """Codes on a description that endanger nobody: no motion is planned with a tensor, nor with an idle joint.
 
-What mimics nothing is then a joint of its own, as it is to MoveIt and pinocchio, and stands at its home.
+What mimics nothing is then a joint of its own, as it is to MoveIt and pinocchio, and is at its home.
 """
 
 

@@ -1,7 +1,7 @@
 """What a device does in the world at a moment of its life: the facts that start order, gates and the mock follow.
 
-A component that comes up may move fingers, take control of an arm, or keep the controller manager from its cycle. None
-of this stands in a ROS interface, so that each fact is read from the source of one release, which it names.
+A component that starts may move fingers, take control of an arm, or keep the controller manager from its cycle. None
+of this is in a ROS interface, so that each fact is read from the source of one release, which it names.
 """
 
 from typing import Literal, Union

@@ -57,7 +57,7 @@ def _wrong(message: str, path: YamlPath, document: SourceDocument, advice: str) 
 def _figures(model: DeviceModel, description: Description) -> Iterator[tuple[YamlPath, Joint, Quantity]]:
     """Yield each figure with its place and the joints that it is of; `*` is of those that have no key of their own."""
     homes = model.home or {}
-    yield from ((("home", one.name), one, homes[one.name]) for one in description.joints if one.name in homes)
+    yield from ((("home", joint.name), joint, homes[joint.name]) for joint in description.joints if joint.name in homes)
     for key, limits in model.limits.of_joints().items():
         for joint in description.joints:
             name = joint.name if joint.name in limits else EVERY_JOINT

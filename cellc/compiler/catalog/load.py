@@ -34,7 +34,7 @@ from cellc.compiler.catalog.tables import (
 )
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Diagnostic, Outcome
-from cellc.contract.limits import Purse
+from cellc.contract.limits import Budget
 from cellc.contract.vocabulary import OF_ONE_DEVICE
 from cellc.robot.description.model import Description
 from cellc.robot.description.urdf_reader import read_urdf
@@ -98,27 +98,27 @@ def read_device(name: str) -> Outcome[CatalogDevice]:
 
 
 def load_device_folder(
-    folder: Path, root: Path, purse: Purse | None = None, packages: Sequence[str] = ()
+    folder: Path, root: Path, budget: Budget | None = None, packages: Sequence[str] = ()
 ) -> Outcome[CatalogDevice]:
     """Load a device that the user wrote: a folder with ``device.yaml`` and its description.
 
     Args:
         folder: the folder, as the user named it.
         root: the folder that the description and all it includes must lie under.
-        purse: what expansions of the spec may still take; as much as one may where it is absent.
+        budget: what expansions of the spec may still take; as much as one may where it is absent.
         packages: further folders of packages that the spec names.
     """
-    return load_device_file(folder / DEVICE_FILE, root, purse, packages)
+    return load_device_file(folder / DEVICE_FILE, root, budget, packages)
 
 
 def load_device_file(
-    file: Path, root: Path, purse: Purse | None = None, packages: Sequence[str] = ()
+    file: Path, root: Path, budget: Budget | None = None, packages: Sequence[str] = ()
 ) -> Outcome[CatalogDevice]:
     """Load a device by its file; arguments as of `load_device_folder`."""
     from cellc.robot.description.read_description import read_description
 
     def read(file: Path, arguments: dict[str, str]) -> Outcome[Description]:
-        return read_description(file, arguments, root, purse, packages)
+        return read_description(file, arguments, root, budget, packages)
 
     return _load(file, file.as_posix(), root, read)
 

@@ -29,7 +29,7 @@ class CatalogNames:
 
 @dataclass(frozen=True, slots=True)
 class _Reference:
-    """Where a name stands, what it names, and the names that there are; ``thing`` ends in its plural with an s."""
+    """Where a name is, what it names, and the names that there are; ``thing`` ends in its plural with an s."""
 
     path: YamlPath
     name: str
@@ -42,20 +42,20 @@ def unknown_names(
     model: DeviceModel, description: Description, document: SourceDocument, catalog: CatalogNames
 ) -> Iterator[Diagnostic]:
     """Yield a finding for each name that nothing has, with the nearest names that exist."""
-    for one in (
+    for reference in (
         *_of_description(model, description),
         *_of_catalog(model, catalog),
         *_of_device(model),
         *_of_interfaces(model),
     ):
-        if one.name not in one.known:
+        if reference.name not in reference.known:
             yield Diagnostic(
                 "catalogue-entry-invalid",
                 Severity.ERROR,
-                f"the {one.where} has no {one.thing} `{one.name}`",
-                document.locate(one.path),
-                one.path,
-                did_you_mean(one.name, one.known, f"{one.thing}s of the {one.where}"),
+                f"the {reference.where} has no {reference.thing} `{reference.name}`",
+                document.locate(reference.path),
+                reference.path,
+                did_you_mean(reference.name, reference.known, f"{reference.thing}s of the {reference.where}"),
             )
 
 
@@ -126,7 +126,7 @@ def _of_interfaces(model: DeviceModel) -> Iterator[_Reference]:
     for joint, interfaces in model.control.joints.items():
         for kind, names in (("command", interfaces.command), ("state", interfaces.state)):
             for number, name in enumerate(names):
-                if any(is_slip(name, one) for one in _STANDARD):
+                if any(is_slip(name, text) for text in _STANDARD):
                     yield _Reference(("control", "joints", joint, kind, number), name, "interface", _STANDARD, _ROS)
     for part, groups in (("sensors", model.control.sensors), ("gpios", model.control.gpios)):
         for name, group in groups.items():
@@ -157,7 +157,7 @@ def _of_device(model: DeviceModel) -> Iterator[_Reference]:
         topics = (topic.name for topic in model.topics)
         yield own(("driver", "joint_states"), driver.joint_states, "topic", topics)
     for kind, name in driver.actions.items():
-        yield own(("driver", "actions", kind), name, "action", (one.name for one in model.actions))
+        yield own(("driver", "actions", kind), name, "action", (facts.name for facts in model.actions))
 
 
 def _of_switched(model: DeviceModel) -> Iterator[_Reference]:

@@ -50,7 +50,7 @@ def read_model(path: Path, shown: str, model: type[ModelT]) -> Outcome[tuple[Mod
 
 
 def read_document(path: Path, shown: str, fill: Mapping[str, str] | None = None) -> Outcome[SourceDocument]:
-    """Read one YAML file that holds data; ``fill`` has what stands for placeholders in its text."""
+    """Read one YAML file that holds data; ``fill`` has what represents placeholders in its text."""
     text = read_text(path, shown, Span(shown, 1, 1, 1, 1))
     if text.value is None:
         return Outcome(None, text.diagnostics)

@@ -40,7 +40,7 @@ class ProgramFacts(CatalogModel):
 
     def way(self, by: str, mode: str) -> ProgramWay | None:
         """Return the way of ``person`` or ``driver`` in a mode."""
-        return next((one for one in self.ways if (one.by, one.mode) == (by, mode)), None)
+        return next((way for way in self.ways if (way.by, way.mode) == (by, mode)), None)
 
 
 class MountFacts(CatalogModel):

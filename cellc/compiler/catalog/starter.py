@@ -30,7 +30,7 @@ class NamedDevice:
 
     @property
     def model(self) -> DeviceModel:
-        """What the catalog, or the folder, says of it."""
+        """What the catalog, or the folder, says about it."""
         return self.entry.model
 
 
@@ -184,8 +184,8 @@ def _motion(movers: list[str], devices: Mapping[str, NamedDevice]) -> Iterator[s
 def _driven(entry: CatalogDevice) -> list[Joint]:
     """Return the joints that are commanded, without those of a gripper that is part of the device."""
     fingers = entry.model.gripper
-    driven = (one for one in entry.description.joints if one.movable and one.mimic is None)
-    return [one for one in driven if fingers is None or one.name != fingers.joint]
+    driven = (joint for joint in entry.description.joints if joint.movable and joint.mimic is None)
+    return [joint for joint in driven if fingers is None or joint.name != fingers.joint]
 
 
 def _chain(entry: CatalogDevice) -> list[Joint]:
@@ -206,7 +206,7 @@ def _tolerance(chain: Sequence[Joint], figures: Mapping[bool, float]) -> str:
 
 
 def _pose(entry: CatalogDevice, *, aside: bool) -> str:
-    """Return the home of an arm, or that with its first joint aside: what stands on that one keeps its shape."""
+    """Return the home of an arm, or that with its first joint aside: what is mounted on that one keeps its shape."""
     chain = _chain(entry)
     values = [_home(entry, joint) for joint in chain]
     if aside and chain:
@@ -221,7 +221,7 @@ def _pose(entry: CatalogDevice, *, aside: bool) -> str:
 
 
 def _home(entry: CatalogDevice, joint: Joint) -> float:
-    """Return where a joint stands at home, rad or m: as the device says, else as near zero as its limits allow."""
+    """Return where a joint is at home, rad or m: as the device says, else as near zero as its limits allow."""
     home = entry.model.home or {}
     if joint.name in home:
         return home[joint.name].si

@@ -8,7 +8,7 @@ from cellc.compiler.catalog.device_model import DeviceModel
 
 _TOOLS = ("gripper", "hand")
 _BESIDE_M, _APART_M, _ROW = 3, 2, 8
-"""How far from the arms the rest stands, how far apart, and how many stand in a row."""
+"""How far from the arms the rest is, how far apart, and how many stand in a row."""
 
 
 def mounts_of(models: Mapping[str, DeviceModel]) -> dict[str, str]:
@@ -31,7 +31,7 @@ def mounts_of(models: Mapping[str, DeviceModel]) -> dict[str, str]:
 
 
 def _standing(models: Mapping[str, DeviceModel], arms: list[str]) -> dict[str, str]:
-    """Return the mounts of arms and of what carries them: a metre apart, so that arms do not start in each other."""
+    """Return the mounts of arms and of what carries them: a meter apart, so that arms do not start in each other."""
     under = [name for name in _of_kind(models, "axis", "base") if _carrying(models[name]) is not None]
     mounts: dict[str, str] = {}
     for number, arm in enumerate(arms):

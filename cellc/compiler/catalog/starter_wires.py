@@ -60,4 +60,4 @@ def _signals(models: Mapping[str, DeviceModel]) -> Iterator[Signal]:
     for name, model in models.items():
         if model.kind == "io" and model.control is not None:
             for gpio, group in model.control.gpios.items():
-                yield from ((name, gpio, one) for one in counted(group.command))
+                yield from ((name, gpio, text) for text in counted(group.command))

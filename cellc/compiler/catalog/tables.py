@@ -83,7 +83,7 @@ class ReleaseTable(CatalogTable):
             )
             for day in days
         ]
-        built = [ReleaseSet(one.name, one.packages, built=True) for one in self.builds if one.distro == distro]
+        built = [ReleaseSet(build.name, build.packages, built=True) for build in self.builds if build.distro == distro]
         return (*synced, *reversed(built))
 
 
@@ -188,7 +188,7 @@ class QosTable(CatalogTable):
 
 
 class PlannerPlugin(CatalogModel):
-    """A plugin of MoveIt, with what it is told, and the distributions that release its package."""
+    """A plugin of MoveIt, with what it gets, and the distributions that release its package."""
 
     plugin: Text
     package: Token

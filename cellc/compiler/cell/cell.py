@@ -50,8 +50,8 @@ class Cell:
         places: where the user wrote what.
         distro: the pinned distribution.
         uncertainty: what sweeps draw; None where the cell says nothing of it.
-        mock_plugins: hardware plugin → what the user says of it.
-        mock_programs: package and executable of a device's node → what the user says of it.
+        mock_plugins: hardware plugin → what the user says about it.
+        mock_programs: package and executable of a device's node → what the user says about it.
         harmless_plugins: plugins that the catalog or a signed statement knows to touch no hardware.
         harmless_programs: the same of programs.
         hardware_packages: packages that the catalog knows to reach hardware.
@@ -140,7 +140,7 @@ class Cell:
 
     @cached_property
     def ends_of(self) -> Mapping[str, tuple[InterfaceEnd, ...]]:
-        """Ends of interfaces at which a node stands, by its full name."""
+        """Ends of interfaces at which a node is, by its full name."""
         found: dict[str, list[InterfaceEnd]] = {}
         for interface in self.interfaces:
             for serves, ends in ((True, interface.sources), (False, interface.sinks)):
@@ -156,11 +156,13 @@ class Cell:
     @cached_property
     def movers(self) -> tuple[Node, ...]:
         """Nodes of the spec that call actions or command controllers, and serve no action themselves."""
-        actions = [one for one in self.interfaces if one.kind is InterfaceKind.ACTION]
-        asking = {one.client for one in self.controllers} | {end.node for one in actions for end in one.sinks}
-        moving = asking - {end.node for one in actions for end in one.sources}
-        written = (one for one in self.nodes if one.source is NodeSource.SPEC and not one.is_planner)
-        return tuple(one for one in written if one.name in moving)
+        actions = [interface for interface in self.interfaces if interface.kind is InterfaceKind.ACTION]
+        asking = {controller.client for controller in self.controllers} | {
+            end.node for action in actions for end in action.sinks
+        }
+        moving = asking - {end.node for action in actions for end in action.sources}
+        written = (node for node in self.nodes if node.source is NodeSource.SPEC and not node.is_planner)
+        return tuple(node for node in written if node.name in moving)
 
     @cached_property
     def started_late(self) -> frozenset[str]:
@@ -180,8 +182,12 @@ class Cell:
     def reporting(self, device: Device, source: RecordSource) -> Controller | None:
         """Return the controller of a device that publishes a field of the record on the real target, if one does."""
         kind = source.controller_kind
-        own = (one for one in self.controllers if one.device == device.name and one.kind == kind)
-        return next((one for one in own if one.active and "real" in one.targets), None)
+        own = (
+            controller
+            for controller in self.controllers
+            if controller.device == device.name and controller.kind == kind
+        )
+        return next((controller for controller in own if controller.active and "real" in controller.targets), None)
 
     def carried_mass_kg(self, device: Device) -> float:
         """Return the mass of what a device carries, as the descriptions of those say; 0 where they say nothing."""
@@ -192,7 +198,7 @@ class Cell:
         """Return a device by its name in the spec.
 
         Raises:
-            KeyError: there is none of that name.
+            KeyError: the name is unknown.
         """
         return self._devices[name]
 

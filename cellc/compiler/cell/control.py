@@ -37,7 +37,7 @@ class VendorCommand:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OnReal:
-    """What a controller claims and is told on the real target where that differs from what it does on the mock."""
+    """What a controller claims and gets on the real target where that differs from what it does on the mock."""
 
     command_interfaces: tuple[str, ...]
     parameters: Mapping[str, ParameterValue]
@@ -56,7 +56,7 @@ class Controller(Entity):
         behaviour: what it does; a vendor's scaled variant is ``scaled_joint_trajectory``.
         plugin: type string for the controller manager.
         command_interfaces: full names that it claims on the mock, such as ``arm_elbow_joint/position``.
-        on_real: what it claims and is told on the real target; None where that is the same.
+        on_real: what it claims and gets on the real target; None where that is the same.
         vendor: what the vendor of its device commands on real hardware; None where the catalog does not say.
         state_interfaces: full names that it reads.
         package: the ROS package of its plugin.

@@ -227,7 +227,7 @@ class NetworkNeeds:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Packages:
-    """Packages or libraries of the vendor as they stand in the version tuple; None where there is none."""
+    """Packages or libraries of the vendor as they stand in the version tuple, or None."""
 
     driver: str | None = None
     sdk: str | None = None
@@ -236,7 +236,7 @@ class Packages:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Device(Entity):
-    """A robot, gripper or sensor where it stands.
+    """A robot, gripper or sensor where it is.
 
     Args:
         model, vendor, kind: as the catalog names them; the kind is arm, gripper, camera or digital.
@@ -253,7 +253,7 @@ class Device(Entity):
         carries: devices mounted on this one, directly or on a frame of it.
         host: the computer that runs its driver; empty where the cell names none.
         versions, connection, initial_state, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
-        payload, tcp, program, collision, impedance: what its own controller is told, and who starts the program there.
+        payload, tcp, program, collision, impedance: what its own controller gets, and who starts the program there.
         robot: what its own controller can be told.
         tool_connector: what the connector at its tool frame gives; None where the spec says nothing.
         plug: what it takes from the tool connector of a robot, where the catalog tells.
@@ -340,7 +340,7 @@ class Device(Entity):
         """Return a joint by its prefixed name.
 
         Raises:
-            KeyError: there is none of that name.
+            KeyError: the name is unknown.
         """
         for joint in self.joints:
             if joint.name == name:
@@ -356,7 +356,7 @@ class Device(Entity):
 
     @property
     def unknown_effects(self) -> tuple[str, ...]:
-        """The moments at which the real device comes up, and of which nobody says what they do in the world."""
+        """The moments at which the real device starts, and with no statement of what they do in the world."""
         activation = self.hardware is not None and not self.hardware.is_activation_known
         start = self.driver is not None and self.driver.node not in self.starts
         return (*(("the activation",) if activation else ()), *(("the start of the driver",) if start else ()))
@@ -380,11 +380,11 @@ class Device(Entity):
     def topics(self) -> Mapping[str, str]:
         """Topics that the driver publishes → their types, camera streams included."""
         streams = () if self.camera is None else self.camera.streams
-        types = {one.name: one.type for one in self.offers if one.kind is InterfaceKind.TOPIC}
+        types = {offer.name: offer.type for offer in self.offers if offer.kind is InterfaceKind.TOPIC}
         types |= {stream.topic: stream.type for stream in streams}
         return types | {stream.info_topic: _CAMERA_INFO for stream in streams}
 
     def simulated(self, joint: str) -> tuple[SimulatedJoint, ...]:
         """Return what the mock adds to a joint: what is said of it alone before what is said of all."""
-        found = [one for one in self.simulated_joints if joint in one.joints]
+        found = [item for item in self.simulated_joints if joint in item.joints]
         return tuple(sorted(found, key=lambda one: one.name == EVERY_JOINT))

@@ -64,7 +64,7 @@ class SharedArea(Entity):
 
     Args:
         granted_by: who lets one in at a time on the real cell.
-        released: why several may be in it at once; empty where they may not.
+        released: why several may be in it together; empty where they may not.
     """
 
     parent: str

@@ -64,10 +64,10 @@ class Told:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommandModes:
-    """Ways of commanding the real device: interfaces of its joints, and full names of gpios.
+    """Command modes of the real device: interfaces of its joints, and full names of gpios.
 
     Args:
-        together: pairs that may be commanded at once; every other switch to two is refused.
+        together: pairs that may be commanded together; every other switch to two is refused.
     """
 
     names: frozenset[str]
@@ -79,7 +79,7 @@ class CommandModes:
         return self.names & {last if owner in joints else owner for owner, _, last in ends}
 
     def allow(self, one: str, other: str) -> bool:
-        """Tell whether the plugin commands both at once."""
+        """Tell whether the plugin commands both together."""
         return one == other or frozenset((one, other)) in self.together
 
 
@@ -91,13 +91,13 @@ class HardwareComponent:
         kinds: system, sensor or actuator of ros2_control, by target.
         targets: those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
         effects: what the real component does at each moment that the catalog tells of.
-        initial_state: the state in which the real one is to come up.
+        initial_state: the state in which the real one must start.
         at_once: from there it must become active in one call, without a stay in between.
         enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
         told: where the cell hears whether a need holds.
         nodes: those that the real plugin makes in the process of the controller manager.
-        command_timeout_s: the longest silence before the device ends what it does; None where nobody told.
-        modes: ways of commanding the real one that exclude each other; None where nobody told.
+        command_timeout_s: the longest silence before the device ends what it does; None where it is not stated.
+        modes: command modes of the real one that exclude each other; None where it is not stated.
         fixed_joint_names: the real plugin makes the names of its joints in its code.
     """
 

@@ -131,7 +131,7 @@ class Endpoint:
         node: what the spec calls it: a node, a controller or a device. No other end of the cell is called so: where
             managers have controllers of one name, it is the full name.
         full_name: fully qualified name of the node in the ROS graph.
-        targets: targets on which it stands there.
+        targets: targets on which it is there.
     """
 
     node: str

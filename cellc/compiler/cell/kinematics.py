@@ -10,7 +10,7 @@ from cellc.robot.description.model import Description
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VendorDescription:
-    """The description of the vendor's own package, as far as that is at hand.
+    """The description of the vendor's own package, as far as that is available.
 
     Args:
         package: its name; ``folder`` is where it was found, empty where it was not.

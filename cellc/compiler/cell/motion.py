@@ -12,7 +12,7 @@ from cellc.contract.transforms import Pose, Vector3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solver:
-    """What solves the inverse kinematics of a group for MoveIt: a plugin, and what it is told."""
+    """What solves the inverse kinematics of a group for MoveIt: a plugin, and what it gets."""
 
     name: str
     plugin: str
@@ -127,7 +127,7 @@ class Step(Entity):
     """
 
     kind: str
-    command: str | None = None  # open or close, for grip; together, for groups of a pose that move at once
+    command: str | None = None  # open or close, for grip; together, for groups of a pose that move together
     state: str | None = None  # for set and sense
     duration_s: float | None = None  # for wait
 

@@ -1,4 +1,4 @@
-"""What the robot's own controller is told, and who starts its program."""
+"""What the robot's own controller gets, and who starts its program."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class Payload:
 
     Args:
         center_of_mass: in the tool frame, m.
-        inertia: about the center of mass, in axes parallel to the tool frame; None where nobody states it.
+        inertia: about the center of mass, in axes parallel to the tool frame; None where it is not stated.
         told_by: installation or service.
-        load: the part of it that a service tells beside the tool; None where there is none.
+        load: the part of it that a service tells beside the tool, or None.
     """
 
     mass_kg: float

@@ -11,7 +11,7 @@ from cellc.contract.pins import day_of
 from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES
 
 UNKNOWN = "UNKNOWN"
-"""The answer of a spec that does not guess; it blocks the real target and stands in the audit."""
+"""The answer of a spec that does not guess; it blocks the real target and is in the audit."""
 
 ATTEMPT_FIELDS = (
     "attempt_id",
@@ -61,7 +61,7 @@ class HardwareStatement:
 class NetworkCard:
     """A card of a host: ``address`` with prefix length as written, ``interface`` as the operating system names it.
 
-    ``speed_bps`` is that of its link in bit/s, None where nobody says it.
+    ``speed_bps`` is that of its link in bit/s, None where it is not stated.
     """
 
     address: str
@@ -164,7 +164,7 @@ class ResponsibilityOwners:
 
     def items(self) -> Iterator[tuple[str, str]]:
         """Yield each responsibility with its owner."""
-        return ((one.name, getattr(self, one.name)) for one in fields(self))
+        return ((field.name, getattr(self, field.name)) for field in fields(self))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -181,12 +181,12 @@ class ApprovalOwners:
 
     def items(self) -> Iterator[tuple[str, str]]:
         """Yield each area with its owner."""
-        return ((one.name, getattr(self, one.name)) for one in fields(self))
+        return ((field.name, getattr(self, field.name)) for field in fields(self))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Owners:
-    """Who answers for what."""
+    """Who is responsible for what."""
 
     responsibilities: ResponsibilityOwners = field(default_factory=ResponsibilityOwners)
     approvals: ApprovalOwners = field(default_factory=ApprovalOwners)
@@ -267,7 +267,7 @@ class Kpis:
 
     def without_target(self) -> tuple[str, ...]:
         """Name the figures without a target by their keys in the spec."""
-        return tuple(one.name.removesuffix("_s") for one in fields(self) if getattr(self, one.name) is None)
+        return tuple(field.name.removesuffix("_s") for field in fields(self) if getattr(self, field.name) is None)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

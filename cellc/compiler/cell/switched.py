@@ -30,7 +30,7 @@ class Switched:
         within_s: how long its client waits for the sensors.
         holds: the state in which it holds a part or a tool; None for a device that holds nothing.
         power_lost: holds, drops or UNKNOWN.
-        accepted_by: who accepts that it drops what it holds; None for nobody.
+        accepted_by: who accepts that it drops what it holds; None without a person.
     """
 
     states: Mapping[str, SwitchedState]

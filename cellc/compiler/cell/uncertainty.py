@@ -18,7 +18,7 @@ class Region:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Uncertainty:
-    """What the spec says of it.
+    """What the spec says about it.
 
     Args:
         rotations_rad: calibration → standard deviation about each axis.

@@ -55,7 +55,7 @@ class CommissioningStep:
     """What a person does at the real device in a gate, by its vendor's procedure.
 
     ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
-    power by it, so that the stop can be tried. ``log`` where it stands in the driver's log: what the lines hold of
+    power by it, so that the stop can be tried. ``log`` where it is in the driver's log: what the lines hold of
     which the newest counts. ``run`` are commands that read; ``{address}`` in them is that of the device. ``by`` is the
     ``driver`` or the ``adapter`` where it belongs to one of both alone.
     """

@@ -2,9 +2,9 @@
 
 Four phases: ``start`` configures and observes, ``activate`` takes hardware to active whose activation moves something,
 ``claim`` gives command interfaces their owners, ``move`` starts what asks for motion. On the mock the launch file takes
-the first three at once. On the real target a person releases each at its gate: a claim before the robot listens holds a
-set point that is old when it does (Universal_Robots_ROS2_Driver issue 1084), and a claim of an FR3 starts motion mode.
-Starting the processes is discovery; what follows waits for proof, whatever order they came up in.
+the first three together. On the real target a person releases each at its gate: a claim before the robot listens holds
+a set point that is old when it does (Universal_Robots_ROS2_Driver issue 1084), and a claim of an FR3 starts motion
+mode. Starting the processes is discovery; what follows waits for proof, whatever order they came up in.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def _activate(cell: Cell, node: Node, target: Target) -> BringUpStep:
         [
             *_mocked(cell, target),
             _lifecycle(node, "inactive"),
-            *(one for parent in parents for one in _transforms(cell, target, WORLD, parent)),
+            *(transform for parent in parents for transform in _transforms(cell, target, WORLD, parent)),
         ],
         Transition(kind="transition", node=node.full_name, transition="activate"),
         [_lifecycle(node, "active")],
@@ -139,9 +139,9 @@ def _activate(cell: Cell, node: Node, target: Target) -> BringUpStep:
 
 def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     """Yield the step that activates what reads states; of hardware that a person activates it sees none yet."""
-    spawned = [one.name for one in manager.controllers if target in one.targets]
+    spawned = [controller.name for controller in manager.controllers if target in controller.targets]
     later = _activated_later(cell, manager, target)
-    observing = tuple(one.name for one in _active(manager, target) if not _claims(cell, one, later))
+    observing = tuple(reader.name for reader in _active(manager, target) if not _claims(cell, reader, later))
     if spawned:
         components = (
             _hardware(manager, device, "active")
@@ -175,8 +175,8 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
         )
-    readers = (one for one in _active(manager, target) if not one.command_interfaces)
-    observing = tuple(one.name for one in readers if one.device in read)
+    readers = (controller for controller in _active(manager, target) if not controller.command_interfaces)
+    observing = tuple(reader.name for reader in readers if reader.device in read)
     if devices and observing:
         yield _step(
             BringUpPhase.ACTIVATE,
@@ -190,7 +190,7 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
 
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     later = _activated_later(cell, manager, target)
-    claiming = tuple(one.name for one in _active(manager, target) if _claims(cell, one, later))
+    claiming = tuple(controller.name for controller in _active(manager, target) if _claims(cell, controller, later))
     if claiming:
         yield _step(
             BringUpPhase.CLAIM,
@@ -201,7 +201,7 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
                 *(_hardware(manager, device, "active") for device in _components(cell, manager, target)),
                 *(_controller(manager, name, "inactive") for name in claiming),
                 *_joint_states(cell, manager),
-                *(one for group in cell.groups for one in _transforms(cell, target, group.base_link, group.tip_frame)),
+                *(tf for group in cell.groups for tf in _transforms(cell, target, group.base_link, group.tip_frame)),
                 *_managed_nodes(cell),
                 *(_heard(cell, manager) if target == "real" else ()),
             ],
@@ -217,16 +217,18 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     """
     asking = {node.name for node in motion_clients(cell)}
     claimed = (
-        _controller(manager, one.name, "active")
+        _controller(manager, controller.name, "active")
         for manager in cell.managers
-        for one in _active(manager, target)
-        if _claims(cell, one, ())
+        for controller in _active(manager, target)
+        if _claims(cell, controller, ())
     )
-    adapted = tuple(one.action for one in cell.adapters)
+    adapted = tuple(adapter.action for adapter in cell.adapters)
     asked = (
-        one.name
-        for one in cell.interfaces
-        if one.kind is InterfaceKind.ACTION and target in one.targets and any(end.node in asking for end in one.sinks)
+        interface.name
+        for interface in cell.interfaces
+        if interface.kind is InterfaceKind.ACTION
+        and target in interface.targets
+        and any(end.node in asking for end in interface.sinks)
     )
     names = (name for name in asked if name not in adapted)
     actions = (ActionProof(kind="action", action=name) for name in (*(adapted if target == "real" else ()), *names))
@@ -241,12 +243,12 @@ def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
     of the other: what is asked, and what describes the robot, is there once.
     """
     describing = tuple(description_nodes(cell))
-    asked = (*(manager.node for manager in cell.managers), *(one.full_name for one in cell.nodes if one.lifecycle))
+    asked = (*(manager.node for manager in cell.managers), *(node.full_name for node in cell.nodes if node.lifecycle))
     if nodes := tuple(dict.fromkeys((*describing, *asked))):
         yield AloneProof(kind="alone", nodes=nodes)
     if target == "mock":
-        hardware = (one.hardware for one in cell.devices if _on(one, "mock"))
-        plugins = tuple(sorted({one.plugins["mock"] for one in hardware if one is not None}))
+        hardware = (device.hardware for device in cell.devices if _on(device, "mock"))
+        plugins = tuple(sorted({item.plugins["mock"] for item in hardware if item is not None}))
         yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in describing)
 
 
@@ -265,18 +267,18 @@ def _step(
 
 
 def _active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
-    return (one for one in manager.controllers if one.active and target in one.targets)
+    return (controller for controller in manager.controllers if controller.active and target in controller.targets)
 
 
 def _claims(cell: Cell, controller: Controller, later: tuple[Device, ...]) -> bool:
     """Whether a controller is activated with those that command joints, not before them.
 
     One that answers services is wanted before anybody claims: it says what mode the robot is in. It waits where its
-    hardware comes up later, or where it claims a joint itself, whatever its kind is called.
+    hardware starts later, or where it claims a joint itself, whatever its kind is called.
     """
     joints = {joint.name for device in cell.devices for joint in device.joints}
     served_early = controller.behaviour in PASSIVE and controller.device not in {device.name for device in later}
-    moves = any(one.rpartition("/")[0] in joints for one in controller.command_interfaces)
+    moves = any(interface.rpartition("/")[0] in joints for interface in controller.command_interfaces)
     return bool(controller.command_interfaces) and (moves or not served_early)
 
 
@@ -289,17 +291,17 @@ def _on(device: Device, target: str) -> bool:
 
 
 def _activated_later(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
-    """Return what does not come up active: its activation moves something, or must be one call, or the spec says so."""
-    return tuple(one for one in _components(cell, manager, target) if one.comes_up != "active")
+    """Return what does not start active: its activation moves something, or must be one call, or the spec says so."""
+    return tuple(component for component in _components(cell, manager, target) if component.comes_up != "active")
 
 
 def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device, TopicProof]]:
     """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
     for device in _components(cell, manager, "real"):
         for told in () if device.hardware is None else device.hardware.heard_before_a_claim:
-            for one in manager.controllers:
-                if (one.kind, one.device) == (told.controller_kind, device.name):
-                    topic = f"{one.full_name}/{told.topic}"
+            for controller in manager.controllers:
+                if (controller.kind, controller.device) == (told.controller_kind, device.name):
+                    topic = f"{controller.full_name}/{told.topic}"
                     proof = TopicProof(kind="topic", topic=topic, type=told.type, field=told.field, value=told.value)
                     yield device, proof
 
@@ -328,10 +330,10 @@ def watches(cell: Cell) -> Iterator[Watch]:
         for device, proof in _listening(cell, manager):
             own = {joint.name for joint in device.joints}
             claiming = tuple(
-                one.name
-                for one in manager.controllers
-                if _claims(cell, one, ())
-                if own & set(one.joints) or (one.behaviour is Behaviour.OWN_MOTION and one.device == device.name)
+                owner.name
+                for owner in manager.controllers
+                if _claims(cell, owner, ())
+                if own & set(owner.joints) or (owner.behaviour is Behaviour.OWN_MOTION and owner.device == device.name)
             )
             yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
 
@@ -388,7 +390,7 @@ class Spawning:
 def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
     """Yield what the spawners of a manager are given, in order; the first failure in a list stops the rest of it."""
     for only in (None, *TARGETS):
-        controllers = tuple(one.name for one in manager.controllers if _only_target(one) == only)
+        controllers = tuple(controller.name for controller in manager.controllers if _only_target(controller) == only)
         if controllers:
             yield Spawning(controllers, only)
 

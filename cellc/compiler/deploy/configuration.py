@@ -1,4 +1,4 @@
-"""Which configuration this is: its id, the version tuple, what nobody has answered, and the header of its files."""
+"""Which configuration this is: its id, the version tuple, what no person has answered, and the header of its files."""
 
 from __future__ import annotations
 
@@ -67,16 +67,16 @@ def _digest(settled: object) -> str:
 def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> object:
     """Return a linked value as plain data: without its places, what is at its default, and order that says nothing."""
     if is_dataclass(value) and not isinstance(value, type):
-        told = {one.name: getattr(value, one.name) for one in fields(value) if one.name not in left_out}
+        told = {field.name: getattr(value, field.name) for field in fields(value) if field.name not in left_out}
         place = "path" if isinstance(told.get("path"), tuple) else None  # a stop has a path too, and that is a text
         stated = {name: one for name, one in told.items() if name != place and one != _default(value, name)}
         return {name: _settled(one) if name in _IN_ORDER else _unordered(_settled(one)) for name, one in stated.items()}
     if isinstance(value, Mapping):
         return {str(name): _settled(one) for name, one in value.items()}
     if isinstance(value, frozenset):
-        return _unordered([_settled(one) for one in value])
+        return _unordered([_settled(item) for item in value])
     if isinstance(value, tuple):
-        return [_settled(one) for one in value]
+        return [_settled(item) for item in value]
     if isinstance(value, float):
         return rounded(value)
     if isinstance(value, Enum):
@@ -86,7 +86,7 @@ def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> obj
 
 def _unordered(value: object) -> object:
     """Return a list in one order, unless it is one of numbers."""
-    if isinstance(value, list) and not all(isinstance(one, (int, float)) for one in value):
+    if isinstance(value, list) and not all(isinstance(item, (int, float)) for item in value):
         return sorted(value, key=lambda one: json.dumps(one, sort_keys=True))
     return value
 
@@ -135,9 +135,9 @@ def _versions(cell: Cell) -> Iterator[OpenQuestion]:
             device = of in {device.name for device in cell.devices}
             path = ("devices", of, part) if device else ("versions", *name.split("."))
             yield OpenQuestion(f"{part} of {of}" if of else name, path)
-    for one in cell.devices:
-        if one.kinematics is not None and one.kinematics.calibration is None:
-            yield OpenQuestion(f"kinematic calibration of {one.name}", (*one.path, "calibration"))
+    for item in cell.devices:
+        if item.kinematics is not None and item.kinematics.calibration is None:
+            yield OpenQuestion(f"kinematic calibration of {item.name}", (*item.path, "calibration"))
 
 
 def _owners(graph: CellGraph) -> Iterator[OpenQuestion]:

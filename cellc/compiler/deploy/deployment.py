@@ -36,7 +36,7 @@ class Deployment:
         header: what every generated file begins with.
         configuration_id: id over ``configuration_inputs``.
         versions: every part of the version tuple by name.
-        questions: what nobody has answered and blocks the real target, versions first.
+        questions: what no person has answered and blocks the real target, versions first.
         hosts: those on which something is started; empty where all runs in one place.
         motion_clients: nodes that a person starts or activates before anything moves.
         bring_up: the steps from processes to motion, on each target.

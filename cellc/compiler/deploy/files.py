@@ -52,7 +52,7 @@ PARAMETER_FILES = (
 """In the order in which move_group is given them."""
 
 SERVO = "config/moveit/servo.yaml"
-"""What MoveIt Servo is told, where the cell has it."""
+"""What MoveIt Servo gets, where the cell has it."""
 
 SENSORS = "config/moveit/sensors_3d.yaml"
 """What feeds the occupancy map of move_group, where the cell has one."""
@@ -73,7 +73,7 @@ def manager_description_file(cell: Cell, manager: ControllerManager, target: str
 
 def controllers_file(cell: Cell, manager: ControllerManager, target: str) -> str:
     """Return the path of a controller manager's parameter file for a target: one, unless the targets differ."""
-    of_target = f".{target}" if any(one.on_real is not None for one in manager.controllers) else ""
+    of_target = f".{target}" if any(controller.on_real is not None for controller in manager.controllers) else ""
     return f"config/{'' if len(cell.managers) == 1 else f'{manager.name}.'}controllers{of_target}.yaml"
 
 
@@ -96,8 +96,12 @@ def servo_files(cell: Cell) -> tuple[str, ...]:
 
 def moveit_controllers_file(cell: Cell, target: str) -> str:
     """Return the path of the file with the controllers that move_group calls: one, unless the targets differ."""
-    called = [one for one in cell.controllers if executes_plans(cell, one) and one.action is not None]
-    differs = any(len(one.targets) < len(TARGETS) for one in called)
+    called = [
+        controller
+        for controller in cell.controllers
+        if executes_plans(cell, controller) and controller.action is not None
+    ]
+    differs = any(len(controller.targets) < len(TARGETS) for controller in called)
     return CONTROLLERS.replace(".yaml", f".{target}.yaml") if differs else CONTROLLERS
 
 
@@ -124,7 +128,7 @@ def semantic_file(cell: Cell) -> str:
 
 
 def plans(cell: Cell) -> bool:
-    """Tell whether the cell has what MoveIt plans for and the node that does it; otherwise nobody reads its files."""
+    """Tell whether the cell has what MoveIt plans for and the node that does it; otherwise nothing reads its files."""
     return bool(cell.groups and cell.planners)
 
 

@@ -1,4 +1,4 @@
-"""The one small goal that a person sends before an application is started: one joint, from where the robot stands."""
+"""The one small goal that a person sends before an application is started: one joint, from where the robot is."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NODE = "first_goal"
 
 @dataclass(frozen=True, slots=True)
 class FirstGoal:
-    """What the program of the first goal is told.
+    """What the program of the first goal gets.
 
     Args:
         action: that of the controller or adapter of the joint, on the real target.
@@ -51,7 +51,7 @@ def first_goal(cell: Cell) -> FirstGoal | None:
     if first is None or not motion_clients(cell):
         return None
     device, _, local = first.joint.partition("/")
-    joint = next((one.name for one in cell.device(device).joints if one.local_name == local), local)
+    joint = next((joint.name for joint in cell.device(device).joints if joint.local_name == local), local)
     sign = -1.0 if first.direction == "-" else 1.0
     for action, joints, topic in _takers(cell):
         if joint in joints:
@@ -71,9 +71,14 @@ def first_goal(cell: Cell) -> FirstGoal | None:
 
 def _takers(cell: Cell) -> Iterator[tuple[str, tuple[str, ...], str]]:
     """Yield what takes trajectories on the real target: its action, its joints, and where their states arrive."""
-    for one in cell.controllers:
-        if one.behaviour in TRAJECTORIES and one.active and "real" in one.targets and one.action:
-            yield one.action, one.joints, JOINT_STATES
+    for controller in cell.controllers:
+        if (
+            controller.behaviour in TRAJECTORIES
+            and controller.active
+            and "real" in controller.targets
+            and controller.action
+        ):
+            yield controller.action, controller.joints, JOINT_STATES
     for adapted in cell.adapters:
         yield adapted.action, adapted.joints, adapted.state_topic
 

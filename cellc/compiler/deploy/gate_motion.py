@@ -45,7 +45,7 @@ def _first_motion(graph: CellGraph, first: FirstMotion) -> Values:
     written = (graph.cell.text("bringup", "first_motion", part) for part in ("max_delta", "velocity", "timeout"))
     figure = f"{shortest(round(first.max_delta.value, 4))} {'m' if first.max_delta.linear else 'rad'}"
     local = first.joint.partition("/")[2]
-    name = next((one.name for one in _moved(graph, first).joints if one.local_name == local), local)
+    name = next((joint.name for joint in _moved(graph, first).joints if joint.local_name == local), local)
     return first.joint, first.direction, *written, name, figure
 
 
@@ -99,7 +99,7 @@ def unguarded(graph: CellGraph) -> Iterator[Values]:
 
 
 def endpoint_command(cell: Cell, kind: InterfaceKind, name: str) -> str:
-    """Return what shows who stands at an interface; Humble tells no more of a service than its type."""
+    """Return what shows who is at an interface; Humble tells no more of a service than its type."""
     if kind is InterfaceKind.TOPIC:
         return f"timeout 30 ros2 topic info -v {shell_word(name)}"
     if kind is InterfaceKind.ACTION:

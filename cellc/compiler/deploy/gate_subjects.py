@@ -87,14 +87,14 @@ def _unknown(graph: CellGraph) -> Iterator[Values]:
 
 
 def _calibrated_frames(graph: CellGraph) -> Iterator[Values]:
-    return ((one.name, one.calibration) for one in graph.cell.frames if one.calibration is not None)
+    return ((frame.name, frame.calibration) for frame in graph.cell.frames if frame.calibration is not None)
 
 
 def _success(graph: CellGraph) -> Iterator[Values]:
     """Yield the rehearsals that must succeed often enough, with least share and confidence."""
-    for one in graph.cell.rehearsals:
-        if one.success is not None:
-            yield one.name, f"{one.success:.6g}", f"{one.confidence:.6g}"
+    for rehearsal in graph.cell.rehearsals:
+        if rehearsal.success is not None:
+            yield rehearsal.name, f"{rehearsal.success:.6g}", f"{rehearsal.confidence:.6g}"
 
 
 def _mock_statements(graph: CellGraph) -> Iterator[Values]:
@@ -106,11 +106,17 @@ def _managers(graph: CellGraph) -> Iterator[Values]:
 
 
 def _mock_actions(graph: CellGraph) -> Iterator[Values]:
-    return ((one.action,) for one in graph.cell.controllers if one.action and "mock" in one.targets)
+    return (
+        (controller.action,)
+        for controller in graph.cell.controllers
+        if controller.action and "mock" in controller.targets
+    )
 
 
 def _joint_states(graph: CellGraph) -> Iterator[Values]:
-    return ((one.name,) for one in _on_real(graph) if one.type == JOINT_STATE_TYPE and one.sinks)
+    return (
+        (interface.name,) for interface in _on_real(graph) if interface.type == JOINT_STATE_TYPE and interface.sinks
+    )
 
 
 def _components(graph: CellGraph) -> Iterator[Values]:
@@ -131,9 +137,9 @@ def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
 def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         for gate in GateCode:
-            stops = [one for one in device.safety.states if one.stops and one.gate is gate]
+            stops = [state for state in device.safety.states if state.stops and state.gate is gate]
             if stops:
-                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(one)}" for one in device.safety.topics)
+                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(topic)}" for topic in device.safety.topics)
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
                 yield device.name, states, "\n".join(echoes), gate
 
@@ -156,7 +162,7 @@ def _tool_centers(graph: CellGraph) -> Iterator[Values]:
             continue
         pose = graph.frames.pose_in(device.tcp, device.tool_frame)
         if pose is not None:
-            xyz = _figures((1000.0 * one for one in pose.position), 2)
+            xyz = _figures((1000.0 * value for value in pose.position), 2)
             turn = _figures(pose.rotation_vector(), 4)
             rpy = _figures(map(math.degrees, pose.rpy()), 2)
             yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph.cell, device)
@@ -166,7 +172,7 @@ def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         if device.tool_connector is not None:
             voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
-            links = ((one.name, one.connection) for one in graph.cell.devices)
+            links = ((device.name, device.connection) for device in graph.cell.devices)
             tools = (name for name, link in links if link is not None and link.through == device.name)
             yield device.name, voltage, ", ".join(tools) or "every connected tool"
 
@@ -175,7 +181,7 @@ def _servo(graph: CellGraph) -> Iterator[Values]:
     """Yield what MoveIt Servo commands, what starts it, and the command that shows the ends of its topic."""
     servo = graph.cell.servo
     if servo is not None:
-        (node,) = (one for one in graph.cell.nodes if is_servo(graph.cell, one))
+        (node,) = (node for node in graph.cell.nodes if is_servo(graph.cell, node))
         service = "switch_command_type" if Feature.PLUGIN_LISTS in features(graph.cell.distro) else "start_servo"
         speeds = (graph.cell.text("motion", "servo", name) for name in ("linear", "rotational", "joint"))
         timeout = shortest(servo.command_timeout_s)
@@ -190,7 +196,11 @@ def _figures(values: Iterable[float], digits: int) -> str:
 def _shows_center(cell: Cell, device: Device) -> str:
     """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
     kind = device.robot.tcp_kind
-    telling = (one for one in cell.controllers if (one.kind, one.device) == (kind, device.name) and one.active)
+    telling = (
+        controller
+        for controller in cell.controllers
+        if (controller.kind, controller.device) == (kind, device.name) and controller.active
+    )
     one = next(telling, None)
     return "" if one is None else f"timeout 10 ros2 topic echo --once {one.full_name}/{device.robot.tcp_topic}"
 
@@ -248,22 +258,22 @@ def _cards(graph: CellGraph) -> Iterator[Values]:
 
 
 def _reached_devices(graph: CellGraph) -> Iterator[Values]:
-    for one in graph.network.devices:
-        if one.text is not None:
-            yield one.host, one.device, one.nic or "not stated", one.text
+    for device in graph.network.devices:
+        if device.text is not None:
+            yield device.host, device.device, device.nic or "not stated", device.text
 
 
 def _devices(graph: CellGraph) -> Iterator[Values]:
-    for one in graph.cell.devices:
-        safety = " and its safety state" if one.safety.states else ""
-        yield one.name, one.versions.serial, one.versions.firmware, safety
+    for device in graph.cell.devices:
+        safety = " and its safety state" if device.safety.states else ""
+        yield device.name, device.versions.serial, device.versions.firmware, safety
 
 
 def _interfaces(graph: CellGraph) -> Iterator[Values]:
-    for one in _on_real(graph):
-        starts, ends = _ends_on_real(graph.cell, one)
-        command = endpoint_command(graph.cell, one.kind, one.name)
-        yield one.name, ", ".join(starts) or "none", ", ".join(ends) or "none", command
+    for interface in _on_real(graph):
+        starts, ends = _ends_on_real(graph.cell, interface)
+        command = endpoint_command(graph.cell, interface.kind, interface.name)
+        yield interface.name, ", ".join(starts) or "none", ", ".join(ends) or "none", command
 
 
 def _ends_on_real(cell: Cell, interface: Interface) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -286,19 +296,23 @@ def _beside(cell: Cell, interface: Interface) -> Iterator[str]:
     """Yield subscribers and clients that the spec does not name."""
     for node in cell.nodes if interface.kind is not InterfaceKind.ACTION else ():
         asked = node.endpoints.requests if interface.kind is InterfaceKind.SERVICE else node.endpoints.subscribes
-        if interface.name in {node.remaps.get(one, one) for one in asked}:
+        if interface.name in {node.remaps.get(text, text) for text in asked}:
             yield node.full_name
     if any(watch.while_holds.topic == interface.name for watch in watches(cell)):
         yield CLAIM_WATCH
 
 
 def _streams(graph: CellGraph) -> Iterator[Values]:
-    for one in _on_real(graph):
-        if one.kind is InterfaceKind.TOPIC and one.rate_hz is not None:
+    for interface in _on_real(graph):
+        if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None:
             # What is measured is the sum of all sources, and the interface has the rate of the slowest manager.
-            several = f" or more ({len(one.sources)} sources)" if len(one.sources) > 1 else ""
-            age = "no age limit" if one.max_age_s is None else f"no sample older than {shortest(one.max_age_s)} s"
-            yield one.name, f"{shortest(one.rate_hz)} Hz{several}", age
+            several = f" or more ({len(interface.sources)} sources)" if len(interface.sources) > 1 else ""
+            age = (
+                "no age limit"
+                if interface.max_age_s is None
+                else f"no sample older than {shortest(interface.max_age_s)} s"
+            )
+            yield interface.name, f"{shortest(interface.rate_hz)} Hz{several}", age
 
 
 def _bounded_clocks(graph: CellGraph) -> Iterator[Values]:
@@ -360,7 +374,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "interface": (("interface", "starts", "ends", "command"), _interfaces),
     "stream": (("topic", "rate", "age"), _streams),
     "bounded_clock": (("host", "offset"), _bounded_clocks),
-    "group": (("tip", "base"), lambda graph: ((one.tip_frame, one.base_link) for one in graph.cell.groups)),
+    "group": (("tip", "base"), lambda graph: ((group.tip_frame, group.base_link) for group in graph.cell.groups)),
     "described_node": (("node",), lambda graph: _each(description_nodes(graph.cell))),
 }
 _OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")

@@ -52,10 +52,10 @@ def interface_facts(interface: Interface) -> Iterator[str]:
 def unused(cell: Cell) -> tuple[tuple[Interface, ...], ...]:
     """Return interfaces without a reader or client in the cell, grouped by server and owner."""
     found: dict[tuple[object, ...], list[Interface]] = {}
-    for one in cell.interfaces:
-        if one.sources and not one.sinks:
-            offered_by = frozenset(end.full_name for end in one.sources)
-            found.setdefault((offered_by, one.kind, one.owner), []).append(one)
+    for interface in cell.interfaces:
+        if interface.sources and not interface.sinks:
+            offered_by = frozenset(end.full_name for end in interface.sources)
+            found.setdefault((offered_by, interface.kind, interface.owner), []).append(interface)
     return tuple(map(tuple, found.values()))
 
 
@@ -67,7 +67,7 @@ def unused_title(group: tuple[Interface, ...]) -> str:
 
 def unused_facts(group: tuple[Interface, ...]) -> Iterator[str]:
     """Yield the names of interfaces without a user, and their owner; the contract has the rest."""
-    yield ", ".join(one.name for one in group)
+    yield ", ".join(interface.name for interface in group)
     yield f"owner {group[0].owner or _NOT_STATED}"
 
 
@@ -99,7 +99,7 @@ def rate_label(interface: Interface) -> str:
 
 
 def _latched(interface: Interface) -> bool:
-    return bool(interface.sources) and all(one.qos.durability == "transient_local" for one in interface.sources)
+    return bool(interface.sources) and all(source.qos.durability == "transient_local" for source in interface.sources)
 
 
 def failure_label(interface: Interface) -> str:
@@ -167,7 +167,7 @@ def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[s
 
 def watched_stream(cell: Cell, device: Device) -> str | None:
     """Return what an adapter does when commands stop arriving; None for a device without an adapter."""
-    adapted = next((one for one in cell.adapters if one.device == device.name), None)
+    adapted = next((adapter for adapter in cell.adapters if adapter.device == device.name), None)
     if adapted is None:
         return None
     silence, stop = shortest(adapted.command_timeout_s), shortest(adapted.stop_time_s)

@@ -62,9 +62,9 @@ def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str
     """
     named = {interface.name for interface in cell.interfaces}
     for device in cell.devices:
-        for one in device.offers:
-            if one.effect is not None and one.effect.motion is Motion.MOVES and one.name not in named:
-                yield device, one, one.effect.does
+        for offer in device.offers:
+            if offer.effect is not None and offer.effect.motion is Motion.MOVES and offer.name not in named:
+                yield device, offer, offer.effect.does
 
 
 def bring_up_nodes(plan: BringUp) -> tuple[str, ...]:

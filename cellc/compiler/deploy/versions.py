@@ -70,7 +70,7 @@ def installed_parts(cell: Cell) -> Iterator[Installed]:
 
 def compared_on(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield each computer that starts something, with the parts that it must show; an empty name for the only one."""
-    parts = tuple(one.name for one in installed_parts(cell))
+    parts = tuple(part.name for part in installed_parts(cell))
     for host in launch_hosts(cell) or ("",):
         yield host, tuple(name for name in parts if not host or _is_on(cell, name, host))
 

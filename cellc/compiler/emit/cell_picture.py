@@ -1,4 +1,4 @@
-"""``graph/cell.svg``: where everything stands, from two sides.
+"""``graph/cell.svg``: where everything is, from two sides.
 
 SVG 1.1 without scripts, styles or fonts from elsewhere. Devices with their links, what is solid, and the frames of the
 cell; the joints stand as in the first named pose, else where the mock begins. Left out: frames within a device other
@@ -31,7 +31,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """Where a frame stands in the world, and on which device; empty for the cell itself."""
+    """Where a frame is in the world, and on which device; empty for the cell itself."""
 
     pose: Pose
     device: str
@@ -56,18 +56,24 @@ class _Standing:
         return self._part("", self._cell.name)
 
     def _part(self, device: str, name: str) -> Part:
-        carried = [one for one in self._cell.devices if self._place(one.parent_frame).device == device]
-        solids = [one for one in self._cell.scene if self._place(one.parent).device == device]
-        parts = (*(self._solid(one) for one in solids), *(self._part(one.name, one.name) for one in carried))
+        carried = [item for item in self._cell.devices if self._place(item.parent_frame).device == device]
+        solids = [box for box in self._cell.scene if self._place(box.parent).device == device]
+        parts = (
+            *(self._solid(solid) for solid in solids),
+            *(self._part(device.name, device.name) for device in carried),
+        )
         frames = tuple(self._named(device))
         if not device:
             return Part(name, (0.0, 0.0, 0.0), frames=frames, parts=parts, solid=True)
         own = self._cell.device(device)
         poses = {link: self._place(link).pose for link, (holder, _) in self._links.items() if holder is own}
         shapes = (
-            (poses[link.name], one) for link in own.description.links for one in link.collisions if link.name in poses
+            (poses[link.name], collision)
+            for link in own.description.links
+            for collision in link.collisions
+            if link.name in poses
         )
-        joints = (one for one in own.description.joints if one.parent in poses and one.child in poses)
+        joints = (joint for joint in own.description.joints if joint.parent in poses and joint.child in poses)
         return Part(
             name,
             poses[own.root_link].position,
@@ -110,7 +116,7 @@ class _Standing:
 
 
 def _edge(frame: Frame) -> tuple[str, Pose]:
-    """Return the parent of a frame with its pose there; what a node publishes stands where the mock puts it."""
+    """Return the parent of a frame with its pose there; what a node publishes is where the mock puts it."""
     if frame.simulated_pose is not None:
         return frame.simulated_pose.parent, frame.simulated_pose.pose
     return frame.parent, frame.transform_to_parent or identity()

@@ -77,7 +77,7 @@ def _named_together(poses: Sequence[NamedPose]) -> Iterator[Element]:
         if len(parts) > 1 and group not in told:
             yield element("group", {"name": group}, [element("group", {"name": pose.group}) for pose in parts])
         if len(parts) > 1:
-            yield element("group_state", {"name": name, "group": group}, [one for pose in parts for one in _at(pose)])
+            yield element("group_state", {"name": name, "group": group}, [item for pose in parts for item in _at(pose)])
         told.add(group)
 
 
@@ -98,5 +98,5 @@ def _gripper(device: Device) -> Iterator[Element]:
     for name, position in (("open", gripper.open), ("closed", gripper.closed)):
         value = element("joint", {"name": joint, "value": shortest(position)})
         yield element("group_state", {"name": name, "group": group}, [value])
-    if device.kind != "arm":  # fingers of an arm have no mount; a marker then stands at the tip of the arm's group
+    if device.kind != "arm":  # fingers of an arm have no mount; a marker then is at the tip of the arm's group
         yield element("end_effector", {"name": group, "group": group, "parent_link": device.parent_frame})

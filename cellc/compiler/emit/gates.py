@@ -53,7 +53,7 @@ def _gate(gate: Gate) -> str:
         f"Evidence `{gate.evidence}`, signed by {markdown(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
     )
     checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
-    measured = ". ".join(f"{markdown(one[0].upper() + one[1:])}: ________" for one in gate.measured)
+    measured = ". ".join(f"{markdown(text[0].upper() + text[1:])}: ________" for text in gate.measured)
     blocks = (f"## {gate.code} {gate.title}", passed, checks, signed, measured, _RESULT)
     return "\n\n".join(block for block in blocks if block)
 

@@ -1,4 +1,4 @@
-"""``config/moveit/*.yaml``, ``config/joint_limits.yaml``: what move_group is told beyond the description.
+"""``config/moveit/*.yaml``, ``config/joint_limits.yaml``: what move_group gets beyond the description.
 
 ROS parameter files for every node that is started with them, with the keys of MoveIt 2.5 on Humble and of 2.12 and
 later on the others. Only for a cell with planning groups and a node that reads them: a controller takes no limits from
@@ -209,7 +209,7 @@ def _config(planner: str) -> str:
 
 def _controllers(cell: Cell, target: str) -> Parameters:
     """Return what executes plans on a target: controllers with an action that MoveIt knows, adapters, stand-ins."""
-    called = {_name(cell, one): one for one in _called(cell, target) if _short(one.type) in _TYPES}
+    called = {_name(cell, called): called for called in _called(cell, target) if _short(called.type) in _TYPES}
     parameters: dict[str, ParameterValue] = {
         "moveit_controller_manager": f"{_MANAGER}/MoveItSimpleControllerManager",
         f"{_MANAGER}.controller_names": tuple(called),
@@ -294,7 +294,7 @@ def _of_image(octomap: Octomap) -> Parameters:
 
 
 def _servo(cell: Cell, servo: Servo) -> Parameters:
-    """Return what MoveIt Servo is told; move_group keeps the planning scene, and Servo follows it.
+    """Return what MoveIt Servo gets; move_group keeps the planning scene, and Servo follows it.
 
     Sources: moveit2@2.12.4 moveit_ros/moveit_servo/config/servo_parameters.yaml, the same in 2.14.1 and 2.15.0; @2.5.9
     moveit_ros/moveit_servo/src/servo_parameters.cpp:101-260, where frames have no default that fits a robot.
@@ -334,13 +334,13 @@ def _scene_topic(cell: Cell) -> str:
 
 
 def _called(cell: Cell, target: str) -> Iterator[_Called]:
-    for one in cell.controllers:
-        if not executes_plans(cell, one):
+    for controller in cell.controllers:
+        if not executes_plans(cell, controller):
             continue
-        if target in one.targets and one.action is not None:
-            yield _Called(one.action, one.action_type or "", one.joints)
-        elif target == "real" and one.stand_in is not None:
-            yield _Called(one.stand_in.action, one.stand_in.action_type, one.joints)
+        if target in controller.targets and controller.action is not None:
+            yield _Called(controller.action, controller.action_type or "", controller.joints)
+        elif target == "real" and controller.stand_in is not None:
+            yield _Called(controller.stand_in.action, controller.stand_in.action_type, controller.joints)
     for adapted in cell.adapters:
         if executes_plans(cell, adapted):
             yield _Called(adapted.action, TRAJECTORY_ACTION, adapted.joints)

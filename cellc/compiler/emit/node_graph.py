@@ -3,7 +3,7 @@
 SVG 1.1 without scripts, styles or fonts from elsewhere. From left to right goes what commands: nodes, controllers,
 devices; what is told back goes from right to left, and is drawn lighter. Interfaces between the same ends share an
 arrow and its number in the list. Vendor control and physical safety are boundaries of their own, drawn bold. Left out:
-what nobody of the cell uses, and what each arrow promises, which ``graph/responsibility.svg`` has.
+what no node of the cell uses, and what each arrow promises, which ``graph/responsibility.svg`` has.
 """
 
 from __future__ import annotations
@@ -52,38 +52,44 @@ class Exchange:
 
 
 def _exchanges(cell: Cell) -> tuple[Exchange, ...]:
-    alone = {one.name for group in unused(cell) for one in group}
+    alone = {interface.name for group in unused(cell) for interface in group}
     found: dict[tuple[InterfaceKind, tuple[str, ...], tuple[str, ...]], list[str]] = {}
-    for one in cell.interfaces:
-        ends = [tuple(dict.fromkeys(end.node for end in side)) for side in (one.sources, one.sinks)]
-        if one.name not in alone and all(ends):
-            starts, ends_ = ends if one.kind is InterfaceKind.TOPIC else ends[::-1]
-            found.setdefault((one.kind, starts, ends_), []).append(one.name)
+    for interface in cell.interfaces:
+        ends = [tuple(dict.fromkeys(end.node for end in side)) for side in (interface.sources, interface.sinks)]
+        if interface.name not in alone and all(ends):
+            starts, ends_ = ends if interface.kind is InterfaceKind.TOPIC else ends[::-1]
+            found.setdefault((interface.kind, starts, ends_), []).append(interface.name)
     return tuple(Exchange(*key, tuple(names)) for key, names in found.items())
 
 
 def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
     """Return the layer of each box: nodes by who commands whom, then controllers, devices and the stop."""
-    controllers = {one.label for one in cell.controllers}
-    devices = [one.name for one in cell.devices]
-    ends = dict.fromkeys(name for one in exchanges for name in (*one.starts, *one.ends))
-    drivers = dict.fromkeys(one.driver.node for one in cell.devices if one.driver is not None)
+    controllers = {controller.label for controller in cell.controllers}
+    devices = [device.name for device in cell.devices]
+    ends = dict.fromkeys(name for exchange in exchanges for name in (*exchange.starts, *exchange.ends))
+    drivers = dict.fromkeys(device.driver.node for device in cell.devices if device.driver is not None)
     nodes = [name for name in (ends | drivers) if name not in controllers and name not in devices]
     asks: dict[str, set[str]] = {name: set() for name in nodes}
-    for one in exchanges:
-        for end in one.ends if one.commands else ():
-            asks.get(end, set()).update(name for name in one.starts if name in asks)
+    for exchange in exchanges:
+        for end in exchange.ends if exchange.commands else ():
+            asks.get(end, set()).update(name for name in exchange.starts if name in asks)
     layers = {name: _depth(name, asks, ()) for name in nodes}
     for name in nodes:
         heard = [
-            layers[end] for one in exchanges if name in one.starts for end in one.ends if end in asks and end != name
+            layers[end]
+            for exchange in exchanges
+            if name in exchange.starts
+            for end in exchange.ends
+            if end in asks and end != name
         ]
-        asked = any(name in (*one.starts, *one.ends) for one in exchanges if one.commands)
+        asked = any(name in (*exchange.starts, *exchange.ends) for exchange in exchanges if exchange.commands)
         if heard and not asked:
             layers[name] = min(heard) - 1
     first = min(layers.values(), default=0)
     after = max(layers.values(), default=0) - first + 1
-    used = [one.label for one in cell.controllers if one.label in ends or one.device is not None]
+    used = [
+        controller.label for controller in cell.controllers if controller.label in ends or controller.device is not None
+    ]
     column = 1 if used else 0
     return {
         **{name: layer - first for name, layer in layers.items()},
@@ -101,7 +107,7 @@ def _stop(cell: Cell) -> str:
 def _depth(name: str, asks: Mapping[str, set[str]], above: tuple[str, ...]) -> int:
     """Return how many nodes command one another before this one; a circle is cut where it closes."""
     inner = (*above, name)
-    return max((_depth(one, asks, inner) + 1 for one in sorted(asks[name]) if one not in inner), default=0)
+    return max((_depth(ask, asks, inner) + 1 for ask in sorted(asks[name]) if ask not in inner), default=0)
 
 
 def _arrows(cell: Cell, exchanges: Sequence[Exchange]) -> Iterator[tuple[Line, str]]:
@@ -235,7 +241,7 @@ def _wrapped(name: str) -> list[str]:
             lines.append(line)
             line = ""
         line += word
-    return [part for one in [*lines, line] for part in textwrap.wrap(one, _CHARACTERS)] or [""]
+    return [part for text in [*lines, line] for part in textwrap.wrap(text, _CHARACTERS)] or [""]
 
 
 def _legend(y: float) -> Iterator[Element]:
@@ -282,7 +288,7 @@ def _text(x: float, y: float, said: str, style: Mapping[str, str]) -> Element:
 
 
 def _heads() -> Element:
-    return element("defs", children=[_head(*one) for one in (("ink", _INK), ("back", _BACK), ("stop", _STOP))])
+    return element("defs", children=[_head(*pair) for pair in (("ink", _INK), ("back", _BACK), ("stop", _STOP))])
 
 
 def _head(name: str, color: str) -> Element:

@@ -1,7 +1,7 @@
 """``package.xml``, ``CMakeLists.txt``, ``sources.repos``: the folder as a ROS package, read by colcon, rosdep and vcs.
 
 Format 3 of REP-149. Run-time dependencies follow from what is in use: nodes, controllers, hardware drivers. The version
-is that of the artifacts' format; what the cell was made from stands in ``manifest.json``. There is nothing to compile:
+is that of the artifacts' format; what the cell was made from is in ``manifest.json``. There is nothing to compile:
 the build file installs the folders through ament_cmake. Left out: tests and targets of the user's own, which belong
 into a package beside this one; the artifacts are tested where they are made.
 """

@@ -56,11 +56,11 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
     rate: dict[str, ParameterValue] = {"update_rate": round(manager.update_rate_hz)}
     for state in ("unconfigured", "inactive"):
         devices = (cell.device(name) for name in manager.devices)
-        if named := tuple(one.hardware.name for one in devices if one.hardware and one.comes_up == state):
+        if named := tuple(device.hardware.name for device in devices if device.hardware and device.comes_up == state):
             rate[f"hardware_components_initial_state.{state}"] = named
     hardware = [cell.device(name).hardware for name in manager.devices]
     if Feature.LIMITED_COMMANDS in features(cell.distro) and any(
-        one is not None and one.enforce_command_limits is False for one in hardware
+        item is not None and item.enforce_command_limits is False for item in hardware
     ):
         rate["enforce_command_limits"] = False
     return rate | {f"{controller.name}.type": controller.plugin for controller in manager.controllers}

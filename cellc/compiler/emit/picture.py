@@ -81,8 +81,8 @@ def _bands(cell: Cell) -> tuple[Band, ...]:
 
 def _exchanges(cell: Cell) -> Iterator[Row]:
     groups = unused(cell)
-    alone = {one.name for group in groups for one in group}
-    yield from (_exchange(one) for one in cell.interfaces if one.name not in alone)
+    alone = {interface.name for group in groups for interface in group}
+    yield from (_exchange(interface) for interface in cell.interfaces if interface.name not in alone)
     for group in groups:
         sources, facts = tuple(end.node for end in group[0].sources), tuple(unused_facts(group))
         starts, ends = (sources, ("none",)) if group[0].kind is InterfaceKind.TOPIC else (("none",), sources)

@@ -1,4 +1,4 @@
-"""``graph/responsibility.mmd``: who tells what to whom, and who answers for it, on one page.
+"""``graph/responsibility.mmd``: who tells what to whom, and its owner, on one page.
 
 Mermaid flowchart, for code hosts and editors that draw it. Every arrow carries type, frame, unit, rate, time source,
 owner and failure behavior; an interface with several ends carries them once, in a box between its ends, whose arrows
@@ -41,7 +41,7 @@ def _diagram(cell: Cell) -> Iterator[str]:
     yield from _vendor_control(cell)
     yield from _physical_safety(cell)
     groups = unused(cell)
-    alone = {one.name for group in groups for one in group}
+    alone = {interface.name for group in groups for interface in group}
     for interface in cell.interfaces:
         if interface.name not in alone:
             yield from _arrows(cell, interface)
@@ -57,9 +57,9 @@ def _ros_graph(cell: Cell) -> Iterator[str]:
     yield 'subgraph ros["ROS 2 graph"]'
     for node in cell.nodes:
         yield f"  {_box('node', node.full_name[1:], f'{node.package}/{node.executable}', f'owner {node.owner}')}"
-    for one in cell.controllers:
-        client = f"commanded by {one.client}" if one.client else "no client"
-        yield f"  {_box('node', one.full_name[1:], one.plugin, client)}"
+    for controller in cell.controllers:
+        client = f"commanded by {controller.client}" if controller.client else "no client"
+        yield f"  {_box('node', controller.full_name[1:], controller.plugin, client)}"
     yield "end"
 
 

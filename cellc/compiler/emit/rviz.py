@@ -53,10 +53,10 @@ def _displays(cell: Cell) -> Iterator[Tree]:
         yield _display("moveit_rviz_plugin/PlanningScene", "Planning scene", {**scene, **_MODEL})
         path: Tree = {"Trajectory Topic": f"{place}/display_planned_path", "Loop Animation": False}
         yield _display("moveit_rviz_plugin/Trajectory", "Planned path", {**path, **_MODEL})
-    for one in cell.interfaces:
-        if one.kind is InterfaceKind.TOPIC and one.type == _IMAGE:
-            seen: Tree = {"Value": one.name, "Depth": 1, "Reliability Policy": "Best Effort"}
-            yield _display("rviz_default_plugins/Image", one.name, {"Topic": seen})
+    for interface in cell.interfaces:
+        if interface.kind is InterfaceKind.TOPIC and interface.type == _IMAGE:
+            seen: Tree = {"Value": interface.name, "Depth": 1, "Reliability Policy": "Best Effort"}
+            yield _display("rviz_default_plugins/Image", interface.name, {"Topic": seen})
 
 
 _MODEL: Tree = {"Robot Description": "robot_description"}

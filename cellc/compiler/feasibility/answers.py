@@ -67,7 +67,7 @@ class GoalAnswer:
         limit_joint: joint nearest to one of its limits there, as a share of its range; empty where none has a range.
         limit_share: its distance to that limit as a share of its range.
         limit_distance: the same in rad or m.
-        configuration: joint positions of the solution in the order of the group, rad or m; empty where there is none.
+        configuration: joint positions of the solution in the order of the group, rad or m; empty without one.
     """
 
     name: str
@@ -121,7 +121,7 @@ class MotionAnswer:
         views: where detected objects lie for their cameras.
         rigid: links that touch whatever the joints do, neighbors in the tree apart.
         holding: joints that have a limit of effort, each where gravity takes most of it.
-        areas: volumes that arms share, with what stands in them.
+        areas: volumes that arms share, with what is in them.
     """
 
     start: tuple[BodyContact, ...] = ()

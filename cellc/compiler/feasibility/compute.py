@@ -21,7 +21,7 @@ from cellc.compiler.feasibility.answers import (
     ViewAnswer,
 )
 from cellc.compiler.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion, PoseQuestion
-from cellc.contract.limits import Purse, PurseError, limits
+from cellc.contract.limits import Budget, BudgetError, limits
 from cellc.contract.transforms import Pose
 from cellc.robot.planning import (
     Box,
@@ -66,15 +66,15 @@ def sample_pairs(urdf: str, mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
         return DisabledAnswer((), 0, str(error))
     samples = _samples(robot)
     try:
-        pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, purse=_purse())
-    except PurseError:
+        pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, budget=_budget())
+    except BudgetError:
         return DisabledAnswer((), 0, *_too_long())
     links = tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs)
     return DisabledAnswer(links, samples)
 
 
-def _purse() -> Purse:
-    return Purse(limits().planning_seconds, time.process_time)
+def _budget() -> Budget:
+    return Budget(limits().planning_seconds, time.process_time)
 
 
 def _too_long() -> tuple[str, str]:
@@ -90,20 +90,20 @@ def _samples(robot: RobotModel) -> int:
 def answer(question: MotionQuestion, mesh_roots: Sequence[Path] = ()) -> MotionAnswer:
     """Answer all parts of a question in the scene of the cell, every joint not asked about at its start."""
     try:
-        return _answer(question, mesh_roots, _purse())
+        return _answer(question, mesh_roots, _budget())
     except (ModelError, LimitsError) as error:
         return MotionAnswer(refused=str(error))
-    except PurseError:
+    except BudgetError:
         return MotionAnswer((), (), (), *_too_long())
 
 
-def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) -> MotionAnswer:
-    scene, disabled = _scene(question, mesh_roots, purse)
+def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], budget: Budget) -> MotionAnswer:
+    scene, disabled = _scene(question, mesh_roots, budget)
     robot, start = scene.model, scene.other_positions
     asked = {goal.group for goal in question.goals}
     planners = {group.name: _planner(group, robot, scene) for group in question.groups if group.name in asked}
-    poses = tuple(_pose(pose, planners, scene, start) for pose in purse.over(question.poses))
-    goals = tuple(_goal(goal, planners[goal.group], robot, start) for goal in purse.over(question.goals))
+    poses = tuple(_pose(pose, planners, scene, start) for pose in budget.over(question.poses))
+    goals = tuple(_goal(goal, planners[goal.group], robot, start) for goal in budget.over(question.goals))
     postures = _postures(question, goals, start)
     rigid = (pair.links for pair in disabled if pair.reason is DisabledReason.ALWAYS)
     return MotionAnswer(
@@ -118,13 +118,13 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse) 
 
 
 def _scene(
-    question: MotionQuestion, mesh_roots: Sequence[Path], purse: Purse
+    question: MotionQuestion, mesh_roots: Sequence[Path], budget: Budget
 ) -> tuple[CollisionScene, tuple[DisabledPair, ...]]:
     """Return the scene of the cell at its start, and the pairs that the shapes alone take out of it."""
     robot = RobotModel.from_urdf(question.urdf, mesh_roots=mesh_roots)
     start = {joint: value for joint, value in question.start if joint in robot.joints}
     samples = _samples(robot)
-    disabled = decided_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, purse=purse)
+    disabled = decided_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, budget=budget)
     unchecked = [*(pair.links for pair in disabled), *question.allowed]
     return CollisionScene(robot, disabled_collisions=unchecked, other_positions=start), disabled
 
@@ -133,10 +133,10 @@ def planner_of(question: MotionQuestion, group: str, mesh_roots: Sequence[Path] 
     """Return the planner of one group in the scene of the cell.
 
     Raises:
-        ModelError, LimitsError, PurseError: the shapes or joints cannot be looked at, or take too long.
+        ModelError, LimitsError, BudgetError: the shapes or joints cannot be looked at, or take too long.
     """
-    scene, _ = _scene(question, mesh_roots, _purse())
-    return _planner(next(one for one in question.groups if one.name == group), scene.model, scene)
+    scene, _ = _scene(question, mesh_roots, _budget())
+    return _planner(next(item for item in question.groups if item.name == group), scene.model, scene)
 
 
 def _pose(
@@ -184,7 +184,7 @@ def _views(
 def _areas(
     question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], scene: CollisionScene
 ) -> tuple[AreaAnswer, ...]:
-    """Return what stands in each shared volume, posture by posture."""
+    """Return what is in each shared volume, posture by posture."""
     found = []
     for area in question.areas:
         box = Box(f"area {area.name}", area.link, area.size, area.pose)
@@ -198,7 +198,7 @@ def _holding(
     question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], robot: RobotModel
 ) -> tuple[HoldingAnswer, ...]:
     """Return the most that holds each joint which has a limit of effort."""
-    carried = [CarriedMass(one.link, one.mass_kg, one.center) for one in question.carried]
+    carried = [CarriedMass(item.link, item.mass_kg, item.center) for item in question.carried]
     most: dict[str, HoldingAnswer] = {}
     for name, positions in postures.items():
         efforts = holding_efforts(robot, _movable(robot, positions), carried)

@@ -141,7 +141,7 @@ def _carried(cell: Cell) -> Iterator[CarriedQuestion]:
 
 
 def _views(graph: CellGraph) -> Iterator[ViewQuestion]:
-    """Yield each object that is detected in the frame of a camera, with where the arm stands then."""
+    """Yield each object that is detected in the frame of a camera, with where the arm is then."""
     cell = graph.cell
     optical = {device.frames[name] for device in cell.devices for name in device.optical_frames}
     seen: set[tuple[str, str]] = set()

@@ -40,7 +40,7 @@ def _adjacent(cell: Cell) -> Iterator[tuple[str, str]]:
 
 
 def _rigid(cell: Cell) -> Iterator[tuple[str, str]]:
-    """Yield the bodies between which no joint moves, such as a table and the base that stands on it."""
+    """Yield the bodies between which no joint moves, such as a table and the base that is on it."""
     solid = _solid(cell)
     clusters: dict[str, list[str]] = {}
     for frame in cell.frames:

@@ -1,4 +1,4 @@
-"""JSON text for review: what fits into a line stands in one, everything else has one item a line.
+"""JSON text for review: what fits into a line is in one, everything else has one item a line.
 
 The only item of a list, where it takes several lines, shares its brackets' lines: ``"sources": [{`` ... ``}]``.
 """

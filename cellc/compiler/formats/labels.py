@@ -17,7 +17,7 @@ _FAR = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A text for a point; ``key`` tells apart what stands in one place."""
+    """A text for a point; ``key`` tells apart what is in one place."""
 
     key: str
     at: Point
@@ -26,7 +26,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """Where a text stands from its point: its base line begins, is centered or ends there.
+    """Where a text is from its point: its base line begins, is centered or ends there.
 
     Attributes:
         foot: end of the line that leads to it, where it is far.
@@ -58,12 +58,12 @@ class _Taken:
         return [self._boxes[number] for number in sorted(numbers)]
 
     def _covered(self, box: _Box) -> list[tuple[int, int]]:
-        left, top, right, bottom = (floor(one / self._side) for one in box)
+        left, top, right, bottom = (floor(value / self._side) for value in box)
         return [(x, y) for x in range(left, right + 1) for y in range(top, bottom + 1)]
 
 
 def placed(labels: Iterable[Label], letter: float, bounds: _Box) -> tuple[Placed, ...]:
-    """Return where each text stands; one without room within the bounds stands where it hides least.
+    """Return where each text is; one without room within the bounds is where it hides least.
 
     Args:
         letter: height of letters.
@@ -71,8 +71,8 @@ def placed(labels: Iterable[Label], letter: float, bounds: _Box) -> tuple[Placed
     """
     ordered = sorted(labels, key=lambda one: (one.at[1], one.at[0], one.key))
     taken = _Taken(letter * 20)
-    for one in ordered:
-        taken.add(_around(one.at, letter * 0.4))
+    for item in ordered:
+        taken.add(_around(item.at, letter * 0.4))
     found = []
     for label in ordered:
         choices = (

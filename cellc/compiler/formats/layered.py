@@ -113,7 +113,7 @@ class _Drawing:
         return found
 
     def _side(self, key: str, other: str) -> int:
-        """Return the side of a slot that faces another one: 1 is right, also for one in the same layer."""
+        """Return the side of a slot that faces another one: 1 is right, also within one layer."""
         return -1 if self._layers[other] < self._layers[key] else 1
 
     def _height(self, box: Box) -> float:
@@ -125,11 +125,11 @@ class _Drawing:
 
     def _sort(self, layer: int) -> None:
         places = {key: number / max(1, len(keys) - 1) for keys in self._order for number, key in enumerate(keys)}
-        means = {key: _mean([places[one] for one in self._beside(key)], places[key]) for key in self._order[layer]}
+        means = {key: _mean([places[text] for text in self._beside(key)], places[key]) for key in self._order[layer]}
         self._order[layer].sort(key=means.__getitem__)
 
     def _beside(self, slot: str) -> Iterable[str]:
-        return sorted(one for one in self._near.get(slot, ()) if self._layers[one] != self._layers[slot])
+        return sorted(text for text in self._near.get(slot, ()) if self._layers[text] != self._layers[slot])
 
     def _centers(self) -> dict[str, float]:
         centers: dict[str, float] = {}
@@ -137,7 +137,7 @@ class _Drawing:
             centers |= self._packed(keys, dict.fromkeys(keys, 0.0))
         for _ in range(_SWEEPS):
             for keys in (*self._order, *reversed(self._order)):
-                wanted = {key: _mean([centers[one] for one in self._beside(key)], centers[key]) for key in keys}
+                wanted = {key: _mean([centers[text] for text in self._beside(key)], centers[key]) for key in keys}
                 centers |= self._packed(keys, wanted)
         top = min((centers[key] - self._high(key) / 2.0 for key in centers), default=0.0)
         return {key: center - top for key, center in centers.items()}
@@ -168,7 +168,9 @@ class _Drawing:
 
     def _ports(self, centers: Mapping[str, float]) -> Iterator[tuple[tuple[str, int, str], float]]:
         for (key, side), groups in self._sides.items():
-            means = {group: _mean([centers[one] for one in sorted(others)], 0.0) for group, others in groups.items()}
+            means = {
+                group: _mean([centers[other] for other in sorted(others)], 0.0) for group, others in groups.items()
+            }
             ordered = sorted(groups, key=means.__getitem__)
             for number, group in enumerate(ordered):
                 yield (key, side, group), centers[key] + (number - (len(ordered) - 1) / 2.0) * PORT

@@ -51,13 +51,13 @@ def _section(section: NodeParameters) -> str:
 def qos_parameters(cell: Cell, node: Node) -> dict[str, ParameterValue]:
     """Return the overrides of a node for the topics that the spec writes; none for one that has no end there."""
     found: dict[str, ParameterValue] = {}
-    for one in cell.ends_of.get(node.full_name, ()):
-        topic = one.interface
+    for end in cell.ends_of.get(node.full_name, ()):
+        topic = end.interface
         if topic.kind is not InterfaceKind.TOPIC or topic.derived:
             continue
-        side = "publisher" if one.serves else "subscription"
+        side = "publisher" if end.serves else "subscription"
         prefix = f"qos_overrides.{topic.name}.{side}"
-        found |= {f"{prefix}.{policy}": value for policy, value in _policies(one.end.qos, side)}
+        found |= {f"{prefix}.{policy}": value for policy, value in _policies(end.end.qos, side)}
     return found
 
 

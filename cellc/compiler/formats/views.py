@@ -1,8 +1,8 @@
 """A drawing of bodies and frames from two sides, as SVG 1.1 without scripts, styles or fonts from elsewhere.
 
 From the front the eye looks along y, from the side against x, where the drawing is much wider that way; from above it
-looks down. Units are millimetres, and each part and each frame is a group that is moved as a whole: what moves by a
-millimetre changes a line of each view. Frames have the colors of RViz: x red, y green, z blue.
+looks down. Units are millimeters, and each part and each frame is a group that is moved as a whole: what moves by a
+millimeter changes a line of each view. Frames have the colors of RViz: x red, y green, z blue.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Point = tuple[float, float]
 
 _AXES = (((1.0, 0.0, 0.0), "#d62728"), ((0.0, 1.0, 0.0), "#2ca02c"), ((0.0, 0.0, 1.0), "#1f77b4"))
 _FILLS = ("#d3dce6", "#e6d8d3", "#d6e3d6", "#e3dcc8")
-"""Of devices in turn; solid things are grey."""
+"""Of devices in turn; solid things are gray."""
 _SOLID, _EDGE, _BONE = "#e9e9e7", "#76828f", "#30363d"
 _ROUND = 16
 """Corners of what is round."""
@@ -35,7 +35,7 @@ _SHAPE = 1.5
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A device or a solid thing with what it carries, all in one frame, metres.
+    """A device or a solid thing with what it carries, all in one frame, meters.
 
     Args:
         bodies: shapes with their poses; a mesh is left out.
@@ -114,7 +114,7 @@ class _View:
         return point[self._right] * 1000.0, self._sign * point[self._up] * 1000.0
 
     def seen(self, point: Vector3, origin: Vector3) -> Point:
-        """Return where a point is seen from where a group stands; the noise of sums does not decide a rounding."""
+        """Return where a point is seen from where a group is; the noise of sums does not decide a rounding."""
         (x, y), (x0, y0) = self.flat(point), self.flat(origin)
         return round(round(x - x0, 4), self.digits) + 0.0, round(round(y - y0, 4), self.digits) + 0.0
 
@@ -158,13 +158,13 @@ def _titled(view: _View, x: float, y: float, letter: float) -> Iterator[Element]
     yield element("text", {"x": f"{inset:g}", "y": f"{y:g}", "font-weight": "bold"}, text=view.title)
     start, line = inset + 9.0 * letter, y - letter / 3
     yield _line((start, line), (start + view.ruler, line), "#000000", letter / 8)
-    metres = view.ruler / 1000.0
-    said = f"{shortest(metres)} m" if metres >= 0.1 else f"{shortest(round(view.ruler, 3))} mm"
+    meters = view.ruler / 1000.0
+    said = f"{shortest(meters)} m" if meters >= 0.1 else f"{shortest(round(view.ruler, 3))} mm"
     yield element("text", {"x": f"{start + view.ruler + letter / 2:g}", "y": f"{y:g}"}, text=said)
 
 
 def _moved(view: _View, place: Vector3, origin: Vector3, children: Iterable[Element]) -> Element:
-    """Return a group that stands at a place, to a tenth of the unit: a millimetre more moves it seldom."""
+    """Return a group that is at a place, to a tenth of the unit: a millimeter more moves it seldom."""
     grid = view.unit / 10.0
     x, y = (round(value / grid) * grid for value in view.seen(place, origin))
     return element("g", {"transform": f"translate({x:g} {y:g})"} if (x, y) != (0.0, 0.0) else {}, children)
@@ -175,13 +175,13 @@ def _bodies(view: _View, part: Part, origin: Vector3 = (0.0, 0.0, 0.0)) -> Eleme
     fill = _SOLID if part.solid else view.fills[part.name]
     towards = -1.0 if view.depth == 1 else 1.0
     ordered = sorted(part.bodies, key=lambda body: round(towards * body[0].position[view.depth], 4))
-    drawn = [one for pose, shape in ordered for one in _outline(view, pose, shape, part.origin, fill)]
+    drawn = [element for pose, shape in ordered for element in _outline(view, pose, shape, part.origin, fill)]
     drawn += [
         _line(view.seen(start, part.origin), view.seen(end, part.origin), _BONE, view.unit / 20.0)
         for start, end in part.bones
     ]
     inner = sorted(part.parts, key=lambda one: (not one.solid, round(towards * one.origin[view.depth], 4)))
-    return _moved(view, part.origin, origin, [*drawn, *(_bodies(view, one, part.origin) for one in inner)])
+    return _moved(view, part.origin, origin, [*drawn, *(_bodies(view, item, part.origin) for item in inner)])
 
 
 def _outline(view: _View, pose: Pose, shape: Geometry, origin: Vector3, fill: str) -> Iterator[Element]:
@@ -197,7 +197,7 @@ def _marks(view: _View, drawing: Part, letter: float) -> Element:
     named = sum(len(part.frames) for part in drawing.all()) <= _MOST_NAMES
     labels = [label for part in drawing.all() for label in _labels(view, part, named)]
     bounds = (view.left, view.top, view.left + view.width, view.top + view.height)
-    places = {(one.label.key, one.label.at): one for one in placed(labels, letter, bounds)}
+    places = {(item.label.key, item.label.at): item for item in placed(labels, letter, bounds)}
     return _marks_of(view, drawing, (0.0, 0.0, 0.0), letter, places)
 
 
@@ -230,7 +230,7 @@ def _marks_of(
     for pose, _ in _together(view, part):
         label = places.get((part.name, _coarse(view, pose.position)))
         drawn.append(_moved(view, pose.position, part.origin, [*_triad(view, pose), *_named(label, letter)]))
-    inner = (_marks_of(view, one, part.origin, letter, places) for one in part.parts)
+    inner = (_marks_of(view, item, part.origin, letter, places) for item in part.parts)
     return _moved(view, part.origin, origin, [*drawn, *inner])
 
 

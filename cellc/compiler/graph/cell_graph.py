@@ -60,7 +60,7 @@ class CellGraph:
 
     @cached_property
     def responsibilities(self) -> Responsibilities:
-        """Who answers for what."""
+        """Who is responsible for what."""
         return build_responsibilities(self.cell)
 
     def once(self, question: Callable[[CellGraph], _Answer]) -> _Answer:

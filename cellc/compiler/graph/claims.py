@@ -134,7 +134,7 @@ def written_parameters(cell: Cell) -> Iterator[WrittenParameter]:
 
 
 def adapter_of_group(cell: Cell, group: PlanningGroup) -> AdaptedDevice | None:
-    """Return the adapted device that moves every joint of a group; None where there is none."""
+    """Return the adapted device that moves every joint of a group, or None."""
     if not group.joints:
         return None
     return next((adapted for adapted in cell.adapters if set(group.joints) <= set(adapted.joints)), None)
@@ -143,7 +143,7 @@ def adapter_of_group(cell: Cell, group: PlanningGroup) -> AdaptedDevice | None:
 def crosses_an_adapter(cell: Cell, parent: str, child: str) -> bool:
     """Tell whether a joint of a device behind an adapter lies between two frames, the child below the parent."""
     behind = {adapted.device for adapted in cell.adapters}
-    frames, frame = {one.name: one for one in cell.frames}, child
+    frames, frame = {frame.name: frame for frame in cell.frames}, child
     while frame != parent and frame in frames:
         if frames[frame].moving and frames[frame].device in behind:
             return True

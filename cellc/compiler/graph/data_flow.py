@@ -77,7 +77,7 @@ class DataFlow:
                 yield from (TopicPair(topic, source, sink) for sink in sinks)
 
     def path_to_motion(self, node: str) -> tuple[str, ...]:
-        """Return the shortest way from a node to a controller, both included; empty where there is none."""
+        """Return the shortest way from a node to a controller, both included; empty without one."""
         import networkx
 
         graph = self._digraph

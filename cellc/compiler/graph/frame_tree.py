@@ -28,7 +28,7 @@ class FrameTree:
         return name in self.edges
 
     def get(self, name: str) -> Frame | None:
-        """Find a frame, the first where a name stands twice."""
+        """Find a frame, the first where a name occurs twice."""
         found = self.edges.get(name)
         return found[0] if found else None
 
@@ -69,7 +69,7 @@ class FrameTree:
         return tuple(chain)
 
     def in_world(self, name: str) -> Pose | None:
-        """Return the pose of a frame in the world; a dynamic frame stands where the mock puts what it follows.
+        """Return the pose of a frame in the world; a dynamic frame is where the mock puts what it follows.
 
         Returns:
             None for a frame that a joint moves, and for a dynamic frame without a simulated pose.

@@ -87,7 +87,9 @@ def build_network(cell: Cell) -> NetworkGraph:
 def running_hosts(cell: Cell) -> dict[str, str]:
     """Return the host that runs each node and each controller, by its full name; empty where the cell names none."""
     nodes = {node.full_name: node.host for node in cell.nodes}
-    return nodes | {one.full_name: manager.host for manager in cell.managers for one in manager.controllers}
+    return nodes | {
+        controller.full_name: manager.host for manager in cell.managers for controller in manager.controllers
+    }
 
 
 def _path(host: str, nic: str) -> YamlPath:

@@ -25,17 +25,17 @@ def release_sets(distro: str) -> tuple[ReleaseSet, ...]:
 
 def was_released(distro: str, package: str, text: str) -> bool:
     """Whether a distribution, or a vendor for it, ever released a package in the version of a pin."""
-    return any(same_version(text, one.packages[package]) for one in release_sets(distro) if package in one.packages)
+    return any(same_version(text, item.packages[package]) for item in release_sets(distro) if package in item.packages)
 
 
 def were_together(distro: str, pins: Mapping[str, str]) -> ReleaseSet | None:
     """Return the newest set of a distribution with the packages of some pins as pinned, as far as it has them."""
-    sets = (one for one in release_sets(distro) if not one.built and not one.packages.keys().isdisjoint(pins))
+    sets = (item for item in release_sets(distro) if not item.built and not item.packages.keys().isdisjoint(pins))
     return next(
         (
-            one
-            for one in sets
-            if all(same_version(pins[name], one.packages[name]) for name in pins if name in one.packages)
+            item
+            for item in sets
+            if all(same_version(pins[name], item.packages[name]) for name in pins if name in item.packages)
         ),
         None,
     )
@@ -93,13 +93,13 @@ def differing(device: Device, one: ReleaseSet) -> tuple[str, ...]:
 def own_release(device: Device, distro: str) -> ReleaseSet | None:
     """Return the newest release set that a device is of: as the set says, and the set has all that no row names."""
     odd = set(unlisted(device, distro))
-    fitting = (one for one in release_sets(distro) if odd <= set(shared_parts(device, one)))
-    return next((one for one in fitting if not differing(device, one)), None)
+    fitting = (item for item in release_sets(distro) if odd <= set(shared_parts(device, item)))
+    return next((item for item in fitting if not differing(device, item)), None)
 
 
 def nearest_release(device: Device, distro: str) -> ReleaseSet | None:
     """Return the release set with most of a device's versions, the newest of such; None where none has its packages."""
-    sets = [one for one in release_sets(distro) if shared_parts(device, one)]
+    sets = [item for item in release_sets(distro) if shared_parts(device, item)]
     return max(sets, key=lambda one: len(shared_parts(device, one)) - len(differing(device, one)), default=None)
 
 

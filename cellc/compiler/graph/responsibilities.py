@@ -1,4 +1,4 @@
-"""The responsibility graph: who answers for what."""
+"""The responsibility graph: who is responsible for what."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from cellc.contract.diagnostics import YamlPath
 
 @dataclass(frozen=True, slots=True)
 class Responsibility:
-    """A thing that somebody answers for; ``kind`` is responsibility, approval, node, calibration or procedure."""
+    """A thing that somebody is responsible for; ``kind`` is responsibility, approval, node, calibration or
+    procedure."""
 
     kind: str
     name: str
@@ -21,7 +22,7 @@ class Responsibility:
 
     @property
     def open(self) -> bool:
-        """Whether nobody answers for it yet."""
+        """Whether it has no owner yet."""
         return self.owner == UNKNOWN
 
 
@@ -36,7 +37,7 @@ class Responsibilities:
         return tuple(item for item in self.items if item.kind == kind)
 
     def of_owner(self, owner: str) -> tuple[Responsibility, ...]:
-        """Return what one owner answers for."""
+        """Return what one owner is responsible for."""
         return tuple(item for item in self.items if item.owner == owner)
 
     def owners(self) -> tuple[str, ...]:

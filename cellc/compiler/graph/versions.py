@@ -84,7 +84,7 @@ class Answer(str, Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Judgement:
+class Judgment:
     """One part of the tuple with the answer, and what the answer rests on.
 
     ``built_from`` are the repositories that it is built from where the distribution does not release it.
@@ -96,7 +96,7 @@ class Judgement:
     built_from: tuple[RepositoryPin, ...] = ()
 
 
-def compatibility(cell: Cell) -> tuple[Judgement, ...]:
+def compatibility(cell: Cell) -> tuple[Judgment, ...]:
     """Judge every part of the tuple, the cell's first."""
     return (*_of_cell(cell), *_of_devices(cell))
 
@@ -107,17 +107,17 @@ def unreleased(cell: Cell) -> dict[str, RepositoryPin]:
     return {pin.name: pin for pin in sorted(pins, key=lambda pin: pin.name)}
 
 
-def _of_cell(cell: Cell) -> Iterator[Judgement]:
+def _of_cell(cell: Cell) -> Iterator[Judgment]:
     facts, table = distribution(cell), load_distros().value
     together = were_together(cell.distro, {_package(pin): pin.text for pin in cell_pins(cell) if pin.known})
     for pin in cell_pins(cell):
         if not pin.known:
-            yield Judgement(pin, Answer.UNKNOWN, "not pinned")
+            yield Judgment(pin, Answer.UNKNOWN, "not pinned")
         elif facts is None or table is None:
-            yield Judgement(pin, Answer.UNKNOWN, "the catalog has no such distribution")
+            yield Judgment(pin, Answer.UNKNOWN, "the catalog has no such distribution")
         else:
             answer, evidence = _cell_answer(pin, facts, together)
-            yield Judgement(pin, answer, f"{evidence} (as of {table.as_of})")
+            yield Judgment(pin, answer, f"{evidence} (as of {table.as_of})")
 
 
 def _package(pin: Pin) -> str:
@@ -154,11 +154,11 @@ def _os_answer(written: str, facts: DistroFacts) -> tuple[Answer, str]:
     return Answer.INCOMPATIBLE, f"{facts.title} is built for {', '.join(facts.os)}"
 
 
-def _of_devices(cell: Cell) -> Iterator[Judgement]:
+def _of_devices(cell: Cell) -> Iterator[Judgment]:
     devices = {device.name: device for device in cell.devices}
     for pin in device_pins(cell):
         if not pin.known:
-            yield Judgement(pin, Answer.UNKNOWN, "not pinned")
+            yield Judgment(pin, Answer.UNKNOWN, "not pinned")
             continue
         device = devices[pin.holder]
         rows = tuple(row for row in device.version_rows if row.part == pin.part)
@@ -169,7 +169,7 @@ def _of_devices(cell: Cell) -> Iterator[Judgement]:
             answer, evidence = _known_answer(row, cell.distro)
         else:
             answer, evidence = _unnamed_answer(pin, device, rows, cell.distro)
-        yield Judgement(pin, answer, evidence, () if row is None else row.built_from)
+        yield Judgment(pin, answer, evidence, () if row is None else row.built_from)
 
 
 def _firmware_answer(pin: Pin, rows: tuple[VersionRow, ...]) -> tuple[Answer, str]:

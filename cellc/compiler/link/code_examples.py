@@ -1,4 +1,4 @@
-"""Parts of a spec that linking reports, by the code: what stands on the page of each."""
+"""Parts of a spec that linking reports, by the code: what is on the page of each."""
 
 from __future__ import annotations
 

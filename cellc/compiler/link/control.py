@@ -154,22 +154,26 @@ def as_driven(cell: Cell) -> Cell:
     nodes, what both offer, and the fields of records that its controllers would tell.
     """
     behind = {adapted.device: adapted for adapted in cell.adapters}
-    nodes = tuple(_told(one, behind[one.device]) if one.device in behind else one for one in cell.nodes)
-    ours = tuple(one for one in nodes if one.device not in behind or one.full_name == behind[one.device].node)
-    devices = (_adapted_device(one, behind[one.name], ours) if one.name in behind else one for one in cell.devices)
+    nodes = tuple(_told(node, behind[node.device]) if node.device in behind else node for node in cell.nodes)
+    ours = tuple(node for node in nodes if node.device not in behind or node.full_name == behind[node.device].node)
+    devices = (
+        _adapted_device(device, behind[device.name], ours) if device.name in behind else device
+        for device in cell.devices
+    )
     managers = (
-        replace(one, devices=tuple(name for name in one.devices if name not in behind)) for one in cell.managers
+        replace(manager, devices=tuple(name for name in manager.devices if name not in behind))
+        for manager in cell.managers
     )
     return replace(
         cell,
-        devices=tuple(_with_procedures(one, "adapter" if one.name in behind else "driver") for one in devices),
+        devices=tuple(_with_procedures(device, "adapter" if device.name in behind else "driver") for device in devices),
         nodes=ours,
         managers=tuple(managers),
     )
 
 
 def _told(node: Node, adapted: AdaptedDevice) -> Node:
-    """Return the node of an adapter with the parameters that it may declare: what the spec says of it, in SI."""
+    """Return the node of an adapter with the parameters that it may declare: what the spec says about it, in SI."""
     told: dict[str, ParameterValue] = {
         "joints": adapted.joints,
         "command_timeout": adapted.command_timeout_s,
@@ -184,7 +188,7 @@ def _adapted_device(device: Device, adapted: AdaptedDevice, nodes: Iterable[Node
     told = tuple(source for source in device.record if source.controller_kind is None)
     limits = (*device.mock_cannot_prove, _NOT_ON_THE_MOCK)
     bare = replace(device, hardware=None, driver=None, offers=(), starts={}, record=told, mock_cannot_prove=limits)
-    node = next((one for one in nodes if one.full_name == adapted.node), None)
+    node = next((node for node in nodes if node.full_name == adapted.node), None)
     if node is None:
         return bare
     driver = DeviceDriver(
@@ -198,7 +202,7 @@ def _adapted_device(device: Device, adapted: AdaptedDevice, nodes: Iterable[Node
 
 def _with_procedures(device: Device, driven_by: str) -> Device:
     fits = (None, driven_by)
-    recovery = tuple(one for one in device.safety.recovery if one.by in fits)
+    recovery = tuple(procedure for procedure in device.safety.recovery if procedure.by in fits)
     return replace(
         device,
         safety=replace(device.safety, recovery=recovery),

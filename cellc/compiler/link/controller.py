@@ -55,7 +55,7 @@ class ControlContext:
     def beyond_the_mock(self) -> frozenset[str]:
         """Interfaces of groups that the real hardware alone has."""
         hardware = [bound.device.hardware for bound in self.devices.values()]
-        groups = [group for one in hardware if one is not None for group in (*one.sensors, *one.gpios)]
+        groups = [group for item in hardware if item is not None for group in (*item.sensors, *item.gpios)]
         return frozenset(
             f"{group.name}/{name}"
             for group in groups
@@ -66,7 +66,7 @@ class ControlContext:
 
 @dataclass(frozen=True, slots=True)
 class ControllerPlace:
-    """Where a controller stands: its name, the one that no other has, its manager with its namespace, its path."""
+    """Where a controller is: its name, the one that no other has, its manager with its namespace, its path."""
 
     name: str
     label: str

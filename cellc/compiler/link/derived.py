@@ -263,8 +263,10 @@ def _clients(source: Derivation, controller: Controller, interface: str) -> tupl
 def _servoed(source: Derivation) -> Iterator[Interface]:
     """Yield the topic on which MoveIt Servo commands its controller."""
     servo = source.servo
-    named = (one for manager in source.managers for one in manager.controllers)
-    controller = next((one for one in named if servo is not None and one.full_name == servo.controller), None)
+    named = (controller for manager in source.managers for controller in manager.controllers)
+    controller = next(
+        (controller for controller in named if servo is not None and controller.full_name == servo.controller), None
+    )
     if servo is None or controller is None:
         return
     path: YamlPath = ("motion", "servo")

@@ -70,7 +70,7 @@ def with_catalog(
         device,
         home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
         vendor_mounts=tuple(
-            VendorMount(model=one.on, frame=one.frame, pose=pose(one.xyz, one.rpy)) for one in facts.mounts
+            VendorMount(model=mount.on, frame=mount.frame, pose=pose(mount.xyz, mount.rpy)) for mount in facts.mounts
         ),
         optical_frames=facts.optical_frames,
         payload_limit_kg=None if limits.payload is None else limits.payload.value.si,
@@ -87,13 +87,15 @@ def with_catalog(
         packages=_packages(facts),
         jog=None if facts.jog is None else facts.jog.does,
         commissioning=tuple(
-            _step(one, known)
-            for one in facts.commissioning
-            if (not one.only or distro in one.only) and (not one.when or holding.intersection(one.when))
+            _step(step, known)
+            for step in facts.commissioning
+            if (not step.only or distro in step.only) and (not step.when or holding.intersection(step.when))
         ),
         record=tuple(_record(facts)),
         version_rows=facts.versions,
-        allowed_collisions=tuple((prefix + a, prefix + b) for a, b in (one.links for one in facts.allowed_collisions)),
+        allowed_collisions=tuple(
+            (prefix + a, prefix + b) for a, b in (collision.links for collision in facts.allowed_collisions)
+        ),
         excused={str(code): because for code, because in facts.excused.items()},
         mock_cannot_prove=(*facts.mock_cannot_prove, *_taken_on_trust(facts)),
     )
@@ -206,7 +208,7 @@ def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
 def _joint_speed(gripper: GripperFacts) -> float | None:
     """Return how fast the joint moves as the jaws do at their own speed, in rad/s or m/s; None where it is none.
 
-    The way of a linkage is taken as even along its stroke. A vendor's URDF has another limit, which nobody measured.
+    The way of a linkage is taken as even along its stroke. A vendor's URDF has another limit, which was not measured.
     """
     way, stroke = abs(float(gripper.closed.si) - float(gripper.open.si)), gripper.stroke.si
     return gripper.max_speed.si * way / stroke or None if stroke > 0.0 else None
@@ -262,7 +264,7 @@ def _network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | No
 
 
 def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
-    """Return what a person does; what stands in its commands is quoted where they are written."""
+    """Return what a person does; what is in its commands is quoted where they are written."""
     return CommissioningStep(
         gate=facts.gate,
         does=known.fill(facts.does),
@@ -285,22 +287,27 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
         return VendorSafety()
 
     def told(steps: Iterable[HumanStep]) -> tuple[str, ...]:
-        free = (one if isinstance(one, str) else one.does if holding.intersection(one.when) else "" for one in steps)
+        free = (
+            step if isinstance(step, str) else step.does if holding.intersection(step.when) else "" for step in steps
+        )
         return tuple(known.fill(step) for step in free if step)
 
     return VendorSafety(
         states=tuple(
-            SafetyState(name=one.name, stops=one.stops, reported=one.reported, gate=one.gate) for one in safety.states
+            SafetyState(name=state.name, stops=state.stops, reported=state.reported, gate=state.gate)
+            for state in safety.states
         ),
         topics=tuple(
-            f"{known.values[kind]}/{one.topic}"
-            for one in safety.told
-            if (kind := f"controller_{one.controller}") in known.values
+            f"{known.values[kind]}/{facts.topic}"
+            for facts in safety.told
+            if (kind := f"controller_{facts.controller}") in known.values
         ),
         ending=told(safety.ending),
         ended=told(safety.ended),
         modes=safety.modes,
-        recovery=tuple(RecoveryProcedure(state=one.state, steps=told(one.steps), by=one.by) for one in safety.recovery),
+        recovery=tuple(
+            RecoveryProcedure(state=facts.state, steps=told(facts.steps), by=facts.by) for facts in safety.recovery
+        ),
         watchdog=safety.watchdog,
     )
 

@@ -28,7 +28,7 @@ from cellc.compiler.source.text import lies_under
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
-from cellc.contract.limits import Purse, children_seconds, limits
+from cellc.contract.limits import Budget, children_seconds, limits
 from cellc.contract.transforms import identity
 from cellc.contract.vocabulary import Distro
 from cellc.robot.description.model import Description, Joint
@@ -55,9 +55,9 @@ def link_devices(
     entries: dict[str, CatalogDevice] = {}
     kinematics: dict[str, Kinematics | None] = {}
     problems: list[Diagnostic] = []
-    purse = Purse(limits().xacro_seconds_together, children_seconds)
+    budget = Budget(limits().xacro_seconds_together, children_seconds)
     for name, written in spec.devices.items():
-        entry = _catalog_entry(name, written, document, purse, packages)
+        entry = _catalog_entry(name, written, document, budget, packages)
         problems += entry.diagnostics
         if entry.value is not None:
             known = placeholders(name, prefix_of(name, written), written, spec)
@@ -77,7 +77,7 @@ def link_devices(
         mount = parent.value or WORLD
         bound = _device(name, written, spec, document, entries[name], mount, distro, shifts[name])
         bound = replace(bound, device=replace(bound.device, carries=tuple(carried.get(name, ()))))
-        vendor = link_vendor_description(bound.facts, document, prefix_of(name, written), purse, packages)
+        vendor = link_vendor_description(bound.facts, document, prefix_of(name, written), budget, packages)
         shaped = replace(
             bound.device,
             description=with_vendor_shapes(bound.device.description, vendor),
@@ -92,23 +92,23 @@ def link_devices(
 def _unknown_simulated_joints(device: Device, document: SourceDocument) -> list[Diagnostic]:
     names = [joint.local_name for joint in device.actuated_joints]
     return [
-        unknown_name("unknown-joint", one.name, "joint", names, document, one.path)
-        for one in device.simulated_joints
-        if one.name not in (*names, EVERY_JOINT)
+        unknown_name("unknown-joint", joint.name, "joint", names, document, joint.path)
+        for joint in device.simulated_joints
+        if joint.name not in (*names, EVERY_JOINT)
     ]
 
 
 def prefix_of(name: str, written: DeviceSpec) -> str:
-    """Return what stands before every ROS name of a device; an empty prefix is the user's right."""
+    """Return what is before every ROS name of a device; an empty prefix is the user's right."""
     return f"{name}_" if written.prefix is None else written.prefix
 
 
 def _catalog_entry(
-    name: str, written: DeviceSpec, document: SourceDocument, purse: Purse, packages: Sequence[str]
+    name: str, written: DeviceSpec, document: SourceDocument, budget: Budget, packages: Sequence[str]
 ) -> Outcome[CatalogDevice]:
     path = ("devices", name, "model")
     if "/" in written.model or written.model.startswith("."):
-        return local_device(written.model, document.locate(path), path, purse, packages)
+        return local_device(written.model, document.locate(path), path, budget, packages)
     if written.model not in device_names():
         problem = Diagnostic(
             code="unknown-model",
@@ -270,7 +270,7 @@ def _interfaces(facts: DeviceModel, joint: Joint) -> JointInterfaces:
 
 
 def local_device(
-    model: str, place: Span, path: YamlPath, purse: Purse, packages: Sequence[str] = ()
+    model: str, place: Span, path: YamlPath, budget: Budget, packages: Sequence[str] = ()
 ) -> Outcome[CatalogDevice]:
     """Load the device of a folder; what is wrong in it is reported there, with the line of the spec that names it.
 
@@ -278,7 +278,7 @@ def local_device(
         model: the folder, relative to the file that names it.
         place: where the spec names it.
         path: the same place in the document.
-        purse: what expansions of the spec may still take.
+        budget: what expansions of the spec may still take.
         packages: further folders of packages that the spec names.
     """
     root = Path(place.file).parent
@@ -293,6 +293,9 @@ def local_device(
         message = f"`{folder.as_posix()}/device.yaml` leads out of the folder of the spec"
         advice = "move the folder of the device beside the spec"
         return Outcome(None, (Diagnostic("include-escape", Severity.ERROR, message, place, path, advice),))
-    loaded = load_device_folder(folder, root, purse, packages)
+    loaded = load_device_folder(folder, root, budget, packages)
     named = Related("the spec names this folder here", place)
-    return Outcome(loaded.value, tuple(replace(one, related=(*one.related, named)) for one in loaded.diagnostics))
+    return Outcome(
+        loaded.value,
+        tuple(replace(diagnostic, related=(*diagnostic.related, named)) for diagnostic in loaded.diagnostics),
+    )

@@ -84,7 +84,7 @@ class EndName:
     Args:
         node: its name in the spec, unlike that of any other.
         full_name: fully qualified name of the node behind it.
-        owner: who answers for it.
+        owner: its owner.
         targets: targets on which it runs.
         nodes: full names of the nodes that offer single interfaces, for a device whose driver has several.
         offered: QoS of the topics that it publishes, by full name.
@@ -115,7 +115,7 @@ class EndpointNames:
 
     Args:
         known: by the name in the spec, and by the full name of its node.
-        shared: names that several controllers have → their full names, by which alone they can be told apart.
+        shared: names that several controllers have → their full names, by which alone they can be distinguished.
     """
 
     known: Mapping[str, EndName]
@@ -139,8 +139,8 @@ def name_endpoints(
     for node in nodes:
         by_device.setdefault(node.device, []).append(node.full_name)
     names = frozenset(node.full_name for node in nodes)
-    for one in devices:
-        words[one.device.name] = _of_device(one, by_device.get(one.device.name, ()), names, spec, resolver)
+    for device in devices:
+        words[device.device.name] = _of_device(device, by_device.get(device.device.name, ()), names, spec, resolver)
     command = spec.owners.responsibilities.command
     words |= {c.label: EndName(c.label, c.full_name, command, c.targets) for c in controllers}
     full = {end.full_name: end for end in words.values()}
@@ -149,16 +149,16 @@ def name_endpoints(
 
 
 def _of_node(node: Node) -> EndName:
-    """Name a node by its full name: others share the bare one, or its device stands for it."""
+    """Name a node by its full name: others share the bare one, or its device represents it."""
     targets = ("real",) if node.real_only else TARGETS
     return EndName(node.full_name, node.full_name, node.owner, targets)
 
 
 def _shared(controllers: tuple[Controller, ...]) -> dict[str, tuple[str, ...]]:
     shared: dict[str, tuple[str, ...]] = {}
-    for one in controllers:
-        if one.label != one.name:
-            shared[one.name] = (*shared.get(one.name, ()), one.label)
+    for controller in controllers:
+        if controller.label != controller.name:
+            shared[controller.name] = (*shared.get(controller.name, ()), controller.label)
     return shared
 
 
@@ -172,7 +172,7 @@ def _of_device(
         node=device.name,
         full_name=own,
         owner=spec.owners.responsibilities.vendor_safety,
-        nodes={one.name: one.node for one in device.offers if one.node in names},
+        nodes={offer.name: offer.node for offer in device.offers if offer.node in names},
         offered=dict(_offered(bound, resolver)),
     )
 

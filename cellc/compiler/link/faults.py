@@ -47,7 +47,7 @@ def link_fault(
         steps: of the rehearsal, which the fault may wait for.
     """
     kind = first_key(fault, FAULT_KEYS)
-    assert kind is not None  # a fault is told by its key
+    assert kind is not None  # a fault is reported by its key
     name, problems = _target(fault, kind, document, path, targets)
     at = fault.at
     event = _event(at) if isinstance(at, EventSpec) else None

@@ -28,7 +28,7 @@ from cellc.contract.transforms import Pose, apart, identity
 _FRAMES = "hand-eye-of-other-frames"
 _DIFFERS = "hand-eye-differs"
 _NEAR_M, _NEAR_RAD = 0.1e-3, 0.001
-"""What a spec may round off: a tenth of a millimetre, a twentieth of a degree."""
+"""What a spec may round off: a tenth of a millimeter, a twentieth of a degree."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ def link_hand_eye(
     frames: dict[str, Pose] = {}
     files: dict[str, CalibrationFile] = {}
     problems: list[Diagnostic] = []
-    edges = _edges(spec, [one.device for one in bound], names)
+    edges = _edges(spec, [device.device for device in bound], names)
     for name, entry in spec.calibrations.items():
         if entry.from_ is None:
             problems += _without_file(name, entry, document)
@@ -96,10 +96,10 @@ def link_hand_eye(
 def with_mounts(bound: tuple[BoundDevice, ...], measured: Measured) -> tuple[BoundDevice, ...]:
     """Return the devices where files put them."""
     return tuple(
-        replace(one, device=replace(one.device, transform_root_to_parent=measured.mounts[one.device.name]))
-        if one.device.name in measured.mounts
-        else one
-        for one in bound
+        replace(device, device=replace(device.device, transform_root_to_parent=measured.mounts[device.device.name]))
+        if device.device.name in measured.mounts
+        else device
+        for device in bound
     )
 
 
@@ -112,7 +112,7 @@ def _without_file(name: str, entry: CalibrationSpec, document: SourceDocument) -
 
 
 def _resting_on(name: str, spec: CellSpec, bound: tuple[BoundDevice, ...], names: FrameNames) -> Iterator[_Placed]:
-    for device in (one.device for one in bound):
+    for device in (device.device for device in bound):
         mount = spec.devices[device.name].mount
         if mount is not None and mount.calibration == name:
             yield _Placed(device.root_link, device.parent_frame, (*device.path, "mount"), mount)

@@ -5,7 +5,7 @@
 - MoveIt's calibration display for ROS 2: a launch file in Python whose static_transform_publisher has the pose as
   arguments. Its text is searched for them, and never run.
 - a mapping in YAML or JSON with ``parent`` and ``child``, and a 4x4 ``matrix``, or ``xyz`` with ``xyzw``, ``wxyz`` or
-  ``rotation``: metres.
+  ``rotation``: meters.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from cellc.contract.transforms import Pose, Quaternion, Vector3, from_xyz_rpy
 
 CODE = "invalid-hand-eye"
 _LARGEST_M = 20.0
-"""A camera is nearer to its robot: what is farther is in millimetres."""
+"""A camera is nearer to its robot: what is farther is in millimeters."""
 _UNIT = 1e-3
 """How far a quaternion or a column of a matrix may be from unit length: tools write four digits and more."""
 _LITERAL = re.compile(r""""([^"\\\n]*)"|'([^'\\\n]*)'""")

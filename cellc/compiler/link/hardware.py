@@ -28,7 +28,7 @@ JOINT_STATES = "/joint_states"
 """Where robot_state_publisher and planners hear of all joints.
 
 Nobody merges: several publishers on it are usual, readers put joints together by name. joint_state_publisher with a
-``source_list`` would stamp old states anew, and report zero for joints that it has not heard of.
+``source_list`` would stamp old states again, and report zero for joints that it has not heard of.
 """
 
 
@@ -114,7 +114,7 @@ def effect(facts: EffectFacts, distro: Distro | None) -> Effect:
 
 
 def run_nodes(facts: DeviceModel, known: Placeholders, firmware: str) -> tuple[NodeFacts, ...]:
-    """Return the nodes of the driver that this cell runs: none that would wait for ever, or end at once.
+    """Return the nodes of the driver that this cell runs: none that would wait for ever, or end immediately.
 
     Args:
         firmware: that of the device as written, its product first.
@@ -130,7 +130,7 @@ def run_nodes(facts: DeviceModel, known: Placeholders, firmware: str) -> tuple[N
 
 
 def camera_parameters(facts: DeviceModel, device: Device) -> dict[str, ParameterValue]:
-    """Return what the node of a camera is told of the exposure and the serial that the spec states."""
+    """Return what the node of a camera gets of the exposure and the serial that the spec states."""
     camera, serial = facts.camera, device.versions.serial
     if camera is None:
         return {}
@@ -162,11 +162,14 @@ def offered_interfaces(
     absent = {node.name for node in facts.nodes} - set(remaps)
     offered = (
         *((InterfaceKind.TOPIC, topic.name, topic.type, topic.publisher, None) for topic in facts.topics),
-        *((InterfaceKind.SERVICE, one.name, one.type, one.server, one.effect) for one in facts.services),
         *(
-            (InterfaceKind.ACTION, one.name, one.type, one.server, one.effect)
-            for one in facts.actions
-            if not one.only or distro in one.only
+            (InterfaceKind.SERVICE, service.name, service.type, service.server, service.effect)
+            for service in facts.services
+        ),
+        *(
+            (InterfaceKind.ACTION, action.name, action.type, action.server, action.effect)
+            for action in facts.actions
+            if not action.only or distro in action.only
         ),
     )
     for kind, name, type_, node, does in offered:

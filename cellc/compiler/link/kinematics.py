@@ -69,7 +69,7 @@ def link_kinematics(
         offset_m=max(_offset(entry.description, joint, pose) for joint, pose in poses.items()),
         turn_rad=max(_turn(entry.description, joint, pose) for joint, pose in poses.items()),
     )
-    joints = tuple(replace(one, pose=poses.get(one.name, one.pose)) for one in entry.description.joints)
+    joints = tuple(replace(joint, pose=poses.get(joint.name, joint.pose)) for joint in entry.description.joints)
     own = CatalogDevice(entry.model, replace(entry.description, joints=joints))
     return Outcome((own, replace(kinematics, calibration=calibration)))
 

@@ -59,7 +59,7 @@ def link(spec: CellSpec, document: SourceDocument) -> Outcome[Cell]:
     """Bind a spec to the catalog.
 
     Returns:
-        The cell where every reference could be bound; all references that could not, at once.
+        The cell where every reference could be bound; all references that could not, together.
     """
     distro = _distro(spec, document)
     packages = _packages(spec, document)
@@ -101,7 +101,7 @@ def _packages(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[str, ..
 
 @dataclass(frozen=True, slots=True)
 class _Placement:
-    """Where everything stands: devices, frames and solid things, and the files that told of some."""
+    """Where everything is: devices, frames and solid things, and the files that told of some."""
 
     bound: tuple[BoundDevice, ...]
     names: FrameNames
@@ -112,12 +112,12 @@ class _Placement:
 
 
 def _placed(spec: CellSpec, document: SourceDocument, bound: tuple[BoundDevice, ...]) -> Outcome[_Placement]:
-    names = name_frames(spec, document, (one.device for one in bound))
+    names = name_frames(spec, document, (device.device for device in bound))
     hand_eye = link_hand_eye(spec, document, bound, names)
     measured = hand_eye.value or Measured({}, {}, {})
     bound = with_mounts(bound, measured)
     scene = link_scene(spec, document, names)
-    frames = link_frames(spec, document, tuple(one.device for one in bound), names, measured.frames)
+    frames = link_frames(spec, document, tuple(device.device for device in bound), names, measured.frames)
     boxes, areas = scene.value or (), link_areas(spec, document, names)
     placement = _Placement(
         bound, names, (*(frames.value or ()), *scene_frames(boxes)), boxes, areas.value or (), measured
@@ -131,11 +131,11 @@ def _link_with_devices(
     placed = _placed(spec, document, linked_devices.value or ())
     assert placed.value is not None  # what cannot be placed is reported and left out
     bound, names, all_frames = placed.value.bound, placed.value.names, placed.value.frames
-    devices = tuple(one.device for one in bound)
+    devices = tuple(device.device for device in bound)
     centers = link_centers(spec, devices, names)
     devices = centers.value or devices
     nodes = link_nodes(spec, document, bound)
-    managers = link_managers(ControlContext(spec, document, distro, {one.device.name: one for one in bound}))
+    managers = link_managers(ControlContext(spec, document, distro, {device.device.name: device for device in bound}))
     loops = managers.value or ()
     started = with_programs((*(nodes.value or ()), *standard_nodes(spec, document, loops)), distro)
     all_nodes = tuple(with_octomap(node, spec) for node in started)
@@ -209,7 +209,7 @@ def _with_plans(cell: Cell, planned: _Planned) -> Cell:
 def _surroundings(
     spec: CellSpec, document: SourceDocument, distro: Distro, measured: Measured, devices: tuple[Device, ...]
 ) -> Cell:
-    """Return the cell before anything stands in it: its hosts, network, owners, safety, figures, and all places."""
+    """Return the cell before anything is in it: its hosts, network, owners, safety, figures, and all places."""
     places = bind_places(document)
     table = load_distros().value
     assert table is not None  # package data, held valid by the catalog's tests

@@ -30,7 +30,7 @@ def link_octomap(written: OctomapSpec | None, devices: Iterable[Device]) -> Octo
     if written is None:
         return None
     cameras = (device.camera for device in devices if device.camera is not None)
-    views = (one.view for camera in cameras for one in camera.streams if one.topic == written.source)
+    views = (stream.view for camera in cameras for stream in camera.streams if stream.topic == written.source)
     nearest = next((view.nearest_m for view in views if view is not None), _NEAREST_M)
     return Octomap(
         source=written.source,
@@ -67,7 +67,7 @@ def link_servo(
     written, path = spec.motion.servo, ("motion", "servo")
     if written is None:
         return Outcome(None)
-    known = {one.name: one for one in controllers}
+    known = {controller.name: controller for controller in controllers}
     group = _group(spec, written)
     names: tuple[tuple[str, str, Iterable[str]], ...] = (
         ("node", written.node, tuple(spec.nodes)),
@@ -79,7 +79,7 @@ def link_servo(
         for kind, name, there in names
         if name not in there
     ]
-    if unknown or group not in {one.name for one in groups}:
+    if unknown or group not in {group.name for group in groups}:
         return Outcome(None, tuple(unknown))
     controller = known[written.controller]
     streamed = controller.behaviour is Behaviour.FORWARD_COMMAND

@@ -81,7 +81,7 @@ def standard_nodes(
 
 
 def _manager_node(spec: CellSpec, manager: ControllerManager) -> Node:
-    # Everybody listens to one topic, wherever the manager is: publishers of joint states are told apart by joint.
+    # Everybody listens to one topic, wherever the manager is: publishers of joint states are distinguished by joint.
     own = f"{manager.namespace}{JOINT_STATES}"
     return Node(
         name="controller_manager",
@@ -103,7 +103,7 @@ def _own_description(spec: CellSpec, manager: ControllerManager) -> Node:
     """Return the node that says which hardware one of several managers drives.
 
     It is a robot_state_publisher of which only the description is wanted: it hears no joint states, and its transforms
-    go where nobody listens, so that those of the cell keep one authority.
+    go where nothing listens, so that those of the cell keep one authority.
     """
     home = description_home(manager)
     apart = {"/tf": "/tf", "/tf_static": "/tf_static", f"{home}{JOINT_STATES}": JOINT_STATES}

@@ -19,7 +19,7 @@ _LARGEST = 65535
 def listened(facts: DeviceModel, shift: int) -> tuple[int, ...]:
     """Return the ports of the host on which the driver of a device listens, moved by ``shift`` where they can be."""
     ports = () if facts.network is None else facts.network.ports
-    usual = (one.port for one in ports if one.direction == "device_to_host")
+    usual = (port.port for port in ports if port.direction == "device_to_host")
     texts = frozenset(_texts(facts))
     return tuple(port + shift if f"{{port_{port}}}" in texts else port for port in usual)
 
@@ -59,6 +59,6 @@ def _free(stated: int | None, written: DeviceSpec, facts: DeviceModel, taken: di
     here = taken.setdefault(written.connection.host, set())
     usual = listened(facts, 0)
     shifts = range(0, _LARGEST - max(usual), _APART)
-    shift = next((one for one in shifts if here.isdisjoint(listened(facts, one))), 0)
+    shift = next((number for number in shifts if here.isdisjoint(listened(facts, number))), 0)
     here.update(listened(facts, shift))
     return shift

@@ -37,7 +37,7 @@ def implied_endpoints(distro: Distro) -> ImpliedEndpoints:
 
 def with_programs(nodes: Iterable[Node], distro: Distro) -> Iterator[Node]:
     """Yield nodes with what the catalog knows of their programs; a device tells of its own."""
-    known = {(one.package, one.executable): one.nodes for one in _table().programs}
+    known = {(program.package, program.executable): program.nodes for program in _table().programs}
     for node in nodes:
         facts = known.get((node.package, node.executable), ())
         yield node if node.source is NodeSource.DEVICE or not facts else _with(node, facts, distro)
@@ -45,11 +45,11 @@ def with_programs(nodes: Iterable[Node], distro: Distro) -> Iterator[Node]:
 
 def _with(node: Node, facts: Iterable[InnerNodeFacts], distro: Distro) -> Node:
     found = inner_nodes(facts, node.namespace, distro, lambda text: text.replace("{node}", node.full_name))
-    own = [one for one in found if one.full_name == node.full_name]
+    own = [item for item in found if item.full_name == node.full_name]
     return replace(
         node,
-        endpoints=_together((node.endpoints, *(one.endpoints for one in own))),
-        inside=tuple(one for one in found if one not in own),
+        endpoints=_together((node.endpoints, *(node.endpoints for node in own))),
+        inside=tuple(node for node in found if node not in own),
     )
 
 
@@ -63,10 +63,10 @@ def inner_nodes(
         fill: puts values in the place of what a text leaves open.
     """
     found = []
-    for one in _here(facts, distro):
-        name = _absolute(fill(one.name), namespace)
-        own = {key: _absolute_all(names, name) for key, names in _names(endpoints(one, fill)).items()}
-        found.append(InnerNode(full_name=name, endpoints=NodeEndpoints(**own), parameters=one.parameters))
+    for item in _here(facts, distro):
+        name = _absolute(fill(item.name), namespace)
+        own = {key: _absolute_all(names, name) for key, names in _names(endpoints(item, fill)).items()}
+        found.append(InnerNode(full_name=name, endpoints=NodeEndpoints(**own), parameters=item.parameters))
     return tuple(found)
 
 
@@ -74,13 +74,15 @@ def endpoints(facts: EndpointFacts | None, fill: Callable[[str], str] = str) -> 
     """Return what a program has at the graph, by its own names."""
     if facts is None:
         return NodeEndpoints()
-    return NodeEndpoints(**{one.name: tuple(map(fill, getattr(facts, one.name))) for one in fields(NodeEndpoints)})
+    return NodeEndpoints(
+        **{field.name: tuple(map(fill, getattr(facts, field.name))) for field in fields(NodeEndpoints)}
+    )
 
 
 def _together(several: Iterable[NodeEndpoints]) -> NodeEndpoints:
-    listed = [_names(one) for one in several]
+    listed = [_names(endpoints) for endpoints in several]
     return NodeEndpoints(
-        **{one.name: tuple(name for names in listed for name in names[one.name]) for one in fields(NodeEndpoints)}
+        **{field.name: tuple(name for names in listed for name in names[field.name]) for field in fields(NodeEndpoints)}
     )
 
 
@@ -98,4 +100,4 @@ def _absolute(name: str, namespace: str) -> str:
 
 
 def _here(facts: Iterable[_FactsT], distro: Distro | None) -> Iterator[_FactsT]:
-    return (one for one in facts if not one.only or distro in one.only)
+    return (fact for fact in facts if not fact.only or distro in fact.only)

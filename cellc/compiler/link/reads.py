@@ -66,7 +66,7 @@ def reads_of(spec: str, packages: Iterable[str], before: Reads | None = None) ->
         named |= set(_named(source.value.root))
         for file, text in source.value.texts.items():
             named |= set(_included(file, text))
-    devices = frozenset(one for one in named if os.path.isfile(os.path.join(one, DEVICE_FILE)))
+    devices = frozenset(name for name in named if os.path.isfile(os.path.join(name, DEVICE_FILE)))
     found = Reads(frozenset(named), devices, around)
     if before is None or source.ok:
         return found

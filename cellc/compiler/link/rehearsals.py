@@ -64,7 +64,7 @@ def link_rehearsals(
         frames=frames,
         grippers=tuple(device.name for device in devices if device.gripper is not None),
         switched={device.name: device.switched for device in devices if device.switched is not None},
-        services=tuple(one.name for one in interfaces if one.kind is InterfaceKind.SERVICE),
+        services=tuple(interface.name for interface in interfaces if interface.kind is InterfaceKind.SERVICE),
         faults=fault_targets(spec, devices, managers, interfaces, frames),
     )
     rehearsals: list[Rehearsal] = []
@@ -166,7 +166,7 @@ def _step(step: StepSpec, document: SourceDocument, path: YamlPath, names: _Name
         problem = _missing("unknown-device", gripper, "gripper", names.grippers, document, at)
         if not gripper:
             message = f"`grip` names no gripper, and the cell has {len(names.grippers) or 'none'}"
-            problem = tuple(replace(one, message=message) for one in problem)
+            problem = tuple(replace(diagnostic, message=message) for diagnostic in problem)
         return Outcome(Step(name=gripper, path=path, span=span, kind="grip", command=step.grip), problem)
     if isinstance(step, SetStep | SenseStep):
         return _switched_step(step, document, path, names)

@@ -36,7 +36,7 @@ DRIVER = "driver"
 
 
 def with_robot(device: Device, facts: DeviceModel, written: DeviceSpec) -> Device:
-    """Return a device with what its own controller is told, and its driver with the parameters of the way chosen."""
+    """Return a device with what its own controller gets, and its driver with the parameters of the way chosen."""
     program, hardware = written.program, device.hardware
     way = chosen_way(facts, written)
     if hardware is not None and way is not None and "real" in hardware.parameters:
@@ -66,7 +66,7 @@ def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames)
 
 
 def chosen_way(facts: DeviceModel, written: DeviceSpec) -> ProgramWay | None:
-    """Return how the program comes to run: as the spec says, else the first way; None where there is none."""
+    """Return how the program comes to run: as the spec says, else the first way, or None."""
     told = facts.robot.program
     if told is None:
         return None

@@ -113,7 +113,7 @@ def bind_clock(written: ClockSpec | StampSpec, domain: str) -> Clock:
 def bind_network(spec: CellSpec) -> Network:
     """Return how nodes find each other."""
     written = spec.network
-    servers = tuple(DiscoveryServer(host=one.host, nic=one.nic, port=one.port) for one in written.servers)
+    servers = tuple(DiscoveryServer(host=server.host, nic=server.nic, port=server.port) for server in written.servers)
     return Network(domain_id=written.domain_id, discovery=written.discovery, peers=written.peers, servers=servers)
 
 
@@ -140,7 +140,7 @@ def bind_calibrations(
 
 
 def bind_owners(spec: CellSpec) -> Owners:
-    """Return who answers for what."""
+    """Return who is responsible for what."""
     return Owners(
         responsibilities=ResponsibilityOwners(**dict(spec.owners.responsibilities)),
         approvals=ApprovalOwners(**dict(spec.owners.approvals)),

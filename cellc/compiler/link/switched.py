@@ -35,14 +35,14 @@ def link_switched(
     spec: CellSpec, document: SourceDocument, bound: tuple[BoundDevice, ...]
 ) -> Outcome[tuple[BoundDevice, ...]]:
     """Return the devices with how each is switched."""
-    devices = [one.device for one in bound]
+    devices = [device.device for device in bound]
     gpios = _Gpios(dict(_interfaces(devices, "command")), dict(_interfaces(devices, "state")), document)
     linked: list[BoundDevice] = []
     problems: list[Diagnostic] = []
-    for one in bound:
-        outcome = _switched(one, spec.devices[one.device.name], gpios)
+    for device in bound:
+        outcome = _switched(device, spec.devices[device.device.name], gpios)
         problems += outcome.diagnostics
-        linked.append(replace(one, device=replace(one.device, switched=outcome.value)))
+        linked.append(replace(device, device=replace(device.device, switched=outcome.value)))
     return Outcome(tuple(linked), tuple(problems))
 
 

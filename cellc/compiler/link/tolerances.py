@@ -48,7 +48,7 @@ def _figures(written: QuantityVector | dict[str, Quantity] | None, joints: Mappi
 
 
 def _of_its_kind(stated: list[JointFigure], joint: DeviceJoint) -> JointFigure:
-    return next((one for one in stated if one.linear == joint.slides), stated[0])
+    return next((figure for figure in stated if figure.linear == joint.slides), stated[0])
 
 
 def unknown_joints(

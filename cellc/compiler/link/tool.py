@@ -84,7 +84,7 @@ def tool_facts(facts: ToolConnectorFacts | None) -> ToolFacts | None:
     """Return what the tool connector of a robot can give."""
     if facts is None:
         return None
-    voltages, line = tuple(one.si for one in facts.voltages), facts.serial
+    voltages, line = tuple(voltage.si for voltage in facts.voltages), facts.serial
     if line is None:
         return ToolFacts(voltages_v=voltages)
     idle = {"rx_idle_chars": line.rx_idle_chars, "tx_idle_chars": line.tx_idle_chars}

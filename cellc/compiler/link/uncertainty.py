@@ -24,7 +24,7 @@ def link_uncertainty(
         groups: None where they could not be bound, which is told elsewhere.
     """
     alone = tuple(_confidence_alone(spec, document))
-    wanted = any(one.success is not None for one in spec.rehearsals.values())
+    wanted = any(rehearsal.success is not None for rehearsal in spec.rehearsals.values())
     if spec.uncertainty is None and not spec.regions and not wanted:
         return Outcome(None, alone)
     written = spec.uncertainty or UncertaintySpec()

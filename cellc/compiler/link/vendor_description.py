@@ -1,7 +1,7 @@
 """The vendor's own description, where its package lies beside the spec or on the package path: its shapes are taken.
 
-Joints, limits and inertias stay those of the catalog, which the real driver was compared with; what differs is told by
-rules.
+Joints, limits and inertias stay those of the catalog, which the real driver was compared with; rules report
+what differs.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from pathlib import Path
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.cell.kinematics import VendorDescription
 from cellc.compiler.source.document import SourceDocument
-from cellc.contract.limits import Purse
+from cellc.contract.limits import Budget
 from cellc.robot.description.model import Description, Link
 from cellc.robot.description.packages import find_package, root_of
 
 
 def link_vendor_description(
-    facts: DeviceModel, document: SourceDocument, prefix: str, purse: Purse, packages: Sequence[str] = ()
+    facts: DeviceModel, document: SourceDocument, prefix: str, budget: Budget, packages: Sequence[str] = ()
 ) -> VendorDescription | None:
     """Read the vendor's description; None where the catalog names none.
 
     Args:
         prefix: of the device; the vendor's names are taken without any.
-        purse: what expansions of the spec may still take.
+        budget: what expansions of the spec may still take.
         packages: further folders of packages that the spec names.
     """
     package, vendor = facts.description.package, facts.description.vendor
@@ -38,7 +38,7 @@ def link_vendor_description(
     from cellc.robot.description.read_description import read_description
 
     file = Path(folder) / vendor.file
-    read = read_description(file, vendor.arguments, root_of(file), purse)
+    read = read_description(file, vendor.arguments, root_of(file), budget)
     found = VendorDescription(package=package, folder=Path(folder).as_posix())
     if read.value is None:
         cause = read.diagnostics[0]

@@ -8,7 +8,7 @@ from pathlib import Path
 from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
 from cellc.contract.diagnostics.diagnostic import CodePage
 
-# What a shell is told beside a sound `cell.yaml`; its last command reports it.
+# What a shell gets beside a sound `cell.yaml`; its last command reports it.
 _EXAMPLES: Mapping[str, str] = {
     "bad-artifact-path": """
 $ echo 'hosts: {PC: {}, pc: {}}' >> cell.yaml

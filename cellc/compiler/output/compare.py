@@ -23,7 +23,7 @@ class Difference:
             ``unexpected``: made by an earlier build, and this one makes none.
         line: first line that differs, counted from 1; 0 where lines were not compared.
         expected: that line as a build writes it, or None past its end.
-        found: that line as it stands, or None past its end.
+        found: that line as it is, or None past its end.
     """
 
     path: str

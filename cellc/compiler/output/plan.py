@@ -29,7 +29,7 @@ class Plan:
     Args:
         write: files that are absent or have other content; the index is the last one.
         former: paths that an earlier build made and this one does not.
-        remove: those of them where a file still stands.
+        remove: those of them where there still is a file.
         unchanged: paths whose files already are as they shall be.
         edited: paths whose content cellc did not write and would overwrite or remove.
     """
@@ -77,7 +77,7 @@ def plan(
 
 
 def content_of(path: Path, least: int = 0) -> bytes | None:
-    """Return the bytes of a regular file, or None where there is none; links are not followed.
+    """Return the bytes of a regular file, or None; links are not followed.
 
     Args:
         least: bytes that are read at least. Of a file beyond them and the limits one byte more is read than it may
@@ -93,7 +93,7 @@ def content_of(path: Path, least: int = 0) -> bytes | None:
 
 
 def check_places(artifacts: Sequence[NewFile], folder: Path) -> Iterator[Diagnostic]:
-    """Yield a diagnostic for each link, file or folder that stands in the place of something else."""
+    """Yield a diagnostic for each link, file or folder that is in the place of something else."""
     linked = folder if folder.is_symlink() else link_on_the_way(folder)
     if linked is not None:
         yield finding("output-symlink", f"`{linked.as_posix()}` is a symbolic link", linked)
@@ -101,8 +101,8 @@ def check_places(artifacts: Sequence[NewFile], folder: Path) -> Iterator[Diagnos
     if folder.exists() and not folder.is_dir():
         yield finding("output-blocked", f"`{folder.as_posix()}` is not a folder", folder)
         return
-    folders = {parent for one in artifacts for parent in Path(one.path).parents if parent != Path()}
-    files = {Path(one.path) for one in artifacts}
+    folders = {parent for artifact in artifacts for parent in Path(artifact.path).parents if parent != Path()}
+    files = {Path(artifact.path) for artifact in artifacts}
     for relative in sorted(folders | files):
         path = folder / relative
         if path.is_symlink():

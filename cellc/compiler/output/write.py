@@ -47,7 +47,7 @@ def write(
         folder: the generated package or the imported device, made where it is absent.
         force: discard edits of generated files.
         index: the file that lists the hashes of the others.
-        known: hashes of what stands in the folder and may be replaced beside what the index lists, by path.
+        known: hashes of what is in the folder and may be replaced beside what the index lists, by path.
 
     Raises:
         KeyboardInterrupt: the user interrupted; the folder is as it was before.
@@ -102,7 +102,7 @@ class _Writing:
     def _carry_out(self) -> Outcome[WriteReport]:
         """Replace files, after it was settled who does.
 
-        The staging folder is what tells others of this build. Of two that begin at once, the later one to make its own
+        The staging folder is what tells others of this build. Of two that begin together, the later one to make its own
         sees the other's, so that never both go on; and what there is to write is asked again, now that nobody else
         changes it.
         """
@@ -173,4 +173,4 @@ def _edited(path: str, folder: Path) -> Diagnostic:
 def _of_interrupted(stagings: Sequence[Path], index: str) -> tuple[Mapping[str, str], ...]:
     """Return the hashes of the files that killed builds were writing, and of those that they replaced."""
     indexes = (staging / which / index for staging in stagings for which in ("new", "old"))
-    return tuple(hashes_in(content_of(one)) for one in indexes)
+    return tuple(hashes_in(content_of(path)) for path in indexes)

@@ -149,9 +149,9 @@ def apply_ignores(
     found = tuple(diagnostics)
     reported = {diagnostic.code for diagnostic in found}
     on_line: dict[tuple[str, str, int], set[Diagnostic]] = {}
-    for one in found:
-        for line in (one.span.line, one.span.end_line):
-            on_line.setdefault((one.code, one.span.file, line), set()).add(one)
+    for item in found:
+        for line in (item.span.line, item.span.end_line):
+            on_line.setdefault((item.code, item.span.file, line), set()).add(item)
     excused: set[Diagnostic] = set()
     unused: list[Diagnostic] = []
     for comment in ignores:
@@ -163,7 +163,7 @@ def apply_ignores(
             excused |= matches
             if not matches and not _may_be_hidden(ignored.code, reported):
                 unused.append(_misuse("unused-ignore", _unused(ignored), ignored.span))
-    return (*(one for one in found if one not in excused), *misused_ignores(ignores, pages), *unused[:_MOST_SHOWN])
+    return (*(item for item in found if item not in excused), *misused_ignores(ignores, pages), *unused[:_MOST_SHOWN])
 
 
 def may_be_ignored(code: str) -> bool:

@@ -110,11 +110,11 @@ class SourceDocument:
         return child.node.text if child is not None else ""
 
     def without(self, path: YamlPath) -> SourceDocument:
-        """Return the same without the value of a path that exists; what stands behind it in a list moves up."""
+        """Return the same without the value of a path that exists; what is behind it in a list moves up."""
         return replace(self, root=_changed(self.root, path, None))
 
     def with_value(self, key: str, value: Plain) -> SourceDocument:
-        """Return the same with a section that nobody wrote; its values are marked where the document begins."""
+        """Return the same with a section that was not written; its values are marked where the document begins."""
         node = Node(self.root.span, value)
         return replace(self, root=_changed(self.root, (key,), Child(node, node.span, None)))
 
@@ -146,5 +146,5 @@ def _changed(node: Node, path: YamlPath, child: Child | None) -> Node:
     kept = {key: one for key, one in {**node.children, first: child}.items() if one is not None}
     if isinstance(node.data, list):
         listed = list(kept.values())
-        return replace(node, data=[one.node.data for one in listed], children=dict(enumerate(listed)))
+        return replace(node, data=[child.node.data for child in listed], children=dict(enumerate(listed)))
     return replace(node, data={str(key): one.node.data for key, one in kept.items()}, children=kept)

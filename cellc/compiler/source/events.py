@@ -56,7 +56,7 @@ def last_written(lines: Sequence[str], line: int, column: int) -> tuple[int, int
 
 
 def flow_span(start: yaml.Event, end: yaml.Event, file: str) -> Span | None:
-    """Return a collection in brackets or braces that stands on one line, else None."""
+    """Return a collection in brackets or braces that is on one line, else None."""
     first, last = start.start_mark, end.end_mark
     # Every event that comes from a parser has both marks.
     assert first is not None

@@ -20,7 +20,7 @@ def read(path: str | Path, edited: Mapping[str, str] | None = None) -> Outcome[S
 
     Args:
         path: the root spec; it appears in every message as given here, with forward slashes.
-        edited: texts that are read in place of files, by the name that spans carry: what nobody has saved yet.
+        edited: texts that are read in place of files, by the name that spans carry: what is not saved yet.
 
     Returns:
         A document in every case, so that its texts can be shown with the findings; its data is whole only where the

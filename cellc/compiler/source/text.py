@@ -111,11 +111,11 @@ def _decode(content: bytes, name: str) -> str | Diagnostic:
     except UnicodeDecodeError as error:
         before = content[: error.start].decode("utf-8-sig")
         message = f"byte 0x{content[error.start]:02x} is not UTF-8"
-        return finding("not-utf8", message, _span_after(_normalise(before), name, 0))
-    return _normalise(text)
+        return finding("not-utf8", message, _span_after(_normalize(before), name, 0))
+    return _normalize(text)
 
 
-def _normalise(text: str) -> str:
+def _normalize(text: str) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
@@ -151,7 +151,9 @@ def with_shown_texts(texts: Mapping[str, str], found: Iterable[Diagnostic], root
         texts: of the spec and what it includes, by the name that spans carry.
         root: the folder of the spec; what a link leads to outside of it is not shown.
     """
-    named = {span.file for one in found for span in (one.span, *(other.span for other in one.related))}
+    named = {
+        span.file for diagnostic in found for span in (diagnostic.span, *(other.span for other in diagnostic.related))
+    }
     missing = sorted(name for name in named if name and name not in texts and not name.startswith(_PACKAGE))
     added = {name: text for name in missing if lies_under(Path(name), root) and (text := _text(name)) is not None}
     return {**texts, **added}

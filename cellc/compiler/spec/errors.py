@@ -49,7 +49,7 @@ _Writer: TypeAlias = Callable[[ErrorDetails, Place, SourceDocument], Problem]
 
 
 def problem_of(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
-    """Say what is wrong; a kind of error that no writer knows is told as a value of the wrong type."""
+    """Say what is wrong; a kind of error that no writer knows is reported as a value of the wrong type."""
     if error["type"] in _TYPES:
         return _wrong_type(_TYPES[error["type"]], place, document)
     return _WRITERS.get(error["type"], _other)(error, place, document)

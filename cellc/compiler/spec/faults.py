@@ -234,7 +234,8 @@ FAULT_KEYS: tuple[str, ...] = tuple(kind.value for kind in FaultKind)
 
 
 def first_key(value: object, keys: tuple[str, ...]) -> str | None:
-    """Return the first of ``keys`` that a mapping or a model has: the branch of a union that is told by its keys."""
+    """Return the first of ``keys`` that a mapping or a model has: the branch of a union that is reported by its
+    keys."""
     if isinstance(value, dict):
         return next((key for key in keys if key in value), None)
     fields = type(value).model_fields if isinstance(value, SpecModel) else {}

@@ -1,4 +1,4 @@
-"""Read the plain data of a spec into strict models, and say everything that does not fit at once."""
+"""Read the plain data of a spec into strict models, and say everything that does not fit in one pass."""
 
 from __future__ import annotations
 
@@ -73,13 +73,13 @@ def _diagnostics(error: ValidationError, document: SourceDocument) -> Iterator[D
     for place, detail in zip(places, details, strict=True):
         kind = detail["type"]
         is_key = place.is_key or kind == _UNKNOWN
-        if kind == "missing" and _is_misspelt(place.path, unknown):
+        if kind == "missing" and _is_misspelled(place.path, unknown):
             continue
         if is_key or kind == "missing" or value_at(document.data, place.path) is not None:
             yield _diagnostic(problem_of(detail, place, document), place.path, document, is_key=is_key)
 
 
-def _is_misspelt(missing: YamlPath, unknown: list[YamlPath]) -> bool:
+def _is_misspelled(missing: YamlPath, unknown: list[YamlPath]) -> bool:
     return any(path[:-1] == missing[:-1] and could_mean(str(path[-1]), str(missing[-1])) for path in unknown)
 
 

@@ -63,7 +63,7 @@ def required(annotation: object) -> object:
 
 
 def is_tagged(annotation: object) -> bool:
-    """Whether the annotation is a union whose branch is told by a discriminator."""
+    """Whether the annotation is a union whose branch is reported by a discriminator."""
     return get_origin(annotation) is Annotated and any(isinstance(m, Discriminator) for m in get_args(annotation)[1:])
 
 
@@ -82,7 +82,9 @@ def chosen(annotation: object, data: object) -> object:
     """Return the annotation that reads ``data``: of a tagged union the branch, of an optional one what is there."""
     annotation = required(annotation)
     while is_tagged(annotation):
-        told = next(one for one in get_args(annotation)[1:] if isinstance(one, Discriminator)).discriminator
+        told = next(
+            argument for argument in get_args(annotation)[1:] if isinstance(argument, Discriminator)
+        ).discriminator
         annotation = required(branch(annotation, str(told(data)) if callable(told) else ""))
     return annotation
 
@@ -139,7 +141,7 @@ def _kin(model: type[BaseModel]) -> tuple[type[BaseModel], ...]:
 
 
 def inner(annotation: object, part: str | int) -> object:
-    """Return the annotation of what stands at a key or an index of a value; ``object`` where there is none."""
+    """Return the annotation of what is at a key or an index of a value; ``object`` without one."""
     model = model_of(annotation)
     if model is not None:
         return annotations_by_key(model).get(str(part), object)

@@ -68,7 +68,7 @@ JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"}, 1e8)
 ANGULAR_VELOCITY = _dimension("angular velocity", {"deg/s": None, "rad/s": "1"}, 1e5)
 ANGULAR_ACCELERATION = _dimension("angular acceleration", {"deg/s^2": None, "rad/s^2": "1"}, 1e7)
 ANGULAR_JERK = _dimension("angular jerk", {"deg/s^3": None, "rad/s^3": "1"}, 1e9)
-_LINEAR = frozenset(unit for one in (LENGTH, VELOCITY, ACCELERATION, JERK, FORCE) for unit, _ in one.units)
+_LINEAR = frozenset(unit for dimension in (LENGTH, VELOCITY, ACCELERATION, JERK, FORCE) for unit, _ in dimension.units)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ class QuantityType:
     def _written(self, dimensions: tuple[Dimension, ...]) -> str:
         """Return the pattern of numbers with one unit of some dimensions."""
         more = {0: "*", 1: "{0}"}.get(self.size, f"{{{self.size - 1}}}")
-        units = "|".join(re.escape(unit).replace("\\ ", " ") for one in dimensions for unit, _ in one.units)
+        units = "|".join(re.escape(unit).replace("\\ ", " ") for dimension in dimensions for unit, _ in dimension.units)
         return rf"{_NUMBER}(?:[{_SPACE},]+{_NUMBER}){more}[{_SPACE}]*(?:{units})"
 
     def units(self) -> tuple[str, ...]:
@@ -167,12 +167,12 @@ class QuantityType:
 
     def _joined(self, text: str, parts: list[str]) -> QuantityVector:
         read = [self._convert(text, *self._split(part)) for part in parts]
-        kinds = [linear for one in read for linear in one.linear]
+        kinds = [linear for vector in read for linear in vector.linear]
         if self.size == 1 and len(set(kinds)) < len(kinds):
             context = self._context() | {"what": "an angle, a length, or one of each"}
             raise PydanticCustomError("not-a-quantity", "expected {what}, such as `{example}`", context)
-        si = tuple(value for one in read for value in one.si)
-        return QuantityVector(si, tuple(unit for one in read for unit in one.units), text)
+        si = tuple(value for vector in read for value in vector.si)
+        return QuantityVector(si, tuple(unit for vector in read for unit in vector.units), text)
 
     def _convert(self, text: str, numbers: list[str], unit: str | None) -> QuantityVector:
         if unit is None:
@@ -193,7 +193,7 @@ class QuantityType:
         return QuantityVector(values, (unit,) * len(values), text)
 
     def _bounds(self, unit: str) -> tuple[float, float]:
-        largest = next(one.largest for one in self.dimensions if unit in dict(one.units))
+        largest = next(dimension.largest for dimension in self.dimensions if unit in dict(dimension.units))
         return (-largest if self.least is None else self.least, largest if self.most is None else self.most)
 
     def _missing_unit(self, text: str) -> PydanticCustomError:
@@ -212,10 +212,10 @@ def spaced(text: str) -> str:
     A text that is no quantity stays as a whole.
     """
     found = [_NUMBERS_THEN_UNIT.fullmatch(part) for part in _parts(text)] if len(text) <= _MAX_TEXT else []
-    matches = [one for one in found if one is not None and one[2]]
+    matches = [match for match in found if match is not None and match[2]]
     if not matches or len(matches) < len(found):
         return text
-    return " ".join(" ".join((*re.split(r"[\s,]+", one[1]), *one[2].split())) for one in matches)
+    return " ".join(" ".join((*re.split(r"[\s,]+", match[1]), *match[2].split())) for match in matches)
 
 
 def _parts(text: str) -> list[str]:
@@ -249,7 +249,7 @@ SLOWEST_HZ = 1e-4  # once in three hours; the mock plays nothing slower
 Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm", least=0.0)]
 # What is divided by, or stepped in: a map of cells without an edge, a loop without a period, has no end.
 Edge = Annotated[Quantity, QuantityType((LENGTH,), "25 mm", least=1e-3)]
-# Of a tip: zero is exceeded by the last bit of a sum, and no arm is told apart finer than this.
+# Of a tip: zero is exceeded by the last bit of a sum, and no arm is distinguished finer than this.
 Allowance = Annotated[Quantity, QuantityType((LENGTH,), "5 mm", least=1e-6)]
 Period = Annotated[Quantity, QuantityType((DURATION,), "4 ms", least=1e-4, most=1.0)]
 Duration = Annotated[Quantity, QuantityType((DURATION,), "200 ms", least=0.0, most=LONGEST_S)]

@@ -175,7 +175,7 @@ class _Page:
         return f"[{title.lower()}](#{title.lower().replace(' ', '-')})"
 
     def _children(self, field: _Schema, container: str = "") -> list[tuple[str, str]]:
-        """List the models that a field takes, each with what it stands in: a mapping, a list or nothing."""
+        """List the models that a field takes, each with what contains it: a mapping, a list or nothing."""
         if "$ref" in field:
             name = field["$ref"].rpartition("/")[2]
             return [(name, container)] if name in self._models else []

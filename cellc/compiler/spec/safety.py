@@ -1,4 +1,5 @@
-"""Who answers for what, and the boundary that software does not cross: stop, recovery, and the gates of bring-up."""
+"""Who is responsible for what, and the boundary that software does not cross: stop, recovery, and the gates of
+bring-up."""
 
 from typing import Literal
 

@@ -47,7 +47,7 @@ def describe(value: Plain, written: str = "") -> str:
 
 
 def value_at(data: Plain, path: YamlPath) -> Plain:
-    """Return the value at a path, or None where there is none."""
+    """Return the value at a path, or None."""
     for part in path:
         if isinstance(data, dict) and isinstance(part, str):
             data = data.get(part)
@@ -81,7 +81,7 @@ def help_for_unknown_key(key: str, place: Place) -> str:
 
 
 def could_mean(unknown: str, missing: str) -> bool:
-    """Whether an unknown key is probably the missing one misspelt, so that one mistake gives one error."""
+    """Whether an unknown key is probably the missing one misspelled, so that one mistake gives one error."""
     return bool(nearest(unknown, (missing,)))
 
 

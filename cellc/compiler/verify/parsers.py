@@ -107,7 +107,7 @@ def _yourdfpy_joint(joint: Any) -> JointReading:
 
 def _yourdfpy_poses(robot: Any, positions: dict[str, float]) -> dict[str, Pose]:
     robot.update_cfg([positions[name] for name in robot.actuated_joint_names])
-    # From link to link, each once: asked for a link in the root, it goes the whole way for every link anew.
+    # From link to link, each once: asked for a link in the root, it goes the whole way for every link again.
     above = {joint.child: joint.parent for joint in robot.robot.joints}
     matrices: dict[str, Any] = {robot.base_link: np.eye(4)}
     for name in robot.link_map:

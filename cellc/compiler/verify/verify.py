@@ -21,7 +21,7 @@ _PARSERS = Program(
 def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic, ...]:
     """Return a diagnostic for everything that foreign parsers make of the artifacts and the cell does not mean.
 
-    Each finding is a bug of cellc; it stands at the name of the cell. That there is none is kept: to load the parsers
+    Each finding is a bug of cellc; it is at the name of the cell. That there is none is kept: to load the parsers
     and to ask them takes as long as all that a build does else. What they found is asked again.
     """
     meant = meant_by(graph)

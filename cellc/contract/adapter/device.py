@@ -1,4 +1,4 @@
-"""A device that is driven by its vendor's own library: what it states, what it is told, within which bounds."""
+"""A device that is driven by its vendor's own library: what it states, what it gets, within which bounds."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Protocol
 
 
 class Unit(str, Enum):
-    """Unit of a joint's position; velocities are per second, efforts N m for radians and N for metres (REP-103)."""
+    """Unit of a joint's position; velocities are per second, efforts N m for radians and N for meters (REP-103)."""
 
     RADIAN = "rad"
     METRE = "m"
@@ -61,7 +61,7 @@ class AdapterModel:
 
 
 class Phase(str, Enum):
-    """Where a device stands; the first three and the last are states of a managed node (REP-2002 names).
+    """Where a device is; the first three and the last are states of a managed node (REP-2002 names).
 
     None of them says that the device is safe: that is the business of the vendor's safety controller and of the cell.
     """
@@ -82,7 +82,7 @@ class DeviceState:
         positions: in the units of the joints.
         velocities: per second.
         efforts: N m or N; empty where the device measures none.
-        phase: where the device stands.
+        phase: where the device is.
         fault: why it is stopped, in the vendor's words; empty while it is not.
     """
 
@@ -173,8 +173,8 @@ def _check_joint(joint: JointModel, position: float, before: float, period_s: fl
 class DeviceAdapter(Protocol):
     """One device behind its library; vendor structs stay on the far side.
 
-    Calls return at once and never wait for motion. One client commands at a time: whoever serves the device's action.
-    An implementation passes `cellc.contract.adapter.conformance`.
+    Calls return immediately and never wait for motion. One client commands at a time: whoever serves the device's
+    action. An implementation passes `cellc.contract.adapter.conformance`.
     """
 
     @property
@@ -195,7 +195,7 @@ class DeviceAdapter(Protocol):
         ...
 
     def activate(self) -> None:
-        """Take commands from now on: inactive to active. The device holds where it stands until the first one.
+        """Take commands from now on: inactive to active. The device holds where it is until the first one.
 
         Raises:
             RuntimeError: the device is not inactive: a stop has to be acknowledged first.

@@ -71,7 +71,7 @@ def _quintic(before: Waypoint, after: Waypoint, joint: int, span_s: float, share
 
 
 class FollowerStatus(str, Enum):
-    """How a trajectory stands or ended; the last four are terminal."""
+    """State of a trajectory; the last four are terminal."""
 
     FOLLOWING = "following"
     HOLDING = "holding"  # canceled or given up, and not at standstill yet
@@ -99,7 +99,7 @@ class TrajectoryFollower:
     def __init__(
         self, adapter: DeviceAdapter, trajectory: Trajectory, *, path_tolerance: float, goal_time_s: float
     ) -> None:
-        """Bind a trajectory that begins where the device stands.
+        """Bind a trajectory that begins where the device is.
 
         Args:
             path_tolerance: rad or m by which a joint may be away from its command.
@@ -115,14 +115,14 @@ class TrajectoryFollower:
         self._ending: FollowerResult | None = None
 
     def step(self) -> FollowerResult | None:
-        """Look at the device, send the command that is due, and return the result once there is one."""
+        """Look at the device, send the pending command, and return the result once there is one."""
         if self.result is not None:
             return self.result
         state = self._adapter.read()
         if state.phase is not Phase.ACTIVE:
             self.result = FollowerResult(FollowerStatus.STOPPED, state.fault or f"device is {state.phase.value}")
         elif self._ending is not None:
-            self.result = self._ending if _stands_still(state) else None
+            self.result = self._ending if _is_at_standstill(state) else None
         else:
             self._follow(state)
         return self.result
@@ -146,7 +146,7 @@ class TrajectoryFollower:
         elapsed_s = (now_ns - self._begun_ns) / 1e9
         # After two periods the end was commanded twice: what is left is no motion that a hold would have to brake.
         settled_s = self._trajectory.duration_s + 2.0 * self._adapter.model.command_period_s
-        if elapsed_s > settled_s and _stands_still(state):
+        if elapsed_s > settled_s and _is_at_standstill(state):
             self._adapter.hold()
             self.result = FollowerResult(FollowerStatus.SUCCEEDED)
             return
@@ -172,6 +172,6 @@ class TrajectoryFollower:
         return distances[worst], worst
 
 
-def _stands_still(state: DeviceState, below: float = 1e-3) -> bool:
+def _is_at_standstill(state: DeviceState, below: float = 1e-3) -> bool:
     """Tell whether every joint is slower than ``below`` rad/s or m/s."""
     return all(abs(velocity) < below for velocity in state.velocities)

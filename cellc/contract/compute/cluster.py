@@ -1,8 +1,8 @@
-"""A crew of a Dask cluster, which somebody runs already: ``dask scheduler`` and any number of ``dask worker``.
+"""Executor of a running Dask cluster: ``dask scheduler`` and any number of ``dask worker``.
 
-Dask sends Python objects by pickle, as it does for all of its users: whoever reaches the scheduler may execute code on
-its workers and on its clients, so a cluster must be trusted. Dask does a task again elsewhere when its worker dies, and
-gives up after ``distributed.scheduler.allowed-failures`` deaths (3 by default; distributed.dask.org, "Resilience").
+Dask sends Python objects by pickle, as it does for all of its users: any host that reaches the scheduler may execute
+code on its workers and on its clients, so trust is required. Dask repeats a task when its worker dies. It gives
+up after ``distributed.scheduler.allowed-failures`` deaths (3 by default; distributed.dask.org, "Resilience").
 What all units need is a task too, named by its content: it is sent once, and survives any worker.
 
 A unit takes some 10 ms, and a task costs Dask about 1 ms (docs.dask.org, "Best Practices"): units go in packets.
@@ -20,13 +20,13 @@ from time import monotonic
 from typing import Any
 
 from cellc.contract.compute.versions import versions
-from cellc.contract.compute.work import ComputeError, Crew, Hire, Sent, answer
+from cellc.contract.compute.work import ComputeError, Executor, ExecutorFactory, Sent, answer
 from cellc.contract.extras import CLUSTER, gate
 
 _PACKET = 50
 _HANDS_OF_A_WORKER = 3
 _CONNECTS_S = 10.0
-_LOOK_S = 0.5
+_CHECK_PERIOD_S = 0.5
 _ASK_S = 2.0
 _IDLE_S = 60.0
 """How long a scheduler may be without a worker: who starts them by hand, or a batch system, takes a while."""
@@ -35,17 +35,17 @@ _AWAY_S = 3.0
 """How long a scheduler may be out of reach: Dask connects again after a break, and has forgotten what it was asked."""
 
 
-def cluster(address: str, tell: Callable[[str], None] = lambda _: None) -> Hire:
-    """Return who hires all workers of a scheduler, such as ``tcp://10.0.0.7:8786``.
+def cluster(address: str, tell: Callable[[str], None] = lambda _: None) -> ExecutorFactory:
+    """Return a factory that uses all workers of a scheduler, such as ``tcp://10.0.0.7:8786``.
 
     Args:
         tell: called with what a person should know while nothing is done.
     """
-    return partial(_crew, address, tell)
+    return partial(_executor, address, tell)
 
 
 @contextmanager
-def _crew(address: str, tell: Callable[[str], None], sent: Sent, units: int) -> Iterator[Crew]:
+def _executor(address: str, tell: Callable[[str], None], sent: Sent, units: int) -> Iterator[Executor]:
     if not _ADDRESS.fullmatch(address):
         raise ComputeError(f"`{address}` is not the address of a scheduler; write one such as `tcp://10.0.0.7:8786`")
     with gate(CLUSTER):
@@ -62,16 +62,16 @@ def _crew(address: str, tell: Callable[[str], None], sent: Sent, units: int) -> 
         with _in_words(address, KilledWorker):
             told = client.submit(_same, sent, key=f"cellc-{sent.digest}", pure=True)
             executor = client.get_executor(pure=False)
-            hands = _HANDS_OF_A_WORKER * max(1, len(client.nthreads()))
+            max_in_flight = _HANDS_OF_A_WORKER * max(1, len(client.nthreads()))
 
-            def ask(packet: Sequence[Any]) -> Future[Any]:
+            def submit(packet: Sequence[Any]) -> Future[Any]:
                 asked: Future[Any] = executor.submit(_answer, told, versions(), packet)
                 return asked
 
-            packet = max(1, min(_PACKET, units // (2 * hands)))
-            yield Crew(ask, hands, packet, _LOOK_S, _Watch(client, address, tell).look)
+            packet = max(1, min(_PACKET, units // (2 * max_in_flight)))
+            yield Executor(submit, max_in_flight, packet, _CHECK_PERIOD_S, _Watch(client, address, tell).check_health)
     finally:
-        with suppress(Exception):  # a scheduler that is gone cannot be told
+        with suppress(Exception):  # a scheduler that is gone needs no message
             client.close(timeout=1)
 
 
@@ -111,7 +111,7 @@ class _Watch:
         self._seen_s = self._asked_s = self._manned_s = monotonic()
         self._told = False
 
-    def look(self) -> None:
+    def check_health(self) -> None:
         """Raise ComputeError where the scheduler has been away, or without a worker, for longer than a break lasts."""
         now_s = monotonic()
         if self._client.status == "running":

@@ -1,6 +1,6 @@
-"""A crew of processes on this machine: fresh interpreters, which hear no signal of the terminal.
+"""Executor of processes on this machine: fresh interpreters, which receive no signal of the terminal.
 
-They end with who hired them, however that ends: each would hold its output open, and go on for nobody.
+They end with their parent, however that ends: each would hold its output open, and run on without a caller.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from pathlib import Path
 from threading import Thread, Timer
 from typing import TYPE_CHECKING, Any
 
-from cellc.contract.compute.work import Crew, Hire, Sent, answer
-from cellc.contract.signals import deaf_children, start_deaf_tracker
+from cellc.contract.compute.work import Executor, ExecutorFactory, Sent, answer
+from cellc.contract.signals import signals_blocked_in_children, start_tracker_without_signals
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess
@@ -34,33 +34,33 @@ def usable_cores() -> int:
     return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
 
 
-def processes(number: int) -> Hire:
-    """Return who hires so many processes, or as many as there are units; leaving the crew early ends them at once."""
-    return partial(_crew, number)
+def processes(number: int) -> ExecutorFactory:
+    """Return a factory for so many processes, at most one a unit; leaving the executor early ends them."""
+    return partial(_executor, number)
 
 
 @contextmanager
-def _crew(number: int, sent: Sent, units: int) -> Iterator[Crew]:
+def _executor(number: int, sent: Sent, units: int) -> Iterator[Executor]:
     # Python's machinery of processes takes longer to load than a small cell to check.
     from concurrent.futures.process import ProcessPoolExecutor
     from multiprocessing import active_children, get_context
 
     size = max(1, min(number, units))
     with _away():
-        start_deaf_tracker()
+        start_tracker_without_signals()
     others = set(active_children())
     # Spawned on every platform: nothing of this process, its locks and threads above all, is copied into them.
-    pool = ProcessPoolExecutor(size, get_context("spawn"), _told, (sent, Path.cwd()))
+    pool = ProcessPoolExecutor(size, get_context("spawn"), _receive, (sent, Path.cwd()))
 
-    def ask(packet: Sequence[Any]) -> Future[Any]:
+    def submit(packet: Sequence[Any]) -> Future[Any]:
         return pool.submit(_answer, packet)
 
     ended = False
     try:
-        with deaf_children(), _away():
+        with signals_blocked_in_children(), _away():
             for _ in range(size):
-                pool.submit(_answer, ())  # each starts a process, here where it is deaf
-        yield Crew(ask, hands=2 * size)
+                pool.submit(_answer, ())  # each starts a process, here where it receives no signals
+        yield Executor(submit, max_in_flight=2 * size)
         ended = True
     finally:
         mine = set(active_children()) - others
@@ -95,7 +95,7 @@ def _kill(children: Iterable[BaseProcess]) -> None:
 _sent: Sent | None = None
 
 
-def _told(sent: Sent, folder: Path) -> None:
+def _receive(sent: Sent, folder: Path) -> None:
     global _sent
     _sent = sent
     os.chdir(folder)
@@ -115,11 +115,11 @@ def _end_with_parent() -> None:
         wait(gone)
         os._exit(1)
 
-    if sys.platform == "linux":  # at once, in the middle of what holds the interpreter too; prctl(2)
+    if sys.platform == "linux":  # immediately, in the middle of what holds the interpreter too; prctl(2)
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     Thread(target=watch, name="parent", daemon=True).start()
 
 
 def _answer(units: Sequence[Any]) -> list[Any]:
-    assert _sent is not None  # a process is told before it is asked
+    assert _sent is not None  # a process receives the job before its first unit
     return answer(_sent, units)

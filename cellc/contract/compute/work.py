@@ -1,6 +1,6 @@
-"""Work that is told once, its units, and a stream of their answers; who does it is a crew.
+"""Fan-out: one shared job, many units, a stream of results from local processes or a Dask cluster.
 
-An answer is that of its unit alone, so that it is the same whoever computes it, and however often. A worker that dies
+An answer is that of its unit alone, so that any worker gives the same, however often. A worker that dies
 therefore costs time and nothing else: what it had in hand is done again by others. A unit that was in hand at two
 deaths is done alone, so that the third one shows which unit it is that no worker survives.
 """
@@ -63,30 +63,30 @@ class Sent:
 
 
 @dataclass(frozen=True, slots=True)
-class Crew:
-    """Workers that have been told their work.
+class Executor:
+    """Workers that have received the shared job.
 
     Attributes:
-        ask: submits some units, and returns the future of their answers.
-        hands: units, or packets of them, that they are to have in hand at once.
+        submit: takes some units, and returns the future of their answers.
+        max_in_flight: units, or packets of them, that are in flight together.
         packet: units that are sent together where there are so many.
-        look_s: how often ``look`` is called while nothing ends; None for never.
-        look: raises ComputeError where the workers are out of reach.
+        check_period_s: how often ``check_health`` is called while nothing ends; None for never.
+        check_health: raises ComputeError where the workers are out of reach.
     """
 
-    ask: Callable[[Sequence[Any]], Future[Any]]
-    hands: int
+    submit: Callable[[Sequence[Any]], Future[Any]]
+    max_in_flight: int
     packet: int = 1
-    look_s: float | None = None
-    look: Callable[[], None] = lambda: None
+    check_period_s: float | None = None
+    check_health: Callable[[], None] = lambda: None
 
 
-Hire = Callable[[Sent, int], AbstractContextManager[Crew]]
-"""Returns a crew for some work of so many units; leaving it ends or lets go of the workers."""
+ExecutorFactory = Callable[[Sent, int], AbstractContextManager[Executor]]
+"""Returns an executor for a job of so many units; leaving it ends or lets go of the workers."""
 
 
 def stream(
-    work: Work[Shared, Unit, Answer], units: Sequence[Unit], hire: Hire
+    work: Work[Shared, Unit, Answer], units: Sequence[Unit], factory: ExecutorFactory
 ) -> Generator[tuple[int, Answer], None, None]:
     """Yield the number and answer of every unit once, in any order; closing it lets go of the workers.
 
@@ -100,8 +100,8 @@ def stream(
         for batch in batches:
             if alone:
                 owed.remove(batch[0])
-            with hire(sent, len(batch)) as crew:
-                lost: tuple[int, ...] = yield from _deal(units, batch, crew)
+            with factory(sent, len(batch)) as executor:
+                lost: tuple[int, ...] = yield from _deal(units, batch, executor)
             deaths.update(lost)
             owed.extendleft(reversed(lost))
             failed = next((number for number in lost if deaths[number] == MOST_DEATHS), None)
@@ -111,18 +111,20 @@ def stream(
                 )
 
 
-def _deal(units: Sequence[Unit], owed: deque[int], crew: Crew) -> Generator[tuple[int, Answer], None, tuple[int, ...]]:
+def _deal(
+    units: Sequence[Unit], owed: deque[int], executor: Executor
+) -> Generator[tuple[int, Answer], None, tuple[int, ...]]:
     """Yield answers until all are there or the workers are lost; return what they had in hand then."""
     busy: dict[Future[Any], tuple[int, ...]] = {}
     try:
         while busy or owed:
-            while owed and len(busy) < crew.hands:
-                packet = tuple(islice(owed, crew.packet))
-                busy[crew.ask([units[number] for number in packet])] = packet
+            while owed and len(busy) < executor.max_in_flight:
+                packet = tuple(islice(owed, executor.packet))
+                busy[executor.submit([units[number] for number in packet])] = packet
                 for _ in packet:
                     owed.popleft()
-            ended, _ = wait(busy, crew.look_s, FIRST_COMPLETED)
-            crew.look()
+            ended, _ = wait(busy, executor.check_period_s, FIRST_COMPLETED)
+            executor.check_health()
             for future in ended:
                 answers = future.result()
                 yield from zip(busy.pop(future), answers, strict=True)
@@ -149,7 +151,7 @@ _RARE = 20_000
 def settle() -> None:
     """Spare the garbage collector what was loaded for good: it would look through it again for every few units.
 
-    A tenth of the processor time of a run of the mock went there.
+    A tenth of the processor time of a run of the mock was spent there.
     """
     gc.collect()
     gc.freeze()

@@ -127,13 +127,16 @@ class CodePage:
 
 def counted(diagnostics: Iterable[Diagnostic]) -> str:
     """Return such as ``2 errors, 1 blocker``, the worst first, or ``no findings``."""
-    found = Counter(one.severity for one in diagnostics)
-    return ", ".join(one.counted(found[one]) for one in Severity if found[one]) or "no findings"
+    found = Counter(diagnostic.severity for diagnostic in diagnostics)
+    return ", ".join(severity.counted(found[severity]) for severity in Severity if found[severity]) or "no findings"
 
 
 def findings_table(caption: str, diagnostics: Iterable[Diagnostic]) -> str:
     """Return findings as a table of HTML, in their order."""
-    rows = ((one.severity.value, one.code, str(one.span), one.message, one.help) for one in diagnostics)
+    rows = (
+        (diagnostic.severity.value, diagnostic.code, str(diagnostic.span), diagnostic.message, diagnostic.help)
+        for diagnostic in diagnostics
+    )
     return html_table(caption, ("severity", "code", "place", "what is wrong", "help"), rows)
 
 

@@ -1,4 +1,4 @@
-"""Existing names that a misspelt one may have meant."""
+"""Existing names that a misspelled one may have meant."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> tuple[str, 
     """Return up to ``limit`` candidates that look like ``name``, best first, ties in alphabetical order.
 
     Of very many candidates those of its length are compared, and a text as long as no name is compared with none: a
-    file of a stranger may hold thousands of both.
+    untrusted file may hold thousands of both.
     """
     if len(name) > _LONGEST:
         return ()
@@ -59,7 +59,7 @@ def only_suggestion(help_text: str) -> str | None:
 def is_slip(key: str, meant: str) -> bool:
     """Whether one slip of the fingers lies between two names; a suggestion may be further, but a person reads that.
 
-    A slip is one character too many, too few, wrong, or swapped with its neighbour; or another way to join words.
+    A slip is one character too many, too few, wrong, or swapped with its neighbor; or another way to join words.
     """
     if key.lower().translate(_SEPARATORS) == meant.lower().translate(_SEPARATORS):
         return True

@@ -1,4 +1,4 @@
-"""Tables of HTML for a notebook; every text in them may be a stranger's."""
+"""Tables of HTML for a notebook; every text in them may be untrusted."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ _JSON_ESCAPE = re.compile(r"\\(?:u[dD][89abAB][0-9a-fA-F]{2}\\u[dD][c-fC-F][0-9a
 
 
 def hidden(text: str) -> str | None:
-    """Say which character hides text; None where there is none."""
+    """Say which character hides text, or None."""
     match = HIDDEN.search(text)
     return None if match is None else _said(match[0])
 
@@ -47,14 +47,14 @@ def _said(character: str) -> str:
 
 
 def hidden_on_line(text: str) -> tuple[int, str] | None:
-    """Return the line of the first character that hides text, and say which; None where there is none."""
+    """Return the line of the first character that hides text, and say which, or None."""
     told = text.replace("\r\n", "\n")
     match = HIDDEN.search(told)
     return None if match is None else (told.count("\n", 0, match.start()) + 1, _said(match[0]))
 
 
 def hidden_in_json(text: str) -> tuple[int, str] | None:
-    """Return the same of a JSON text, in which a character stands as it is or as an escape."""
+    """Return the same of a JSON text, in which a character is as it is or as an escape."""
     return hidden_on_line(_JSON_ESCAPE.sub(lambda found: _unescaped(found[0]), text) if "\\" in text else text)
 
 
@@ -73,7 +73,7 @@ def escaped(text: str) -> str:
 
 
 def escaped_character(character: str) -> str:
-    """Return a character itself, or its escape where it hides or steers whatever stands beside it."""
+    """Return a character itself, or its escape where it hides or steers whatever is beside it."""
     return _STEERING_ALONE.sub(_as_escape, character)
 
 

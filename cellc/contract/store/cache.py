@@ -149,7 +149,7 @@ def recall(
 
 
 def read_entry(name: str, asked_by: Path | None = None) -> bytes | None:
-    """Return the content of an entry, or None where there is none, or it is not as this user wrote it."""
+    """Return the content of an entry, or None, or it is not as this user wrote it."""
     place = _place(name, asked_by)
     if place is None:
         return None
@@ -208,7 +208,7 @@ def _prune(folder: Path) -> None:
     if folder.is_symlink() or len(os.listdir(folder)) <= MAX_ENTRIES:
         return
     with os.scandir(folder) as entries:
-        kept = [one for one in entries if _ENTRY.fullmatch(one.name) and one.is_file(follow_symlinks=False)]
+        kept = [entry for entry in entries if _ENTRY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
         by_age = sorted((entry.stat(follow_symlinks=False).st_mtime_ns, entry.path) for entry in kept)
     for _, path in by_age[: len(by_age) // 2]:
         remove_file(Path(path))

@@ -42,7 +42,7 @@ def state_folder(environment: Mapping[str, str] = os.environ, platform: str = sy
 
 
 def cache_key(asked_by: Path | None) -> bytes | None:
-    """Return the secret, which is made where there is none yet; None where nobody can keep one.
+    """Return the secret, which is made if it is missing; None where nobody can keep one.
 
     Args:
         asked_by: the spec; what lies in its working tree may have come with it.
@@ -60,7 +60,9 @@ def _key_in(folder: Path) -> bytes | None:
             return _read(folder / "cache.key")
         except FileNotFoundError:
             _make(folder / "cache.key")
-            return _read(folder / "cache.key")  # where two make one at once, the later stays, and one asks again
+            return _read(
+                folder / "cache.key"
+            )  # where two make one at the same time, the later stays, and one asks again
     return None
 
 
@@ -84,7 +86,7 @@ def came_with(folder: Path, spec: Path | None) -> bool:
 @cache
 def _working_tree(folder: str) -> Path | None:
     above = (Path(folder), *Path(folder).parents)
-    return next((one for one in above if os.path.lexists(one / ".git")), None)
+    return next((path for path in above if os.path.lexists(path / ".git")), None)
 
 
 def _read(file: Path) -> bytes | None:

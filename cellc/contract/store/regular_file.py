@@ -17,7 +17,7 @@ class FileTooLargeError(OSError):
 
 
 class NotRegularError(OSError):
-    """What stands in the place of a file is a pipe, a device, a socket or a folder."""
+    """What is in the place of a file is a pipe, a device, a socket or a folder."""
 
 
 def open_regular(path: Path, *, follow: bool = True) -> BinaryIO:

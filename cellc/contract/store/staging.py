@@ -41,7 +41,7 @@ def make_staging(folder: Path) -> Path:
 
     Raises:
         BlockingIOError: another process took it for one of a killed process before it had its lock.
-        OSError: something stands there, or writing is refused.
+        OSError: something is there, or writing is refused.
     """
     staging = staging_of(folder)
     os.mkdir(staging, 0o1777)
@@ -136,8 +136,8 @@ def discard(staging: Path) -> None:
 def temporaries(path: Path) -> tuple[Path, ...]:
     """Return what processes made beside a file or folder to put it in place; names of another form are somebody's."""
     prefix = f".{path.name}.tmp-"
-    found = (one for one in path.parent.glob(".*") if one.name.startswith(prefix))
-    return tuple(sorted(one for one in found if _MAKER.fullmatch(one.name[len(prefix) :])))
+    found = (item for item in path.parent.glob(".*") if item.name.startswith(prefix))
+    return tuple(sorted(item for item in found if _MAKER.fullmatch(item.name[len(prefix) :])))
 
 
 def runs(part: Path) -> bool:

@@ -1,6 +1,6 @@
 """The one writer: whatever cellc writes, makes, moves or removes goes through here, and a test holds it.
 
-Files are put in place at once or not at all: those of a folder, or one.
+Files are put in place immediately or not at all: those of a folder, or one.
 
 New files are made ready in a staging folder beside it, then moved; or every old file is put back.
 """
@@ -84,7 +84,7 @@ class Swap:
         # All that was kept is back in its place; the staging folder would hold the folder that was made around it.
         discard(self.staging)
         for folder in reversed(self._made):
-            # One that holds a file of somebody else by now stays, and what ended the build is told, not this.
+            # One that holds a file of somebody else by now stays, and what ended the build gets, not this.
             with contextlib.suppress(OSError):
                 folder.rmdir()
 
@@ -106,23 +106,23 @@ class Swap:
 
 
 def link_above(path: str, folder: Path) -> Path | None:
-    """Return the link on the way from a folder to a path in it, which may lead anywhere; None where there is none."""
+    """Return the link on the way from a folder to a path in it, which may lead anywhere, or None."""
     parents = (folder / parent for parent in reversed(PurePosixPath(path).parents) if parent.parts)
     return next((place for place in parents if place.is_symlink()), None)
 
 
 def link_on_the_way(place: Path) -> Path | None:
-    """Return a link that the way to a place takes below the current folder: there it may be a stranger's."""
+    """Return a link that the way to a place takes below the current folder: there it may be untrusted."""
     here = Path.cwd()
-    below = (one for one in (place, *place.parents) if not one.is_absolute() or here in one.parents)
-    return next((one for one in below if one.is_symlink()), None)
+    below = (item for item in (place, *place.parents) if not item.is_absolute() or here in item.parents)
+    return next((item for item in below if item.is_symlink()), None)
 
 
 def write_whole(file: Path, text: str) -> None:
     """Write a text; a reader sees the old file or the new one, and a failure leaves nothing behind.
 
     Raises:
-        OSError: a link stands at the file or its folder, the disk is full, or writing is refused; it names the place.
+        OSError: a link is at the file or its folder, the disk is full, or writing is refused; it names the place.
     """
     linked = file.parent if file.parent.is_symlink() else link_on_the_way(file)
     linked = file if file.is_symlink() else linked
@@ -211,7 +211,7 @@ def write_new(file: Path, content: bytes, *, executable: bool = False, durable: 
         durable: have the system put it on the disk.
 
     Raises:
-        OSError: something stands there, the disk is full, or writing is refused.
+        OSError: something is there, the disk is full, or writing is refused.
     """
     make_folder(file.parent)
     with open_new(file) as stream:
@@ -228,7 +228,7 @@ def open_new(file: Path, mode: int = 0o666) -> BinaryIO:
     """Open a new file for writing: never one that is there already, nor one behind a link.
 
     Raises:
-        OSError: something stands there, or writing is refused.
+        OSError: something is there, or writing is refused.
     """
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     return os.fdopen(os.open(file, flags, mode), "wb")
@@ -238,7 +238,7 @@ def open_to_continue(file: Path, kept: int) -> BinaryIO:
     """Open a file for writing behind its first bytes, and cut off the others; it is made where it is absent.
 
     Raises:
-        OSError: a link stands there, or writing is refused.
+        OSError: a link is there, or writing is refused.
     """
     flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
     stream = os.fdopen(os.open(file, flags, 0o666), "r+b")

@@ -38,7 +38,7 @@ from cellc.mock.control import (
 from cellc.mock.control.journal import Cause, CommandJournal
 
 START_TOLERANCE = 0.01
-"""rad or m by which the first point may be away from where the joints stand, where it is due at once."""
+"""rad or m by which the first point may be away from where the joints stand, where it is scheduled immediately."""
 _UNBOUNDED = float("inf")
 
 
@@ -61,7 +61,8 @@ def read_goal(goal: TrajectoryGoal, model: AdapterModel, state: DeviceState) -> 
     """Return the trajectory of a goal, from where the joints stand.
 
     Raises:
-        ValueError: a joint or a value is missing, the times do not rise, or a first point due at once is elsewhere.
+        ValueError: a joint or a value is missing, the times do not rise, or a first point scheduled immediately is
+            elsewhere.
     """
     if sorted(goal.joint_names) != sorted(model.joint_names):
         raise ValueError(f"the goal names {', '.join(goal.joint_names)}; `{model.device}` moves all of its joints")
@@ -223,7 +224,7 @@ class AdapterServer:
         self.now_ns = self._next_ns - self.period_ns
 
     def _tick(self) -> None:
-        """Publish the state of one period and send the command that is due."""
+        """Publish the state of one period and send the pending command."""
         self.now_ns = self._next_ns
         self._next_ns += self.period_ns
         result = None if self._follower is None else self._follower.step()

@@ -42,7 +42,7 @@ class SimulatedAdapter:
 
     @property
     def phase(self) -> Phase:
-        """Where the device stands; readable without a connection."""
+        """Where the device is; readable without a connection."""
         return self._phase
 
     @property
@@ -115,7 +115,7 @@ class SimulatedAdapter:
             self._brake(self.now_ns())
 
     def disturb(self, joint: str, fault: JointFault) -> None:
-        """Let a joint have a fault from now on in place of the one it had; an offset moves it at once."""
+        """Let a joint have a fault from now on in place of the one it had; an offset moves it immediately."""
         shift = fault.offset - self.joint_faults.get(joint, JointFault()).offset
         column = self._model.joint_names.index(joint)
         self._from, self._to = (

@@ -13,7 +13,7 @@ from cellc.mock.agreement.said import Edited, Names, Said, below, differing, par
 Side = Literal["publisher", "subscription"]
 _NS = 1_000_000_000
 _STANDARD = frozenset({"robot_state_publisher", "controller_manager"})
-"""Names of nodes that no spec writes, so that nobody overrides their QoS."""
+"""Names of nodes that no spec writes, so that nothing overrides their QoS."""
 
 
 def real_controllers(edited: Edited, file: str) -> Iterator[str]:
@@ -24,15 +24,18 @@ def real_controllers(edited: Edited, file: str) -> Iterator[str]:
         node = f"{manager.namespace}/controller_manager"
         said = parameters(file, edited.texts[file], node)
         types = {name: value for name, value in said.items() if name.endswith(".type")}
-        loaded = [one for one in manager.controllers.values() if "real" in one.targets]
-        executed = {f"{one.full_name.rpartition('/')[2]}.type": one.plugin for one in manager.controllers.values()}
+        loaded = [controller for controller in manager.controllers.values() if "real" in controller.targets]
+        executed = {
+            f"{controller.full_name.rpartition('/')[2]}.type": controller.plugin
+            for controller in manager.controllers.values()
+        }
         yield from differing(types, executed, f"{node}: ")
         rate: Names = {"update_rate": said.get("update_rate")}
         yield from differing(rate, {"update_rate": manager.update_rate_hz}, f"{node}: ")
-        for one in loaded:
-            joints = parameters(file, edited.texts[file], one.full_name).get("joints")
+        for controller in loaded:
+            joints = parameters(file, edited.texts[file], controller.full_name).get("joints")
             if joints is not None:
-                yield from differing({"joints": joints}, {"joints": one.joints}, f"{one.full_name}: ")
+                yield from differing({"joints": joints}, {"joints": controller.joints}, f"{controller.full_name}: ")
 
 
 def bring_up(edited: Edited, _: str) -> Iterator[str]:
@@ -40,21 +43,21 @@ def bring_up(edited: Edited, _: str) -> Iterator[str]:
     for target in ("mock", "real"):
         requests = [step.request for step in edited.steps(target) if step.request is not None]
         asked = [
-            f"{one.manager.rpartition('/')[0]}/{name}"
-            for one in requests
-            if isinstance(one, Activation)
-            for name in one.controllers
+            f"{request.manager.rpartition('/')[0]}/{name}"
+            for request in requests
+            if isinstance(request, Activation)
+            for name in request.controllers
         ]
         yield from differing(
             {"activates": sorted(asked)}, {"activates": _active(edited.contract, target)}, f"{target} "
         )
-        known = {one.hardware_component for one in edited.contract.devices.values()}
-        for one in requests:
-            if isinstance(one, HardwareActivation) and one.component not in known:
-                yield f"`{target}` asks for the hardware component `{one.component}`, which the contract does not have"
-            if isinstance(one, Restart):
-                for name in one.controllers:
-                    if f"{one.manager.rpartition('/')[0]}/{name}" not in asked:
+        known = {device.hardware_component for device in edited.contract.devices.values()}
+        for request in requests:
+            if isinstance(request, HardwareActivation) and request.component not in known:
+                yield f"hardware component `{request.component}` of `{target}` is not in the contract"
+            if isinstance(request, Restart):
+                for name in request.controllers:
+                    if f"{request.manager.rpartition('/')[0]}/{name}" not in asked:
                         yield f"`{target}` restarts `{name}`, which it does not activate"
 
 
@@ -87,7 +90,9 @@ def qos_overrides(edited: Edited, file: str) -> Iterator[str]:
 
 def _writable(contract: Contract, topic: str) -> Iterator[str]:
     """Yield the full names of the nodes at a topic whose QoS a spec may write: no controllers, no devices."""
-    others = {one.full_name for manager in contract.managers.values() for one in manager.controllers.values()}
+    others = {
+        controller.full_name for manager in contract.managers.values() for controller in manager.controllers.values()
+    }
     for end in (*contract.interfaces[topic].sources, *contract.interfaces[topic].sinks):
         own = end.full_name.rpartition("/")[2]
         if end.full_name not in others and end.node not in contract.devices and own not in _STANDARD:

@@ -44,25 +44,25 @@ def other_description(edited: Edited, file: str) -> Iterator[str]:
         raise MockError(file, f"line {found.span.line}: {found.message}")
     by = edited.contract.files.urdf_mock
     said, executed = _parts(read.value), _parts(edited.description)
-    for name in (*executed, *(one for one in said if one not in executed)):
+    for name in (*executed, *(text for text in said if text not in executed)):
         if said.get(name) != executed.get(name):
             yield f"{name} must be as in `{by}`"
-    components = {one.name: one for one in edited.description.hardware}
-    for one in read.value.hardware:
-        if one.name not in components:
-            yield f'`<ros2_control name="{one.name}">` must be a hardware component of `{by}`'
+    components = {component.name: component for component in edited.description.hardware}
+    for component in read.value.hardware:
+        if component.name not in components:
+            yield f'`<ros2_control name="{component.name}">` must be a hardware component of `{by}`'
         else:
-            joints = sorted(part.name for part in one.joints)
-            wanted = sorted(part.name for part in components[one.name].joints)
-            yield from differing({"joints": joints}, {"joints": wanted}, f"ros2_control {one.name} ", by)
+            joints = sorted(part.name for part in component.joints)
+            wanted = sorted(part.name for part in components[component.name].joints)
+            yield from differing({"joints": joints}, {"joints": wanted}, f"ros2_control {component.name} ", by)
     if read.value.hardware_error:
         yield read.value.hardware_error
 
 
 def _parts(description: Description) -> dict[str, object]:
     """Return links and joints by what messages call them, without their places in the file and their looks."""
-    links = {f"link `{one.name}`": replace(one, visuals=(), span=None) for one in description.links}
-    return {**links, **{f"joint `{one.name}`": replace(one, span=None) for one in description.joints}}
+    links = {f"link `{link.name}`": replace(link, visuals=(), span=None) for link in description.links}
+    return {**links, **{f"joint `{joint.name}`": replace(joint, span=None) for joint in description.joints}}
 
 
 def frames(edited: Edited, file: str) -> Iterator[str]:

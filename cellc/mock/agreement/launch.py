@@ -81,10 +81,10 @@ def _controllers(edited: Edited, nodes: list[_Node]) -> Iterator[str]:
     for target in _TARGETS:
         loaded = sorted(name for node in spawners if target in node.targets for name in _spawned(node))
         executed = sorted(
-            one.full_name
+            controller.full_name
             for manager in edited.contract.managers.values()
-            for one in manager.controllers.values()
-            if target in one.targets
+            for controller in manager.controllers.values()
+            if target in controller.targets
         )
         yield from differing({"loads": loaded}, {"loads": executed}, f"{target} ")
 
@@ -129,10 +129,12 @@ def _taken(edited: Edited, nodes: list[_Node]) -> Iterator[tuple[str, str, list[
 def _processes(edited: Edited, nodes: list[_Node]) -> Iterator[str]:
     """Compare the nodes that the contract has with those that are started; drivers of devices stand in no contract."""
     contract = edited.contract
-    controllers = {one.full_name for manager in contract.managers.values() for one in manager.controllers.values()}
+    controllers = {
+        controller.full_name for manager in contract.managers.values() for controller in manager.controllers.values()
+    }
     for target in _TARGETS:
         started = [node.full_name for node in nodes if target in node.targets]
-        for name in sorted({one for one in started if started.count(one) > 1 and not one.endswith("/")}):
+        for name in sorted({text for text in started if started.count(text) > 1 and not text.endswith("/")}):
             yield f"`{name}` is started twice on `{target}`"
         ends = [
             end
@@ -169,17 +171,19 @@ def _given(edited: Edited, node: _Node) -> Iterator[str]:
 
 def _gate(file: str, root: XmlElement) -> Iterator[str]:
     """Compare the gates: what a person must say has no default that opens them, and nobody leaves them out."""
-    demanded = [one for one in root.all("arg") if one.attributes.get("name", "").startswith("confirm_")]
-    for one in demanded:
-        default = one.attributes.get("default")
+    demanded = [element for element in root.all("arg") if element.attributes.get("name", "").startswith("confirm_")]
+    for element in demanded:
+        default = element.attributes.get("default")
         if default != (None if file in _GATES else "no"):
             wanted = "no default" if file in _GATES else "the default `no`"
-            yield f"`{one.attributes['name']}` of `{file}` must have {wanted}"
+            yield f"`{element.attributes['name']}` of `{file}` must have {wanted}"
     if file in _GATES:
         if not demanded:
             yield f"`{file}` must demand the word of a person"
         return
     gate = "move_gate" if file == _MOVE else "real_gate"
-    included = [one for one in root.all("include") if one.attributes.get("file", "").endswith(f"/{gate}.launch.xml")]
-    if not any(_targets(one) == ("real",) for one in included):
+    included = [
+        element for element in root.all("include") if element.attributes.get("file", "").endswith(f"/{gate}.launch.xml")
+    ]
+    if not any(_targets(element) == ("real",) for element in included):
         yield f"`{file}` must include `{gate}.launch.xml` on the real target"

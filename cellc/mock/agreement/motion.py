@@ -65,11 +65,11 @@ def moveit_controllers(edited: Edited, file: str) -> Iterator[str]:
     names = said.get("controller_names", ())
     listed = [str(name) for name in names] if isinstance(names, list) else []
     executed = {
-        action.rpartition("/")[0].strip("/"): (action, kind, one)
+        action.rpartition("/")[0].strip("/"): (action, kind, controller)
         for manager in edited.contract.managers.values()
-        for one in manager.controllers.values()
-        if one.client is None or one.client in _planners(edited.contract)
-        for action, kind in _action(one, target)
+        for controller in manager.controllers.values()
+        if controller.client is None or controller.client in _planners(edited.contract)
+        for action, kind in _action(controller, target)
     }
     yield from differing(
         {"controller_names": sorted(name.strip("/") for name in listed)},
@@ -90,8 +90,8 @@ def moveit_controllers(edited: Edited, file: str) -> Iterator[str]:
 
 def _planners(contract: Contract) -> frozenset[str]:
     """Return the nodes that plan for others: what they are the client of, they send what they planned."""
-    serving = (one for one in contract.interfaces.values() if one.type == _PLANNING)
-    return frozenset(end.node for one in serving for end in one.sources)
+    serving = (interface for interface in contract.interfaces.values() if interface.type == _PLANNING)
+    return frozenset(end.node for interface in serving for end in interface.sources)
 
 
 def _action(one: ContractController, target: Literal["mock", "real"]) -> Iterator[tuple[str, str]]:
@@ -106,14 +106,14 @@ def _action(one: ContractController, target: Literal["mock", "real"]) -> Iterato
 def semantics(edited: Edited, file: str) -> Iterator[str]:
     """Compare groups, end effectors and poses of the SRDF; its pairs of links are executed."""
     root = xml(file, edited.texts[file])
-    groups = {one.attributes.get("name", ""): _group(one) for one in root.all("group")}
+    groups = {element.attributes.get("name", ""): _group(element) for element in root.all("group")}
     states = {
-        f"{one.attributes.get('group', '')}.{one.attributes.get('name', '')}": _positions(one)
-        for one in root.all("group_state")
+        f"{element.attributes.get('group', '')}.{element.attributes.get('name', '')}": _positions(element)
+        for element in root.all("group_state")
     }
     effectors: dict[str, Said] = {
-        one.attributes.get("name", ""): [one.attributes.get(name, "") for name in ("group", "parent_link")]
-        for one in root.all("end_effector")
+        element.attributes.get("name", ""): [element.attributes.get(name, "") for name in ("group", "parent_link")]
+        for element in root.all("end_effector")
     }
     contract = edited.contract
     grippers = {
@@ -135,7 +135,7 @@ def _group(group: XmlElement) -> Said:
 
 
 def _positions(state: XmlElement) -> Said:
-    return [part for one in state.all("joint") for part in (one.attributes.get("name", ""), _number(one))]
+    return [part for element in state.all("joint") for part in (element.attributes.get("name", ""), _number(element))]
 
 
 def _number(joint: XmlElement) -> Said:
@@ -150,7 +150,7 @@ def _executed_groups(contract: Contract, grippers: Mapping[str, ContractGripper]
     chains: dict[str, Said] = {
         name: [f"chain {group.base_link} {group.tip_frame}"] for name, group in contract.groups.items()
     }
-    several = [[one.group for one in pose] for pose in contract.poses.values() if len(pose) > 1]
+    several = [[target.group for target in pose] for pose in contract.poses.values() if len(pose) > 1]
     chains |= {several_groups(names): [f"group {name}" for name in names] for names in several}
     return chains | {name: [f"joint {gripper.joint}"] for name, gripper in grippers.items()}
 
@@ -158,14 +158,16 @@ def _executed_groups(contract: Contract, grippers: Mapping[str, ContractGripper]
 def _executed_states(contract: Contract, grippers: Mapping[str, ContractGripper]) -> Names:
     states: dict[str, Said] = {}
     for name, pose in contract.poses.items():
-        for one in pose:
-            joints = contract.groups[one.group].joints
-            states[f"{one.group}.{name}"] = [part for pair in zip(joints, one.positions, strict=True) for part in pair]
+        for target in pose:
+            joints = contract.groups[target.group].joints
+            states[f"{target.group}.{name}"] = [
+                part for pair in zip(joints, target.positions, strict=True) for part in pair
+            ]
     for name, pose in contract.poses.items():
         if len(pose) > 1:
-            parts = [states[f"{one.group}.{name}"] for one in pose]
+            parts = [states[f"{target.group}.{name}"] for target in pose]
             together = [said for part in parts if isinstance(part, list) for said in part]
-            states[f"{several_groups(one.group for one in pose)}.{name}"] = together
+            states[f"{several_groups(target.group for target in pose)}.{name}"] = together
     for name, gripper in grippers.items():
         states[f"{name}.open"] = [gripper.joint, gripper.open]
         states[f"{name}.closed"] = [gripper.joint, gripper.closed]

@@ -53,7 +53,7 @@ def differing(said: Names, executed: Names, prefix: str = "", by: str = CONTRACT
         prefix: before the names in the message.
         by: file that says what is executed.
     """
-    for name in (*executed, *(one for one in said if one not in executed)):
+    for name in (*executed, *(text for text in said if text not in executed)):
         if name not in said:
             yield f"`{prefix}{name}` is missing, `{by}` has {_shown(executed[name])}"
         elif name not in executed:

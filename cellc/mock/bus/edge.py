@@ -165,7 +165,7 @@ class Subscription(Generic[Sample]):
             self._on_sample()
 
     def take(self, now_ns: int) -> Received[Sample] | None:
-        """Remove and return the oldest sample whose lifespan has not passed; None where there is none."""
+        """Remove and return the oldest sample whose lifespan has not passed, or None."""
         while self._queue:
             received = self._queue.popleft()
             if received.expires_ns is None or now_ns < received.expires_ns:

@@ -36,7 +36,7 @@ class EdgeBehaviour:
 
     @property
     def is_ideal(self) -> bool:
-        """Tell whether every sample arrives at once."""
+        """Tell whether every sample arrives immediately."""
         return self is IDEAL or self == IDEAL
 
     @property
@@ -106,7 +106,7 @@ class QosEvents:
         return sum(event.count for event in self.log if (event.kind, event.topic, event.node) == (kind, topic, node))
 
     def lines(self) -> tuple[str, ...]:
-        """Return one line for each endpoint and kind of event, in the order in which they came first.
+        """Return one line for each endpoint and kind of event, in the order of their first occurrence.
 
         Incompatible endpoints are left out: they are found, with the policy, before anything is sent.
         """
@@ -128,15 +128,15 @@ class EdgeName:
 
 
 Apply = Callable[[EdgeBehaviour], None]
-"""Gives an edge another behaviour from now on."""
+"""Gives an edge another behavior from now on."""
 
 
 class Network:
-    """Behaviours of edges by name, drawn from one seed.
+    """Behaviors of edges by name, drawn from one seed.
 
     Attributes:
         events: of the middleware, over all topics.
-        disconnections: interfaces that came back with a profile which their peers do not match, one line each.
+        disconnections: interfaces that returned with a profile which their peers do not match, one line each.
         middleware: its rules.
         timers: the simulated clock.
     """
@@ -148,7 +148,7 @@ class Network:
         seed: int,
         middleware: Middleware = DDS,
     ) -> None:
-        """Bind the network to what the contract says of it; ``seed`` is that of the run."""
+        """Bind the network to what the contract says about it; ``seed`` is that of the run."""
         self.middleware = middleware
         self.events = QosEvents()
         self.timers = timers
@@ -162,7 +162,7 @@ class Network:
         self._cuts: list[tuple[frozenset[str], frozenset[str] | None]] = []
 
     def attach(self, edge: EdgeName, apply: Apply) -> None:
-        """Let an edge be told of its behaviour, now and whenever it changes."""
+        """Let an edge be told of its behavior, now and whenever it changes."""
         self._edges.setdefault(edge, []).append(apply)
         apply(self.behaviour(edge))
 
@@ -186,7 +186,7 @@ class Network:
         self._disturbed.append((topic, source, sink, behaviour))
         self._tell()
 
-    def calm(self, topic: str) -> None:
+    def restore_topic(self, topic: str) -> None:
         """Let the edges of a topic behave as declared again."""
         self._disturbed = [entry for entry in self._disturbed if entry[0] != topic]
         self._tell()
@@ -210,7 +210,7 @@ class Network:
 
     def reconnect(self, topic: str) -> None:
         """Let an interface come back with its declared profile."""
-        self.calm(topic)
+        self.restore_topic(topic)
         self.restore(*(source.node for source in self._interfaces[topic].sources))
 
     def silence(self, *servers: str) -> None:

@@ -60,7 +60,7 @@ def hears(contract: Contract, topic: str, source: str, sink: str) -> bool:
 
 
 def task_node(contract: Contract) -> str:
-    """Return the node that the mock's task stands for: the client of the action that plans and executes.
+    """Return the node that the mock's task represents: the client of the action that plans and executes.
 
     Where there is no such action it is the client of a controller or an adapter.
     """

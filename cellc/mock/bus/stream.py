@@ -130,7 +130,7 @@ class StreamEdge:
 
 
 def _in_order(arrivals: IntArray) -> IntArray:
-    """Let each sample wait for those before it; one that never comes holds nobody up."""
+    """Let each sample wait for those before it; one that never comes delays no other sample."""
     waited = np.maximum.accumulate(np.where(arrivals == NEVER_NS, 0, arrivals))
     return np.where(arrivals == NEVER_NS, NEVER_NS, waited)
 

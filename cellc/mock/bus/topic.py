@@ -90,7 +90,7 @@ class Writer(Generic[Sample]):
         self._deadline: DeadlineWatch | None = None
         if qos.deadline_s is not None and network.middleware.reports_events:
             self._deadline = DeadlineWatch(qos.deadline_s, network.timers, self._missed)
-        # An automatic publisher loses its liveliness with its process alone, and then there is nobody to tell.
+        # An automatic publisher loses its liveliness with its process alone, and then no reader is left.
         self._lease: Lease | None = None
         if (
             qos.liveliness == "manual_by_topic"

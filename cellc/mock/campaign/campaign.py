@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from cellc.contract.compute.work import Hire, Work, stream
+from cellc.contract.compute.work import ExecutorFactory, Work, stream
 from cellc.contract.limits import Limits, limits, use
 from cellc.mock.campaign.limits import LimitsReport, check_limits, merge
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun, RunEnd
@@ -147,11 +147,13 @@ class Campaign:
         return bool(self.ends) and not self.failed
 
 
-def run_all(cell: MockCell, runs: Sequence[CampaignRun], seed: int, hire: Hire | None) -> Iterator[tuple[int, RunEnd]]:
+def run_all(
+    cell: MockCell, runs: Sequence[CampaignRun], seed: int, factory: ExecutorFactory | None
+) -> Iterator[tuple[int, RunEnd]]:
     """Yield the ends of runs with their numbers, as they come."""
-    if hire is None:
+    if factory is None:
         return ((number, execute(cell, run, seed)) for number, run in enumerate(runs))
-    return stream(Work(_begin, Assignment.of(cell, seed), _identifier), runs, hire)
+    return stream(Work(_begin, Assignment.of(cell, seed), _identifier), runs, factory)
 
 
 def _identifier(run: CampaignRun) -> str:
@@ -159,7 +161,8 @@ def _identifier(run: CampaignRun) -> str:
 
 
 def make_plan(cell: MockCell, cases: Sequence[FaultCase], seed: int) -> tuple[CampaignPlan, tuple[RunEnd, ...]]:
-    """Run what is undisturbed, and plan faults for what succeeds; a rehearsal that fails by itself is told as failed.
+    """Run what is undisturbed, and plan faults for what succeeds; a rehearsal that fails by itself is reported as
+    failed.
 
     Raises:
         MockError: the cell cannot be executed, or has no rehearsal without faults.
@@ -177,18 +180,18 @@ def conduct(
     baselines: tuple[RunEnd, ...],
     *,
     seed: int,
-    hire: Hire | None,
+    factory: ExecutorFactory | None,
     progress: Progress,
 ) -> Campaign:
     """Execute runs here, or by a crew; the campaign is the same whoever does.
 
     Raises:
-        ComputeError: nobody can execute a run.
+        ComputeError: no worker can execute a run.
         MockError: a run cannot be executed.
     """
     ends: dict[int, RunEnd] = {}
     failed = 0
-    for number, end in run_all(cell, runs, seed, hire):
+    for number, end in run_all(cell, runs, seed, factory):
         ends[number] = end
         failed += not end.passed
         progress(len(ends), len(runs), failed)

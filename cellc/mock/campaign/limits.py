@@ -7,10 +7,10 @@ spacing. So nothing has to be allowed for sampling; what is allowed is rounding 
 in its last place, 2^-53 |x| each, and a difference of order n over steps of h seconds makes of an error e at most
 2^n e / h^n: with 16 units, at 2 ms and 6.3 rad, 2e-5 rad/s^3, far below any jerk limit.
 
-A hold sets the command to the measured position at once, in the mock as in the real controller, so it steps; so does
-whatever else the controller notes as an interruption. There only the position is compared with its limit, and the step
-is told with its size. A hold asks for no motion: where the measured position itself lies outside the limits, as that of
-a displaced joint may, the hold is told apart and is no excess.
+A hold sets the command to the measured position immediately, in the mock as in the real controller, so it steps; so
+does whatever else the controller notes as an interruption. There only the position is compared with its limit, and the
+step is reported with its size. A hold asks for no motion: where the measured position itself lies outside the limits,
+as that of a displaced joint may, the hold is distinguished and is no excess.
 
 Controllers that send positions instead of trajectories, those of grippers, leave speed to their device: their positions
 are checked, the rest nobody can check here.

@@ -51,7 +51,7 @@ class CampaignRun:
 
     @classmethod
     def undisturbed(cls, entry: RehearsalEntry) -> CampaignRun:
-        """Return the run of a rehearsal as it stands, which has to succeed."""
+        """Return the run of a rehearsal as it is, which has to succeed."""
         return cls(entry.name, (), entry, (AttemptOutcome.SUCCEEDED,), None)
 
     @property

@@ -31,7 +31,7 @@ SHORT: dict[RunOutcome, str] = {
     AttemptOutcome.UNCOMMANDED_MOTION: "MOVED",
     AttemptOutcome.TIMEOUT: "time",
 }
-"""Outcomes as the matrix has them; one that is not here stands in full."""
+"""Outcomes as the matrix abbreviates them; others are written in full."""
 
 _STEPS = {
     "hold": "the command goes to where the joint is measured",

@@ -1,4 +1,4 @@
-"""The commands behind `--campaign`, `--list` and `--replay`: plan, run, report, and say how it went."""
+"""The commands behind `--campaign`, `--list` and `--replay`: plan, run, report, and print the result."""
 
 from __future__ import annotations
 
@@ -150,14 +150,14 @@ def _conduct(cell: MockCell, choose: Choice, options: MockOptions) -> Campaign:
     begun = perf_counter()
     plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
     runs = choose(plan)
-    hire, who = options.crew()
+    factory, who = options.executor()
     with progress("campaign") as update:
 
         def told(done: int, total: int, failed: int) -> None:
             update(pace(f"{done} of {total}", total, done, failed, perf_counter() - begun))
 
         try:
-            campaign = conduct(cell, runs, baselines, seed=options.seed, hire=hire, progress=told)
+            campaign = conduct(cell, runs, baselines, seed=options.seed, factory=factory, progress=told)
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
     if options.records is not None:
@@ -195,6 +195,6 @@ def pace(run: str, total: int, done: int, failed: int, seconds: float) -> str:
 
 
 def stopped(stop: MockError) -> int:
-    """Say why nothing came of it; return the exit code."""
+    """Say why there is no result of it; return the exit code."""
     refuse(str(stop))
     return 2

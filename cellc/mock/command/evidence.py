@@ -103,7 +103,7 @@ class EvidenceCollector:
 def recorded(
     cell: MockCell, entry: RehearsalEntry, file: BinaryIO, seed: int
 ) -> tuple[RehearsalResult, TraceResult | None]:
-    """Run a rehearsal and write its bag to a file; the trace is None where the cell never came up.
+    """Run a rehearsal and write its bag to a file; the trace is None where the cell never started.
 
     Raises:
         MockError: it names what the contract does not have.

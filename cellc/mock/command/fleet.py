@@ -52,8 +52,8 @@ class Rehearsed:
     @property
     def passed(self) -> bool:
         """Whether everything ended as it must."""
-        swept = all(one.verdict in (None, "passed") for one in self.sweeps or ())
-        return not self.problem and swept and all(one.passed for one in self.rehearsals)
+        swept = all(sweep.verdict in (None, "passed") for sweep in self.sweeps or ())
+        return not self.problem and swept and all(rehearsal.passed for rehearsal in self.rehearsals)
 
 
 def member_of(name: str, folder: Path, *, edited: bool, spec: Path | None = None) -> Member:
@@ -73,7 +73,7 @@ def rehearse_all(members: Sequence[Member], options: MockOptions) -> Iterator[Re
     """Yield what became of each folder, in their order.
 
     Raises:
-        ComputeError: nobody can execute one.
+        ComputeError: no worker can execute one.
     """
     begun = perf_counter()
     with progress("mock") as update, closing(_rehearsed(members, options)) as ended:
@@ -91,20 +91,20 @@ def rehearse_all(members: Sequence[Member], options: MockOptions) -> Iterator[Re
 
 
 def _rehearsed(members: Sequence[Member], options: MockOptions) -> Generator[Rehearsed, None, None]:
-    hire, _ = options.crew()
+    factory, _ = options.executor()
     # Another computer may lack meshes; finding that out takes as long as a rehearsal.
     assigned = [
-        Assignment.of(cell_of(one.read), options.seed)
+        Assignment.of(cell_of(member.read), options.seed)
         if options.cluster is not None
-        else Assignment(one.read, options.seed, limits(), package_path(), None)
-        for one in members
-        if one.read is not None
+        else Assignment(member.read, options.seed, limits(), package_path(), None)
+        for member in members
+        if member.read is not None
     ]
-    if hire is None or len(assigned) < 2:
-        return (_rehearse(one) for one in assigned)
-    names = {one.folder.contract.configuration_id: one.folder.contract.cell for one in assigned}
+    if factory is None or len(assigned) < 2:
+        return (_rehearse(item) for item in assigned)
+    names = {item.folder.contract.configuration_id: item.folder.contract.cell for item in assigned}
     work = Work(_begin, None, lambda one: names[one.folder.contract.configuration_id])
-    return in_order(stream(work, assigned, hire))
+    return in_order(stream(work, assigned, factory))
 
 
 def _begin(_: None) -> Callable[[Assignment], Rehearsed]:
@@ -120,8 +120,8 @@ def _rehearse(assignment: Assignment) -> Rehearsed:
         return Rehearsed(problem=str(problem))
     return Rehearsed(
         tuple(
-            FleetRehearsal(name=one.name, outcome=one.outcome, expected=one.expected, passed=one.passed)
-            for one in results
+            FleetRehearsal(name=result.name, outcome=result.outcome, expected=result.expected, passed=result.passed)
+            for result in results
         ),
         seconds=process_time() - start_s,
     )

@@ -114,7 +114,7 @@ class LiveView:
             self._serve()
             self._await_viewer()
         else:
-            self._server.clear_session()  # time begins anew
+            self._server.clear_session()  # time starts again
         latched = {channel.topic for channel in summary.channels.values() if _is_latched(channel.metadata)}
         told = _told(entry, result)
         begun, first_ns = monotonic(), None

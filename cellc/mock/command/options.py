@@ -17,7 +17,7 @@ from cellc.mock.errors import MockError
 from cellc.mock.result import AttemptRecord, to_json_lines
 
 if TYPE_CHECKING:
-    from cellc.contract.compute.work import Hire
+    from cellc.contract.compute.work import ExecutorFactory
 
 _LONGEST_RECORD = 1 << 20
 
@@ -28,7 +28,7 @@ class MockOptions:
 
     Attributes:
         program: how the command was called, for the commands that replay a run.
-        rehearsals: to run; all of the folder where there are none.
+        rehearsals: to run; all of the folder without one.
         campaign: run every fault at every step.
         list_only: print the runs of a campaign, and run none.
         replay: runs of a campaign to run alone.
@@ -143,9 +143,9 @@ class MockOptions:
             return f"--speed must be greater than 0, got {self.speed}"
         return ""
 
-    def crew(self) -> tuple[Hire | None, str]:
+    def executor(self) -> tuple[ExecutorFactory | None, str]:
         """Return who executes runs, None for this process alone, and how many they are in words."""
-        # What hires takes longer to load than a rehearsal to be read.
+        # A factory takes longer to load than a rehearsal to be read.
         from cellc.contract.compute.processes import processes, usable_cores
 
         if self.cluster is not None:
@@ -195,7 +195,7 @@ def write_records(path: Path, records: Iterable[AttemptRecord]) -> None:
     """Write a file of records whole or not at all; a pipe or a device such as ``/dev/stdout`` is written to.
 
     Raises:
-        MockError: the file cannot be written, or what stands there is a link or no file of records.
+        MockError: the file cannot be written, or what is there is a link or no file of records.
     """
     refuse_foreign(path)
     content = to_json_lines(records).encode()
@@ -210,7 +210,7 @@ def write_records(path: Path, records: Iterable[AttemptRecord]) -> None:
 
 
 def refuse_foreign(path: Path) -> None:
-    """Raise MockError where a link stands at the path of the records, or a file that holds something else."""
+    """Raise MockError where a link is at the path of the records, or a file that holds something else."""
     if _is_stream(path):
         return
     if path.is_symlink():

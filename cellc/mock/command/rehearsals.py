@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class TimedResult:
-    """A result with the time that the host needed, which stands in no record and no evidence."""
+    """A result with the time that the host needed, which is in no record and no evidence."""
 
     result: RehearsalResult
     wall_time_s: float

@@ -79,7 +79,7 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> 
     """
     begun, done = perf_counter(), 0
     failed = 0
-    hire, who = options.crew()
+    factory, who = options.executor()
     with progress("sweep") as update, ExitStack() as stack:
         journal: Journal | None = None
         if options.journal is not None:
@@ -96,7 +96,7 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> 
 
         known = {} if journal is None else journal.runs
         try:
-            found = sweep(cell, entry, seed=options.seed, most=options.sweep, hire=hire, known=known, keep=keep)
+            found = sweep(cell, entry, seed=options.seed, most=options.sweep, factory=factory, known=known, keep=keep)
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
     remark(f"{done} runs in {perf_counter() - begun:.1f} s, {who}")

@@ -15,7 +15,7 @@ class Cause(str, Enum):
 
     UNWRITTEN = "unwritten"  # no command in the update in which a tolerance is violated
     HOLD = "hold"  # a plain hold of the measured position, on cancel, abort or activation
-    DECELERATION = "deceleration"  # constrained stop on cancel: its acceleration begins and ends at once
+    DECELERATION = "deceleration"  # constrained stop on cancel: its acceleration begins and ends abruptly
     REPLACED = "replaced"  # a trajectory takes over from one that was moving
     OFF_COMMAND = "off_command"  # a trajectory starts from a measured position that was not the commanded one
     SCALING = "scaling"  # the speed scaling factor changed

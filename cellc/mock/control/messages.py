@@ -15,7 +15,7 @@ class TrajectoryPoint:
         velocities: rad/s or m/s.
         accelerations: rad/s² or m/s².
         effort: N m or N.
-        time_from_start_ns: when the point is due, counted from the start of the trajectory.
+        time_from_start_ns: when the point is scheduled, counted from the start of the trajectory.
     """
 
     positions: tuple[float, ...] = ()
@@ -87,7 +87,7 @@ class GoalResponse:
     Attributes:
         accepted: all that the client is told.
         goal_id: number of the goal, counted from 1 by the manager; 0 where it was rejected.
-        log_reason: why it was rejected, which in reality stands only in the controller's log.
+        log_reason: why it was rejected, which in reality is only in the controller's log.
     """
 
     accepted: bool

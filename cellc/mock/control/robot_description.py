@@ -96,7 +96,7 @@ def _check_part(part: HardwarePart, component: HardwareComponent, joints: Mappin
 
 
 def follows(part: HardwarePart) -> bool:
-    """Tell whether hardware lets a joint follow the joint that the URDF says; it does unless told otherwise."""
+    """Tell whether hardware lets a joint follow the joint that the URDF says; it does by default."""
     return part.mimic is None or part.mimic.strip().lower() != "false"
 
 
@@ -127,7 +127,7 @@ def read_number(text: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class JointLimits:
-    """Limits that the joint limiters enforce; infinite where there is none.
+    """Limits that the joint limiters enforce; infinite without one.
 
     Attributes:
         lower: rad or m.

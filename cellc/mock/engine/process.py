@@ -34,11 +34,11 @@ class EventQueue:
         self._sequence += 1
 
     def next_ns(self) -> int | None:
-        """Return the time of the next event; None where there is none."""
+        """Return the time of the next event, or None."""
         return self._heap[0][0] if self._heap else None
 
     def pop_due(self, now_ns: int) -> Event | None:
-        """Remove and return the next event that is due at ``now_ns``; None where there is none."""
+        """Remove and return the next pending event at ``now_ns``, or None."""
         if self._heap and self._heap[0][0] <= now_ns:
             at_ns, _, action = heapq.heappop(self._heap)
             return Event(at_ns, action)

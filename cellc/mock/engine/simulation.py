@@ -57,7 +57,7 @@ class Simulation:
         self._events = self._events if events is None else events
 
     def next_foreground_ns(self) -> int | None:
-        """Return the time of the next event of the foreground; None where there is none."""
+        """Return the time of the next event of the foreground, or None."""
         return self._foreground.next_ns()
 
     def every(self, first_ns: int, rate_hz: float, action: Callable[[int], None]) -> None:
@@ -104,7 +104,7 @@ class Simulation:
             raise LimitReachedError(text, "mock-events")
 
     def _check_progress(self, reached_ns: int) -> None:
-        """Raise RuntimeError where the clock stands still: a loop without a wait is a bug, and must not hang."""
+        """Raise RuntimeError where the clock is at standstill: a loop without a wait is a bug, and must not hang."""
         self._steps_at_once = 0 if reached_ns > self._last_ns else self._steps_at_once + 1
         self._last_ns = reached_ns
         if self._steps_at_once > _MAX_STEPS_AT_ONCE:

@@ -11,11 +11,11 @@ from cellc.mock.result import AttemptRecord, PacketStep
 def begun_faults(
     faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]
 ) -> tuple[tuple[float, FaultEntry], ...]:
-    """Return the instant in seconds at which each fault began, rising; one whose event never came is left out."""
-    return tuple(sorted(_begun(faults, attempts), key=lambda begun: begun[0])) if attempts else ()
+    """Return the instant in seconds at which each fault began, rising; one whose event never occurred is left out."""
+    return tuple(sorted(_started(faults, attempts), key=lambda begun: begun[0])) if attempts else ()
 
 
-def _begun(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> Iterator[tuple[float, FaultEntry]]:
+def _started(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> Iterator[tuple[float, FaultEntry]]:
     begun_ns = attempts[-1].started_ns  # the last record sums up and begins with the first step
     for fault in faults:
         if fault.event is None:

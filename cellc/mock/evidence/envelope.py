@@ -18,7 +18,7 @@ FIRST_WIDTH_NS = 10_000_000
 """Length of a slot at first; what changes more slowly should be added as often."""
 
 _PIECE = 512
-"""Ages that are put into the envelope at once."""
+"""Ages that are put into the envelope immediately."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +39,14 @@ class Envelope:
 
     @property
     def extremes(self) -> tuple[float, float]:
-        """The least and the greatest value; zeros where there is none."""
+        """The least and the greatest value; zeros without one."""
         if not np.isfinite(self.lowest).any():
             return 0.0, 0.0
         return float(np.nanmin(self.lowest)), float(np.nanmax(self.highest))
 
 
 class EnvelopeBuilder:
-    """Adds samples to slots; when they do not fit any more, each two neighbouring slots become one."""
+    """Adds samples to slots; when they do not fit any more, each two neighboring slots become one."""
 
     def __init__(self, signals: int) -> None:
         self._width_ns = FIRST_WIDTH_NS

@@ -1,4 +1,4 @@
-"""The evidence folder: made ready beside its place, then put there all at once; files of others stay."""
+"""The evidence folder: made ready beside its place, then put there in one step; files of others stay."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class EvidenceFolder:
             names: of the files that will be written.
 
         Raises:
-            MockError: something stands in the way, or another run writes the same folder.
+            MockError: something is in the way, or another run writes the same folder.
         """
         self._folder = folder
         self._staging = staging_of(folder)
@@ -70,7 +70,7 @@ class EvidenceFolder:
         self._refuse_edited(names)
         try:
             make_folder(folder.parent)
-            make_staging(folder)  # fails where anything stands there, a link too
+            make_staging(folder)  # fails where anything is there, a link too
             make_folder(self._staging / "new")
         except BlockingIOError:
             raise MockError(folder.as_posix(), _BUSY) from None
@@ -94,7 +94,7 @@ class EvidenceFolder:
         """Put all files in their place, the index last, and remove what an earlier call wrote and this one did not.
 
         Args:
-            identity: stands in the index before the hashes.
+            identity: is in the index before the hashes.
 
         Raises:
             MockError: a file was edited meanwhile, or the disk refused; the folder is as it was before.
@@ -117,7 +117,7 @@ class EvidenceFolder:
         discard(self._staging)
 
     def _refuse_edited(self, names: Sequence[str]) -> None:
-        """Raise MockError where a file stands that would be replaced and that cellc did not write."""
+        """Raise MockError where there is a file that would be replaced and that cellc did not write."""
         known = [_hashes(self._folder), *(_hashes(staging / "new") for staging in self._stale)]
         most = left = limits().folder_total_bytes
         for name in sorted({*names, *(name for hashes in known for name in hashes)} - {INDEX}):
@@ -125,7 +125,7 @@ class EvidenceFolder:
             if path.is_symlink() or (path.exists() and not path.is_file()):
                 raise MockError(path.as_posix(), "must be a file: evidence is written there")
             left -= path.stat().st_size if path.exists() else 0
-            if left < 0:  # a name in an index, and a file without content on the disk, cost a stranger nothing
+            if left < 0:  # a name in an index, and a file without content on the disk, cost an attacker nothing
                 raise MockError(path.as_posix(), f"exceeds {most} bytes of evidence; {option('folder-total-bytes')}")
             digest = _sha256(path) if path.exists() else ""
             if digest and all(hashes.get(name) != digest for hashes in known):

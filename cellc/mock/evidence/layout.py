@@ -28,8 +28,12 @@ def to_layout(contract: Contract) -> str:
     """Return the layout as the text of a file."""
     broadcasters = list(_controllers(contract, (Behaviour.JOINT_STATE_BROADCASTER,)))
     followers = list(_controllers(contract, TRAJECTORIES))
-    positions = dict.fromkeys(f"{joint_states_topic(contract, *one).name}.position[:]" for one in broadcasters)
-    errors = dict.fromkeys(f"{controller_state_topic(contract, *one).name}.error.positions[:]" for one in followers)
+    positions = dict.fromkeys(
+        f"{joint_states_topic(contract, *broadcaster).name}.position[:]" for broadcaster in broadcasters
+    )
+    errors = dict.fromkeys(
+        f"{controller_state_topic(contract, *follower).name}.error.positions[:]" for follower in followers
+    )
     panels = {
         "3D!cell": _scene(contract),
         "Plot!positions": _plot("Joint positions, rad and m", positions),

@@ -103,6 +103,6 @@ def _qos(contract: Contract, topic: str, node: str, fallback: ContractQos) -> Co
 
 
 def _in_namespace(contract: Contract, manager: str, name: str) -> str:
-    # What stands behind an adapter has no manager, and states its topics in full.
+    # What is behind an adapter has no manager, and states its topics in full.
     namespace = contract.managers[manager].namespace.strip("/") if manager in contract.managers else ""
     return f"/{namespace}/{name}" if namespace else f"/{name}"

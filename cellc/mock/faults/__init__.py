@@ -1,1 +1,1 @@
-"""Faults as data: one small type for each kind, begun and ended at their times."""
+"""Faults as data: one small type for each kind, started and ended at their times."""

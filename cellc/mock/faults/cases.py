@@ -92,7 +92,7 @@ def device_of(contract: Contract, controller: str) -> str | None:
 
 
 def first_joints(contract: Contract) -> dict[str, str]:
-    """Return one joint of everything that takes goals: the first, which stands for the others."""
+    """Return one joint of everything that takes goals: the first, which represents the others."""
     firsts: dict[str, str] = {}
     for joint, controller in driven_joints(contract).items():
         firsts.setdefault(controller, joint)

@@ -32,7 +32,7 @@ class Bounds:
     contract: Contract
 
     def hold_s(self) -> float:
-        """Return the bound of what the control stack reports: the attempt ends at once and its joints are held."""
+        """Return the bound of what the control stack reports: the attempt ends immediately and its joints are held."""
         return SETTLE_S + MONITOR_S + cancel_bound_s(self.contract)
 
     def watched_s(self) -> float:
@@ -81,7 +81,7 @@ class Bounds:
 def unobserved(bounds: Bounds, frames: tuple[str, ...]) -> StepEnding:
     """Return how steps end while nothing new is seen of ``frames``.
 
-    A step that does not look itself is concerned as long as the cell stands where an observation has led it.
+    A step that does not look itself is affected as long as the cell is where an observation has led it.
     """
 
     def ending(step: CellStep) -> Ending:

@@ -1,4 +1,4 @@
-"""Frames and time: a frame that nobody or that two publish, and a clock that jumps."""
+"""Frames and time: a frame with no publisher or with two, and a clock that jumps."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def _dropped(bounds: Bounds, frame: str, step: CellStep) -> Ending:
 
 
 def _doubled(bounds: Bounds, frame: str, step: CellStep) -> Ending:
-    """A step that does not look the frame up is concerned as long as the cell stands where the frame has led it."""
+    """A step that does not look the frame up is affected as long as the cell is where the frame has led it."""
     if step.kind == "move" and frame in step.frames:
         return ends_in(AttemptOutcome.TF_FAILURE, within_s=bounds.asked_s())
     if bounds.contract.frames[frame].kind != "dynamic":

@@ -83,7 +83,7 @@ class Cancel:
 
 @dataclass(frozen=True, slots=True)
 class Reject:
-    """Deactivates a controller before its next goal, at once or as soon as the goal that it has is over."""
+    """Deactivates a controller before its next goal, immediately or as soon as the goal that it has is over."""
 
     kind: ClassVar[FaultKind] = FaultKind.REJECT
     controller: str
@@ -215,7 +215,7 @@ def _rejected(bounds: Bounds, name: str, facts: ContractController, step: CellSt
     if facts.action is None and step.controllers:
         return ends_in(AttemptOutcome.STALE_STATE, within_s=bounds.joint_state_s())
     if name in step.controllers:
-        # A goal that is sent in the very cycle of the switch is accepted, and loses its controller at once.
+        # A goal that is sent in the very cycle of the switch is accepted, and loses its controller immediately.
         return ends_in(AttemptOutcome.GOAL_REJECTION, AttemptOutcome.WRONG_OWNER, within_s=bounds.refused_s(step))
     return BORNE
 

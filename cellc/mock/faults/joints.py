@@ -99,7 +99,7 @@ class Slow:
 
 @dataclass(frozen=True, slots=True)
 class Displace:
-    """A joint stands beside its command by rad or m, as after a push or a slipped gear."""
+    """A joint is offset from its command by rad or m, as after a push or a slipped gear."""
 
     kind: ClassVar[FaultKind] = FaultKind.DISPLACE
     joint: str
@@ -185,7 +185,7 @@ class SkipCycles:
         cycles = BEYOND + (allowed or 0)
         entry = FaultEntry(kind=cls.kind, target="", cycles=cycles)
         adapters = contract.adapters.values()
-        watched = any((cycles + 1) * one.command_period_s > one.command_timeout_s for one in adapters)
+        watched = any((cycles + 1) * adapter.command_period_s > adapter.command_timeout_s for adapter in adapters)
         stops = (AttemptOutcome.PROTECTIVE_STOP,) if watched else ()
         missed = BORNE if allowed is None else ends_in(AttemptOutcome.MISSED_CYCLE, *stops, within_s=within_s)
         yield fault_case(entry, contract, lambda step: missed)
@@ -206,7 +206,7 @@ def _displacement(contract: Contract, joint: str) -> float:
 
 
 def _scaled(bounds: Bounds, device: str, step: CellStep) -> Ending:
-    """A controller that follows the scaling stands still; where the arm stands at its goal already that is borne."""
+    """A controller that follows the scaling stops; where the arm is already at its goal, that is tolerated."""
     used = [facts for name, facts in controllers(bounds.contract).items() if name in step.controllers]
     if not any(facts.device == device and facts.behaviour is Behaviour.SCALED_JOINT_TRAJECTORY for facts in used):
         return BORNE

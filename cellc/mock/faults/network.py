@@ -185,7 +185,7 @@ class CutNetwork:
         elif self._given_up:
             ports.hardware.end_cause(self.component)
         else:
-            ports.hardware.heed_commands(self.component)
+            ports.hardware.accept_commands(self.component)
 
     def _give_up(self, ports: FaultPorts, component: str) -> None:
         if self._cut:

@@ -107,10 +107,10 @@ class HardwarePort:
         for manager in self.control.managers_of_component(component):
             manager.disturbances.ignore_commands(component)
 
-    def heed_commands(self, component: str) -> None:
+    def accept_commands(self, component: str) -> None:
         """Let commands reach a component again."""
         for manager in self.control.managers_of_component(component):
-            manager.disturbances.heed_commands(component)
+            manager.disturbances.accept_commands(component)
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +129,7 @@ class ControllerPort:
         self.control.manager_of(controller).switch_controllers([controller], [])
 
     def deactivate_when_idle(self, controller: str) -> None:
-        """Deactivate a controller, at once or as soon as the goal that it has is over."""
+        """Deactivate a controller, immediately or as soon as the goal that it has is over."""
         manager = self.control.manager_of(controller)
         if not self.actions.is_executing(controller):
             manager.switch_controllers([], [controller])

@@ -64,7 +64,7 @@ class _Program:
 
 
 class ProgramStop(_Program):
-    """The program of a robot stops: it stands, tells so, and follows no set points."""
+    """The program of a robot stops: the robot stops, reports it, and follows no set points."""
 
     kind: ClassVar[FaultKind] = FaultKind.PROGRAM_STOP
 
@@ -129,7 +129,7 @@ class Jog:
 class StaleSetPoints:
     """The program of a robot stops, somebody jogs its first joint, and starts the program again.
 
-    Where a controller keeps its claim meanwhile, the arm jumps to where it stood before.
+    Where a controller keeps its claim meanwhile, the arm jumps to where it was before.
     """
 
     kind: ClassVar[FaultKind] = FaultKind.STALE_SET_POINTS

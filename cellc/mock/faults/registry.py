@@ -49,7 +49,7 @@ class FaultType(Protocol):
 
 
 class Injection:
-    """One entry of rehearsals.json with the fault that it stands for.
+    """One entry of rehearsals.json with its fault.
 
     Attributes:
         begun_ns: when the fault began; None before, and for ever where its event never comes.
@@ -109,8 +109,8 @@ class Injection:
             ports.schedule.at(end_ns, partial(self._fault.end, ports))
 
 
-def any_begun(injections: Iterable[Injection]) -> bool:
-    """Tell whether a fault has begun, or was to begin and changed the cell on its way."""
+def any_started(injections: Iterable[Injection]) -> bool:
+    """Tell whether a fault has started, or was to begin and changed the cell on its way."""
     return any(injection.touched for injection in injections)
 
 

@@ -99,9 +99,9 @@ class Delay:
         ports.samples.hold_back(ports.samples.of_joints(self.joints), round(self.delay_s * 1e9))
 
     def end(self, ports: FaultPorts) -> None:
-        """Let what is stamped from now on arrive at once."""
+        """Let what is stamped from now on arrive immediately."""
         if self.topic is not None:
-            ports.network.calm(self.topic)
+            ports.network.restore_topic(self.topic)
         ports.samples.release(ports.samples.of_joints(self.joints), round(self.delay_s * 1e9))
 
 

@@ -49,7 +49,7 @@ def _sensed(contract: Contract) -> dict[str, ContractSwitched]:
 
 
 def _unseen(bounds: Bounds, device: str, within_s: float, step: CellStep) -> Ending:
-    """Who waits for the sensor waits in vain, unless it read before what is waited for."""
+    """Who waits for the sensor waits until its timeout, unless it read before what is waited for."""
     if (step.kind, step.target) != ("sense", device):
         return BORNE
     outcomes = (AttemptOutcome.TIMEOUT, AttemptOutcome.SUCCEEDED)

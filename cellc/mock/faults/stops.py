@@ -160,7 +160,7 @@ class WrongPayload:
         self._active = False
 
     def _look(self, ports: FaultPorts) -> None:
-        """Stop where a joint has moved; what made the robot stop is over as soon as it stands."""
+        """Stop where a joint has moved; what made the robot stop is over as soon as it is at rest."""
         if not self._active:
             return
         positions = ports.hardware.positions(self._component, self._joints)
@@ -172,7 +172,7 @@ class WrongPayload:
 
 
 def _overloaded(bounds: Bounds, device: str, step: CellStep) -> Ending:
-    """A step that leaves the arm where it stands bears the fault."""
+    """A step that leaves the arm where it is tolerates the fault."""
     if not any(device_of(bounds.contract, name) == device for name in step.controllers):
         return BORNE
     return ends_in(AttemptOutcome.PROTECTIVE_STOP, AttemptOutcome.SUCCEEDED, within_s=bounds.execution_s(step))

@@ -121,7 +121,7 @@ def mock_run_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
 def _rates(evidence: GateEvidence) -> Iterator[GateCheck]:
     """Judge each expected rate of success by its sweep, and cite what it takes to make that again."""
     drawn = evidence.folder.uncertainty
-    swept = {one.rehearsal: one for one in evidence.sweeps}
+    swept = {sweep.rehearsal: sweep for sweep in evidence.sweeps}
     for name, expected in () if drawn is None else drawn.expected.items():
         text = f"{name} succeeds in {expected.success:.6g} of its runs or more, where not everything is known exactly"
         needed = f"a sweep of {name} that decides it with confidence {expected.confidence:.6g}: --gates --sweep N"

@@ -21,7 +21,7 @@ class JudgedRun:
     Attributes:
         declared: it is a rehearsal of the folder, not a run of a campaign.
         passed: it ended in an outcome that its faults may have, within its bound.
-        limits: how commands compare with limits; None where nobody looked.
+        limits: how commands compare with limits; None where they were not checked.
     """
 
     entry: RehearsalEntry

@@ -42,7 +42,7 @@ def sign_gates(
 
 
 def _distinct(checks: Iterable[GateCheck]) -> Iterator[GateCheck]:
-    """Leave out a line that stands there already."""
+    """Leave out a line that is there already."""
     seen: set[str] = set()
     for check in checks:
         if check.text not in seen:

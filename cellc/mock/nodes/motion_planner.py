@@ -41,10 +41,10 @@ _KEPT_SCENES = 4
 PLANNING_LATENCY_S = 0.05
 """Simulated time charged for every plan, whatever the host needs, so that a run is the same on every machine."""
 OBJECT_EDGE_M = 0.02
-"""Edge of the box that stands for a grasped object in collision checks: the contract states no size."""
+"""Edge of the box that represents a grasped object in collision checks: the contract states no size."""
 _KEPT_PLANS = 256
 _MEETING_NS = 20_000_000
-"""Motions that begin at once are looked at this often: at 1 m/s, every 20 mm."""
+"""Motions that begin together are looked at this often: at 1 m/s, every 20 mm."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -245,7 +245,7 @@ def _reach(
 
 
 def _before(goal: GoalPose) -> Pose:
-    """Return the pose of the tip before the approach; the goal itself where there is none."""
+    """Return the pose of the tip before the approach; the goal itself without one."""
     if goal.approach is None:
         return goal.tip_in_base
     return goal.tip_in_base @ Pose(goal.approach, (0.0, 0.0, 0.0, 1.0))
@@ -302,7 +302,7 @@ class MotionPlanner:
 
         Args:
             positions: of all joints, rad or m.
-            retreat: where the arm has to go back to on a straight line, because it stands at a goal.
+            retreat: where the arm has to go back to on a straight line, because it is at a goal.
         """
         joints = self._model.groups[group].planner.group.joints
         others = tuple((name, value) for name, value in self._independent(positions) if name not in joints)
@@ -310,7 +310,7 @@ class MotionPlanner:
         return self._memory.plan(MotionRequest(group, start, others, self._scene, goal, retreat, self._rng_seed))
 
     def room(self, group: str, positions: Mapping[str, float]) -> tuple[float, float | None]:
-        """Return the least singular value of the tip's Jacobian where a group stands, and its clearance in m.
+        """Return the least singular value of the tip's Jacobian where a group is, and its clearance in m.
 
         Six decimals of the value: the last bits of a decomposition are others with another numpy.
 
@@ -324,7 +324,7 @@ class MotionPlanner:
         return round(planner.min_singular_value(stands), 6), planner.clearance_m(stands)
 
     def meeting(self, motions: Sequence[TimedTrajectory], positions: Mapping[str, float]) -> PlanFailure | None:
-        """Tell when motions that begin at once would touch on their way; None where they keep clear of each other.
+        """Tell when motions that begin together would touch on their way; None where they keep clear of each other.
 
         Args:
             positions: of all joints before they begin, rad or m.

@@ -54,7 +54,7 @@ class JointStateFeed:
         return int((self._edge.arrivals(stamps) + delayed)[newest])
 
     def last_arrivals(self, count: int) -> IntArray:
-        """Return when the last messages of the history arrive; `NEVER_NS` or later stands for one that is lost."""
+        """Return when the last messages of the history arrive; `NEVER_NS` or later represents one that is lost."""
         stamps = self.history.stamps
         arrivals = self.history.arrivals(stamps[-count:])
         if self._edge is None or self._edge.ideal:

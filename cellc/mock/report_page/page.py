@@ -195,7 +195,7 @@ def _cell(ends: Sequence[RunEnd]) -> Element:
 
 
 def gate_section(gates: Sequence[GateResult]) -> Element:
-    """Return the checklists of the gates, each with its evidence; the last one stands open."""
+    """Return the checklists of the gates, each with its evidence; the last one is open."""
     hint = (
         "Each line is judged by the runs of this call and by the generated folder. What they cannot show is UNKNOWN, "
         "with what would show it; no line says anything about hardware."

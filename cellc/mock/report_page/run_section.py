@@ -32,7 +32,7 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class RunEvidence:
-    """What the report knows of one rehearsal; the trace is None where a controller manager never came up.
+    """What the report knows of one rehearsal; the trace is None where a controller manager never started.
 
     Attributes:
         tolerances: path tolerance of each joint that has one, rad or m.
@@ -61,7 +61,7 @@ class RunEvidence:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """A span of a lane; the kind decides its colour, the words are read out where one points at it."""
+    """A span of a lane; the kind decides its color, the words are read out where one points at it."""
 
     from_s: float
     until_s: float
@@ -107,7 +107,7 @@ def _share(at_s: float, time: TimeAxis) -> float:
 
 
 def packet(record: AttemptRecord) -> Element:
-    """Return the eight steps with the time that each came after the one before; steps that were not made are hollow."""
+    """Return the eight steps with the time of each after the one before; steps that were not made are hollow."""
     return tag("ol", *_steps(record), class_="packet")
 
 

@@ -49,7 +49,7 @@ def _counter(name: str) -> NDArray[np.uint64]:
 def draw(quantities: Sequence[UncertainQuantity], seed: int, run: int) -> dict[str, float]:
     """Return the values of a run by the names of the quantities, SI, about zero."""
     bits = _Bits(seed, run)
-    return {one.name: _spread(one, (bits.of(one.name) >> 11) + 0.5) for one in quantities}
+    return {quantity.name: _spread(quantity, (bits.of(quantity.name) >> 11) + 0.5) for quantity in quantities}
 
 
 def _spread(one: UncertainQuantity, of_2_to_53: float) -> float:
@@ -65,9 +65,11 @@ def scale(one: UncertainQuantity) -> float:
 def reality_of(quantities: Sequence[UncertainQuantity], values: Mapping[str, float], seed: int, run: int) -> Reality:
     """Return what is different in a run with these values."""
     parts: dict[tuple[str, str], dict[str, float]] = {}
-    for one in quantities:
-        axes = parts.setdefault((one.kind, one.target), {})
-        axes[one.axis] = axes.get(one.axis, 0.0) + values[one.name]  # two devices that move one tip add up
+    for quantity in quantities:
+        axes = parts.setdefault((quantity.kind, quantity.target), {})
+        axes[quantity.axis] = (
+            axes.get(quantity.axis, 0.0) + values[quantity.name]
+        )  # two devices that move one tip add up
     links: dict[str, Pose] = {}
     for kind in LINKS:
         for target, axes in _of(kind, parts):

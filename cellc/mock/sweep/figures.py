@@ -118,8 +118,8 @@ def explain(
 ) -> tuple[Explanation, ...]:
     """Return every quantity, what differs most first; those of one thing along several axes count as one."""
     groups: dict[str, list[UncertainQuantity]] = {}
-    for one in quantities:
-        groups.setdefault(f"{one.target} {one.source}", []).append(one)
+    for quantity in quantities:
+        groups.setdefault(f"{quantity.target} {quantity.source}", []).append(quantity)
     fail, rest = int(failed.sum()), int((~failed).sum())
     if not fail or not rest or not groups:
         return ()
@@ -133,10 +133,10 @@ def explain(
 def _explanation(
     group: Sequence[UncertainQuantity], values: Mapping[str, Array], failed: Flags, critical: float
 ) -> Explanation:
-    series = [values[one.name] for one in group]
+    series = [values[quantity.name] for quantity in group]
     length = np.sqrt(np.sum([column**2 for column in series], axis=0))
     statistic = max(_distance(column[failed], column[~failed]) for column in (*series, length))
-    names = tuple(one.name for one in group)
+    names = tuple(quantity.name for quantity in group)
     name = (
         names[0] if len(names) == 1 else names[0].rpartition(" ")[0] + (" rotation" if group[0].unit == "rad" else "")
     )
@@ -158,9 +158,9 @@ def _halved(group: Sequence[UncertainQuantity], values: Mapping[str, Array], fai
     2 for each axis; of a uniform one the inner half counts alone.
     """
     weights = np.ones(len(failed))
-    for one in group:
-        shape = values[one.name] / scale(one)
-        weights *= 2.0 * (np.abs(shape) <= 0.5) if one.distribution == "uniform" else 2.0 * np.exp(-1.5 * shape**2)
+    for quantity in group:
+        shape = values[quantity.name] / scale(quantity)
+        weights *= 2.0 * (np.abs(shape) <= 0.5) if quantity.distribution == "uniform" else 2.0 * np.exp(-1.5 * shape**2)
     total = float(weights.sum())
     effective = total**2 / float((weights**2).sum()) if total else 0.0
     return float(weights[failed].sum()) / total if effective >= FIRST_LOOK / 2 else None

@@ -55,7 +55,7 @@ class Journal:
     """A file of runs; used as a context. The first line says which sweep they are of, and what computed them.
 
     Attributes:
-        runs: that stood there already, by number. A last line that was cut off is none.
+        runs: that are there already, by number. A last line that was cut off does not count.
     """
 
     def __init__(self, path: Path, contract: Contract, rehearsal: str, seed: int) -> None:

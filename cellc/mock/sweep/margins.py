@@ -49,17 +49,17 @@ def margins(sweep: Sweep, contract: Contract) -> Iterator[Margin]:
 
 
 def _at(goal: str, rooms: list[GoalRoom], sweep: Sweep, contract: Contract) -> Iterator[Margin]:
-    used = (None if one.joint_room is None else 1.0 - 2.0 * one.joint_room for one in rooms)
+    used = (None if room.joint_room is None else 1.0 - 2.0 * room.joint_room for room in rooms)
     yield from _margin(
-        f"distance at {goal}", "m", (one.distance_m for one in rooms), sweep.uncertainty.tolerances.get(goal)
+        f"distance at {goal}", "m", (room.distance_m for room in rooms), sweep.uncertainty.tolerances.get(goal)
     )
-    yield from _margin(f"clearance at {goal}", "m", (one.clearance_m for one in rooms), 0.0, falling=True)
+    yield from _margin(f"clearance at {goal}", "m", (room.clearance_m for room in rooms), 0.0, falling=True)
     yield from _margin(f"way to a joint's end at {goal}", "1", used, 1.0)
     yield from _margin(
-        f"least singular value at {goal}", "", (one.singular_value for one in rooms), MIN_SINGULAR_VALUE, falling=True
+        f"least singular value at {goal}", "", (room.singular_value for room in rooms), MIN_SINGULAR_VALUE, falling=True
     )
     yield from _margin(
-        f"age of transforms at {goal}", "s", (one.transform_age_s for one in rooms), _transform_age_s(contract, goal)
+        f"age of transforms at {goal}", "s", (room.transform_age_s for room in rooms), _transform_age_s(contract, goal)
     )
 
 

@@ -37,7 +37,7 @@ def explanations(sweep: Sweep) -> tuple[Explanation, ...]:
     """Return what explains the failures, the most first."""
     quantities = sweep.uncertainty.quantities
     rows = [draw(quantities, sweep.seed, run.number) for run in sweep.runs]
-    values = {one.name: np.array([row[one.name] for row in rows]) for one in quantities}
+    values = {quantity.name: np.array([row[quantity.name] for row in rows]) for quantity in quantities}
     return explain(quantities, values, np.array([not run.passed for run in sweep.runs], dtype=np.bool_))
 
 
@@ -64,7 +64,7 @@ def count_lines(sweep: Sweep) -> Iterator[str]:
     )
     counted = Counter(run.outcome for run in sweep.runs)
     yield "outcomes: " + ", ".join(f"{name} {number}" for name, number in counted.most_common())
-    if sweep.failed and not any(one.explains for one in explanations(sweep)):
+    if sweep.failed and not any(explanation.explains for explanation in explanations(sweep)):
         yield f"{_unexplained(sweep)} ({METHOD_SENSITIVITY})"
 
 
@@ -98,7 +98,10 @@ def verdict_line(sweep: Sweep) -> str:
 
 def margin_table(found: Sequence[Margin]) -> Table:
     """Return a row for each margin; a share of the runs is as good as its figure, or better."""
-    rows = [(one.name, *(_shown(one.quantile(share), one.unit) for share in _QUANTILES), _bound(one)) for one in found]
+    rows = [
+        (margin.name, *(_shown(margin.quantile(share), margin.unit) for share in _QUANTILES), _bound(margin))
+        for margin in found
+    ]
     return [("margins", "best 5 %", "median", "95 %", "worst", "bound"), *rows] if rows else ()
 
 
@@ -111,11 +114,11 @@ def _bound(margin: Margin) -> str:
 def drawn_table(sweep: Sweep) -> Table:
     """Return what is drawn; axes of one thing that are drawn alike share a row."""
     alike: dict[tuple[str, str, str], list[str]] = {}
-    for one in sweep.uncertainty.quantities:
-        thing, _, axis = one.name.rpartition(" ")
-        thing, axis = (one.name, "") if one.axis == "offset" else (thing, axis)
-        drawn = f"{_WORDS[one.distribution]} {_shown(one.spread, one.unit)}"
-        alike.setdefault((thing, drawn, one.source), []).append(axis)
+    for quantity in sweep.uncertainty.quantities:
+        thing, _, axis = quantity.name.rpartition(" ")
+        thing, axis = (quantity.name, "") if quantity.axis == "offset" else (thing, axis)
+        drawn = f"{_WORDS[quantity.distribution]} {_shown(quantity.spread, quantity.unit)}"
+        alike.setdefault((thing, drawn, quantity.source), []).append(axis)
     rows = [(f"{thing} {', '.join(axes)}".strip(), drawn, source) for (thing, drawn, source), axes in alike.items()]
     return [("drawn", "distribution", "by"), *rows] if rows else ()
 
@@ -123,10 +126,10 @@ def drawn_table(sweep: Sweep) -> Table:
 def explained_table(sweep: Sweep) -> Table:
     """Return what explains the failures, the most first."""
     rows = []
-    for one in explanations(sweep) if sweep.failed else ():
-        if one.explains:
-            half = "not known" if one.halved is None else f"{one.halved:.2%} fail"
-            rows.append((one.name, f"{one.statistic:.2f}", f"{one.critical:.2f}", half))
+    for explanation in explanations(sweep) if sweep.failed else ():
+        if explanation.explains:
+            half = "not known" if explanation.halved is None else f"{explanation.halved:.2%} fail"
+            rows.append((explanation.name, f"{explanation.statistic:.2f}", f"{explanation.critical:.2f}", half))
     return [("explains failures", "distance", "by chance", "if half as uncertain"), *rows] if rows else ()
 
 
@@ -149,8 +152,8 @@ def run_lines(run: SweepRun, uncertainty: Uncertainty, seed: int) -> Iterator[st
         allowed = "" if limit is None else f", {_shown(limit, 'm')} allowed"
         yield f"        distance at {goal}: {_shown(room.distance_m, 'm')}{allowed}"
     values = draw(uncertainty.quantities, seed, run.number)
-    for one in uncertainty.quantities:
-        yield f"        {one.name}: {_shown(values[one.name], one.unit)}"
+    for quantity in uncertainty.quantities:
+        yield f"        {quantity.name}: {_shown(values[quantity.name], quantity.unit)}"
     yield f"        digest: {run.digest}"
 
 
@@ -169,22 +172,22 @@ def _sweep(sweep: Sweep, contract: Contract) -> dict[str, object]:
         "rehearsal": sweep.rehearsal,
         "seed": sweep.seed,
         "asked": sweep.asked,
-        "quantities": [one.model_dump() for one in sweep.uncertainty.quantities],
+        "quantities": [quantity.model_dump() for quantity in sweep.uncertainty.quantities],
         "runs": [asdict(run) for run in sweep.runs],
         "rate": {"method": METHOD_INTERVAL, **asdict(sweep.rate)},
         "expected": None if sweep.expected is None else sweep.expected.model_dump(),
         "verdict": sweep.verdict,
         "margins": [
             {
-                "name": one.name,
-                "unit": one.unit,
-                "quantiles": {str(share): one.quantile(share) for share in _QUANTILES},
-                "least" if one.falling else "most": one.bound,
+                "name": margin.name,
+                "unit": margin.unit,
+                "quantiles": {str(share): margin.quantile(share) for share in _QUANTILES},
+                "least" if margin.falling else "most": margin.bound,
             }
-            for one in margins(sweep, contract)
+            for margin in margins(sweep, contract)
         ],
         "explanations": {
             "method": METHOD_SENSITIVITY,
-            "found": [{**asdict(one), "explains": one.explains} for one in explanations(sweep)],
+            "found": [{**asdict(explanation), "explains": explanation.explains} for explanation in explanations(sweep)],
         },
     }

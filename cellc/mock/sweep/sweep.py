@@ -8,7 +8,7 @@ from contextlib import closing
 from dataclasses import dataclass
 from math import inf
 
-from cellc.contract.compute.work import Hire, Work, stream
+from cellc.contract.compute.work import ExecutorFactory, Work, stream
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.uncertainty import UNCERTAINTY_FILE, ExpectedSuccess, Uncertainty
 from cellc.mock.campaign.campaign import Assignment
@@ -87,7 +87,7 @@ class Sweep:
 
 
 def name_of(rehearsal: str, run: SweepRun) -> str:
-    """Return the name by which a run of a sweep is told from its rehearsal."""
+    """Return the name by which a run of a sweep is distinguished from its rehearsal."""
     return f"{rehearsal}/{SWEPT}{run.number}"
 
 
@@ -101,17 +101,17 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
     if found is None:
         raise MockError("", f"the folder has no `{UNCERTAINTY_FILE}`; write `uncertainty: {{}}` in the spec, and build")
     known: dict[str, tuple[str, Sequence[str]]] = {
-        **dict.fromkeys(LINKS, ("frame of the description", [one.child for one in cell.folder.description.joints])),
+        **dict.fromkeys(LINKS, ("frame of the description", [joint.child for joint in cell.folder.description.joints])),
         "region": ("dynamic frame", [name for name, one in contract.frames.items() if one.simulated_parent]),
         "clock": ("clock", list(contract.clocks)),
     }
-    named = [(one.target, *known[one.kind]) for one in found.quantities]
+    named = [(quantity.target, *known[quantity.kind]) for quantity in found.quantities]
     named += [(name, "goal", list(contract.goals)) for name in found.tolerances]
     named += [(name, "rehearsal", cell.rehearsals) for name in found.expected]
     for name, kind, names in named:
         if name not in names:
             raise MockError(UNCERTAINTY_FILE, f"names {kind} `{name}`, which the folder does not have")
-    if len({one.name for one in found.quantities}) < len(found.quantities):
+    if len({quantity.name for quantity in found.quantities}) < len(found.quantities):
         raise MockError(UNCERTAINTY_FILE, "names two quantities alike")
     return found
 
@@ -136,7 +136,10 @@ def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, see
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it
         return SweepRun(number, RunFailure.CRASHED.value, False, {}, None, type(bug).__name__)
     arrivals = watched[-1].arrivals if watched else []
-    goals = {goal: _worst([one for one in arrivals if one.goal == goal]) for goal in {one.goal: 0 for one in arrivals}}
+    goals = {
+        goal: _worst([arrival for arrival in arrivals if arrival.goal == goal])
+        for goal in {arrival.goal: 0 for arrival in arrivals}
+    }
     missed = next((name for name, one in goals.items() if one.distance_m > uncertainty.tolerances.get(name, inf)), None)
     outcome = result.outcome.value if missed is None or not result.passed else f"missed {missed}"
     digest = hashlib.sha256(repr((result.attempts, arrivals)).encode()).hexdigest()[:16]
@@ -178,15 +181,15 @@ def _arriving(
     uncertainty: Uncertainty,
     seed: int,
     numbers: Sequence[int],
-    hire: Hire | None,
+    factory: ExecutorFactory | None,
 ) -> Generator[SweepRun, None, None]:
     """Yield the ends of runs as they come."""
-    if hire is None:
+    if factory is None:
         for number in numbers:
             yield execute(cell, entry, uncertainty, seed, number)
         return
     work = Work(_begin, _Shared(Assignment.of(cell, seed), entry, uncertainty), lambda number: f"sweep:{number}")
-    with closing(stream(work, numbers, hire)) as answers:
+    with closing(stream(work, numbers, factory)) as answers:
         for _, run in answers:
             yield run
 
@@ -197,25 +200,25 @@ def sweep(
     *,
     seed: int,
     most: int,
-    hire: Hire | None,
+    factory: ExecutorFactory | None,
     known: Mapping[int, SweepRun],
     keep: Callable[[SweepRun], None],
 ) -> Sweep:
-    """Run until the verdict is certain, or ``most`` runs have ended; the same whoever runs them, and however often.
+    """Run until the verdict is certain, or ``most`` runs have ended; always the same, and however often.
 
     Args:
         known: runs of this sweep that have ended before.
         keep: called with each run that ends now.
 
     Raises:
-        ComputeError: nobody can execute a run.
+        ComputeError: no worker can execute a run.
         MockError: the cell draws nothing, or a run cannot be executed.
     """
     uncertainty = uncertainty_of(cell)
     expected = uncertainty.expected.get(entry.name)
     ends = dict(known)
     missing = [number for number in range(most) if number not in ends]
-    with closing(_arriving(cell, entry, uncertainty, seed, missing, hire)) as arriving:
+    with closing(_arriving(cell, entry, uncertainty, seed, missing, factory)) as arriving:
         for look, wanted in enumerate(looks(most) if expected else (most,), start=1):
             _gather(ends, wanted, arriving, keep)
             runs = tuple(ends[number] for number in range(wanted))

@@ -44,7 +44,7 @@ def goal_timeout_s(contract: Contract, controller: str) -> float | None:
 
 
 def grip_timeout_s(contract: Contract, controller: str) -> float:
-    """Return the bound of one opening or closing: that of the gripper's own action, which nobody plans for."""
+    """Return the bound of one opening or closing: that of the gripper's own action, which is not planned."""
     stated_s = _own_timeout_s(contract, controller)
     return DEFAULT_GRIP_S if stated_s is None else stated_s
 

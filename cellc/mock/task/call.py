@@ -1,4 +1,4 @@
-"""A step that asks a service: the mock stands in for the program behind it, and answers at once or never."""
+"""A step that asks a service: the mock replaces the program behind it, and answers immediately or never."""
 
 from __future__ import annotations
 

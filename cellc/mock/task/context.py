@@ -20,7 +20,7 @@ from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRec
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.mock.task.starved import starved_observation, starved_states
-from cellc.mock.task.watch import WATCH_NS, is_calm, next_look_ns
+from cellc.mock.task.watch import WATCH_NS, is_undisturbed, next_look_ns
 
 OUTCOME_OF_STOP = {
     PROTECTIVE_STOP: AttemptOutcome.PROTECTIVE_STOP,
@@ -72,7 +72,7 @@ class Attempt:
     def close(
         self, outcome: AttemptOutcome, fault_code: str, safety_state: str, intervention_due: str, now_ns: int
     ) -> AttemptRecord:
-        """Return the record of the attempt; what a person did in it stands for what a person would have to do."""
+        """Return the record of the attempt; what a person did in it means what a person would have to do."""
         return AttemptRecord(
             attempt_id=self.attempt_id,
             rehearsal=self.identity.rehearsal,
@@ -105,7 +105,7 @@ class AttemptError(CellcError):
 
     Args:
         outcome: how the attempt ends.
-        fault_code: the reason, in the words of whoever failed.
+        fault_code: the reason, in the words of the failed part.
     """
 
     def __init__(self, outcome: AttemptOutcome, fault_code: str) -> None:
@@ -169,10 +169,10 @@ class TaskContext:
     Attributes:
         deadline_ns: end of the whole rehearsal.
         seed: told to whatever draws numbers.
-        is_disturbed: tells whether a fault has begun.
+        is_disturbed: tells whether a fault has started.
         may_oversleep: no fault can begin, and a run whose task slept too long is made again.
         observed: stamp of the kept observation, by dynamic frame.
-        retreats: pose of the tip link in the base from which a group's goal was approached, while it stands there.
+        retreats: pose of the tip link in the base from which a group's goal was approached, while it is there.
         held: object in each gripper.
         acting_on: dynamic frame whose observation the present motion rests on; it must keep arriving.
         ended: results that have arrived, by controller and goal.
@@ -203,7 +203,7 @@ class TaskContext:
 
     @property
     def node(self) -> TaskNode:
-        """The node that the task stands for."""
+        """The node that the task represents."""
         return self.plant.task
 
     @property
@@ -212,7 +212,7 @@ class TaskContext:
         return self.plant.simulation.now_ns
 
     def hear(self, event: ControlEvent) -> None:
-        """Keep the results of goals, unless their server answers nobody, and the states of controllers."""
+        """Keep the results of goals, unless their server answers no client, and the states of controllers."""
         if isinstance(event, ControllerChanged):
             if event.state != "active":
                 self.deactivated_ns[event.controller] = event.stamp_ns
@@ -238,11 +238,11 @@ class TaskContext:
         self.check_cell()
 
     def _trusted(self) -> ObservationInbox | None:
-        """Return what brings the observation that is acted on, where it is asked afterwards whether it came in time.
+        """Return what brings the observation that is acted on, where it is asked afterwards whether it arrived in time.
 
         That is where a run may be made again, and nothing else can happen.
         """
-        if not self.may_oversleep or self.acting_on is None or not is_calm(self.plant):
+        if not self.may_oversleep or self.acting_on is None or not is_undisturbed(self.plant):
             return None
         inbox = self.node.observations.get(self.acting_on)
         return None if inbox is None or inbox.newest is None else inbox
@@ -276,7 +276,7 @@ class TaskContext:
         self._check_time()
 
     def _check_effects(self) -> None:
-        """Raise AttemptError where something moved that nobody commanded, or a claim is no longer one."""
+        """Raise AttemptError where something moved without a command, or a claim is no longer one."""
         effects = self.plant.effects
         for motion in effects.motions:
             raise AttemptError(AttemptOutcome.UNCOMMANDED_MOTION, str(motion))

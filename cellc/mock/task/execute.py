@@ -24,13 +24,14 @@ STANDSTILL = 1e-3
 """rad/s or m/s below which a joint is held; far below what a person sees and above what rounding makes."""
 _LOOK_NS = 10_000_000
 RESULT_GRACE_NS = 100_000_000
-"""A controller that is deactivated sends the results of its goals at once, or never: nobody waits longer for them."""
+"""A controller that is deactivated sends the results of its goals immediately, or never: nobody waits longer for
+them."""
 _MOVED = 1e-9
 """rad or m: the least change of a joint that counts as having been driven."""
 
 
 def await_response(context: TaskContext, server: str) -> Waiting[None]:
-    """Return at once where a server answers; raise AttemptError, timeout, where it does not within the bound."""
+    """Return immediately where a server answers; raise AttemptError, timeout, where it does not within the bound."""
     if context.plant.network.answers(server):
         return
     yield from context.rest(RESPONSE_S)
@@ -43,7 +44,7 @@ def cancel_and_hold(context: TaskContext, attempt: Attempt, goals: Sequence[Sent
     The wait goes on whatever else is wrong with the cell: a hold is what every failure has to end in.
 
     Returns:
-        Whether the joints stood still within the bound; the record of the attempt says when.
+        Whether the joints were at standstill within the bound; the record of the attempt says when.
     """
     plant = context.plant
     requested_ns = plant.now_ns
@@ -163,12 +164,12 @@ def execute_together(
             raise AttemptError(AttemptOutcome.TIMEOUT, "canceled, and the joints did not stand still in time") from None
         raise
     finally:
-        for one in sent:
-            _note_result(context, attempt, one)
+        for item in sent:
+            _note_result(context, attempt, item)
             context.node.requests.withdraw_cancel(kind)
-            context.node.actions.note_ended(one.controller)
+            context.node.actions.note_ended(item.controller)
     attempt.controller_name = " and ".join(goals)
-    return tuple(context.ended[one.key] for one in sent)
+    return tuple(context.ended[goal.key] for goal in sent)
 
 
 def require_success(ended: GoalEnded, context: TaskContext) -> None:
@@ -213,7 +214,9 @@ def _results(context: TaskContext, kind: str, sent: Sequence[SentGoal], timeout_
         names = " and ".join(goal.controller for goal in waiting)
         if context.now_ns >= until_ns:
             raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {names} within {timeout_s:g} s")
-        lost = [context.deactivated_ns[one.controller] for one in waiting if one.controller in context.deactivated_ns]
+        lost = [
+            context.deactivated_ns[goal.controller] for goal in waiting if goal.controller in context.deactivated_ns
+        ]
         given_up_ns = min((lost_ns + RESULT_GRACE_NS for lost_ns in lost), default=until_ns)
         if context.now_ns >= given_up_ns:
             raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{names} was deactivated while its goal executed")

@@ -183,7 +183,7 @@ def _move_together(context: TaskContext, attempt: Attempt, poses: Sequence[Contr
         else:
             motions[pose.group] = planned
     first = next(iter(motions.values()))
-    meeting = planner.meeting([one.trajectory for one in motions.values()], state.positions)
+    meeting = planner.meeting([motion.trajectory for motion in motions.values()], state.positions)
     yield from _planning_time(context, attempt, first if meeting is None else meeting)
     yield from _drive(context, attempt, motions, None)
 
@@ -237,7 +237,7 @@ def _joint_room(contract: Contract, group: str, positions: Mapping[str, float]) 
 
 
 def _really(plant: Plant, frame: str) -> Pose | None:
-    """Return where a frame really is in the root; None where nothing in the world stands for it."""
+    """Return where a frame really is in the root; None where nothing in the world represents it."""
     if frame in plant.world.objects():
         return plant.world.object_pose(frame, plant.now_ns)
     entry = plant.contract.frames.get(frame)
@@ -266,7 +266,7 @@ def _planning_time(
 def _drive(
     context: TaskContext, attempt: Attempt, motions: Mapping[str, PlannedMotion], observed_frame: str | None
 ) -> Waiting[None]:
-    """Check the state once more and execute; each arm stands at a goal afterwards, or no longer at one."""
+    """Check the state once more and execute; each arm is at a goal afterwards, or no longer at one."""
     current_state(context.plant)
     goals: dict[str, TrajectoryGoal | GripperGoal] = {}
     timeout_s = 0.0
@@ -297,7 +297,7 @@ def _require_arrival(state: CurrentState, trajectory: TimedTrajectory) -> None:
 
 
 def _trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:
-    """Return the goal without its first point, which is where the robot stands already."""
+    """Return the goal without its first point, which is where the robot is already."""
     points = trajectory.points[1:] or trajectory.points
     return TrajectoryGoal(
         joint_names=trajectory.joints,

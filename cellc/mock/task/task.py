@@ -55,7 +55,7 @@ def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[No
     Claims that were given up are taken again by the same person, as soon as the robot listens.
 
     Raises:
-        AttemptError: the role may not acknowledge, what stopped the cell is not over in time, or it does not come up.
+        AttemptError: the role may not acknowledge, what stopped the cell is not over in time, or it does not start.
     """
     plant = context.plant
     if not plant.stops.present() and not is_waiting(plant):

@@ -1,11 +1,11 @@
 """How long the task may sleep while nothing can go wrong unseen.
 
-A watchdog that wakes five times a second divides what the control stack computes at once into small pieces. As long as
-no fault has begun, joint states come in every update cycle and no clock drifts, whatever the task looks at changes by
-an event of the control stack or of the foreground alone, and each of these ends its wait: looking in between is in
-vain. A wait then ends at the instant of the same raster at which the task would have seen what comes first, so that
-nothing is seen earlier or later than by looking all the time. Evidence is written in pieces that these looks part: the
-task looks as ever where it is kept.
+A watchdog that wakes five times a second divides what the control stack computes in one step into small pieces. As long
+as no fault has started, joint states come in every update cycle and no clock drifts, whatever the task looks at changes
+by an event of the control stack or of the foreground alone, and each of these ends its wait: looking in between is
+useless. A wait then ends at the instant of the same raster at which the task would have seen what comes
+first, so that nothing is seen earlier or later than by looking all the time. Evidence is written in pieces that these
+looks part: the task looks as ever where it is kept.
 
 An observation that a motion rests on may turn stale without an event. Where no fault can begin the task trusts that it
 does not, and asks afterwards; a run in which it did is made again, with every look.
@@ -31,17 +31,17 @@ def next_look_ns(plant: Plant, *, disturbed: bool) -> int:
     """Return when the task must look at the state of the cell again.
 
     Args:
-        disturbed: a fault has begun.
+        disturbed: a fault has started.
     """
     now_ns = plant.now_ns
-    if disturbed or plant.control.is_watched or not is_calm(plant):
+    if disturbed or plant.control.is_watched or not is_undisturbed(plant):
         return now_ns + WATCH_NS
     event_ns = plant.simulation.next_foreground_ns()
     until_ns = now_ns + CALM_NS if event_ns is None else min(now_ns + CALM_NS, event_ns)
     return now_ns + max(1, -(-(until_ns - now_ns) // WATCH_NS)) * WATCH_NS
 
 
-def is_calm(plant: Plant) -> bool:
+def is_undisturbed(plant: Plant) -> bool:
     """Tell whether the joint states that the task relies on can neither stay away nor turn old without an event."""
     if not plant.clocks.steady or not plant.task.feeds:
         return False

@@ -19,7 +19,7 @@ from cellc.mock.tf.messages import (
     refused_name,
     unknown_frame,
 )
-from cellc.mock.tf.sources import LATEST, DoubledSource, Neighbours, TransformSource, find
+from cellc.mock.tf.sources import LATEST, DoubledSource, Neighbors, TransformSource, find
 
 DEFAULT_BUFFER_S = 10.0
 """tf2::BUFFER_CORE_DEFAULT_CACHE_TIME."""
@@ -82,7 +82,7 @@ class TransformBuffer:
             self._clear("Detected jump back in time.")
 
     def lookup(self, target: str, source: str, stamp_ns: int) -> Transform | TfFailure:
-        """Return the pose of ``source`` in ``target`` at ``stamp_ns``, 0 for the latest; or why there is none."""
+        """Return the pose of ``source`` in ``target`` at ``stamp_ns``, 0 for the latest; or why it is missing."""
         if target == source:
             return Transform(target, source, stamp_ns, identity())
         failure = self._refused(target, source)
@@ -204,7 +204,7 @@ def _has_data(source: TransformSource) -> bool:
     return stamps is None or bool(stamps)
 
 
-def _between(source: TransformSource, found: Neighbours) -> Edge:
+def _between(source: TransformSource, found: Neighbors) -> Edge:
     """Return the edge at a place between stored transforms; those of different parents are not mixed."""
     parent, pose = source.parent(found.before), source.pose(found.before)
     if found.after is None or source.parent(found.after) != parent:

@@ -13,10 +13,10 @@ QUATERNION_TOLERANCE = 10e-3
 
 
 class TfFailureKind(str, Enum):
-    """The exceptions of tf2; ExtrapolationException is told apart by what was asked of the buffer."""
+    """The exceptions of tf2; ExtrapolationException is distinguished by what was asked of the buffer."""
 
     INVALID_ARGUMENT = "invalid_argument"  # InvalidArgumentException: no frame can have this name
-    LOOKUP = "lookup"  # LookupException: a frame that nobody has ever published
+    LOOKUP = "lookup"  # LookupException: a frame that was never published
     CONNECTIVITY = "connectivity"  # ConnectivityException: no chain of published edges between the frames
     EXTRAPOLATION_PAST = "extrapolation_into_the_past"
     EXTRAPOLATION_FUTURE = "extrapolation_into_the_future"
@@ -132,7 +132,7 @@ class TfWarnings:
         self._counts[key] = self._counts.get(key, 0) + 1
 
     def lines(self) -> tuple[str, ...]:
-        """Return the lines in the order in which they came first, with how often where that is more than once."""
+        """Return the lines in the order of their first occurrence, with how often where that is more than once."""
         return tuple(
             text if self._counts[key] == 1 else f"{text} ({self._counts[key]} times)"
             for key, text in self._lines.items()

@@ -54,7 +54,7 @@ class TimeCache(Generic[Value]):
 
 
 @dataclass(frozen=True, slots=True)
-class Neighbours:
+class Neighbors:
     """The stored transforms around a stamp, as indices; ``after`` is None where one answers alone."""
 
     before: int
@@ -62,16 +62,16 @@ class Neighbours:
     fraction: float = 0.0
 
 
-def find(stamps: Sequence[int], stamp_ns: int) -> Neighbours | Outside:
+def find(stamps: Sequence[int], stamp_ns: int) -> Neighbors | Outside:
     """Return which of the rising stamps answer for one stamp, or why none does."""
     if not stamps:
         return no_data()
     if stamp_ns == LATEST or stamp_ns == stamps[-1]:
-        return Neighbours(len(stamps) - 1, None)
+        return Neighbors(len(stamps) - 1, None)
     if len(stamps) == 1:
         return one_sample(stamp_ns, stamps[0])
     if stamp_ns == stamps[0]:
-        return Neighbours(0, None)
+        return Neighbors(0, None)
     if stamp_ns > stamps[-1]:
         return into_the_future(stamp_ns, stamps[-1])
     if stamp_ns < stamps[0]:
@@ -79,8 +79,8 @@ def find(stamps: Sequence[int], stamp_ns: int) -> Neighbours | Outside:
     after = bisect_right(stamps, stamp_ns)
     before_ns = stamps[after - 1]
     if before_ns == stamp_ns:
-        return Neighbours(after - 1, None)
-    return Neighbours(after - 1, after, (stamp_ns - before_ns) / (stamps[after] - before_ns))
+        return Neighbors(after - 1, None)
+    return Neighbors(after - 1, after, (stamp_ns - before_ns) / (stamps[after] - before_ns))
 
 
 class DeferredPose:

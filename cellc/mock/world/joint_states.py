@@ -73,7 +73,7 @@ class JointStateHistory:
         return {**self.__dict__, "_stamps": self._stamps[:size], "_positions": self._positions[:size]}
 
     def append(self, block: JointStateBlock) -> None:
-        """Add the messages that a broadcaster published; a message of other joints than before starts anew."""
+        """Add the messages that a broadcaster published; a message of other joints than before starts again."""
         size = len(block.stamps_ns)
         if size == 0:
             return
@@ -122,7 +122,7 @@ class JointStateHistory:
             return self._missed
         return self._missed + max(0, (now_ns - int(self.stamps[-1])) // self._spacing_ns - 1)
 
-    def count_anew(self) -> None:
+    def count_again(self) -> None:
         """Forget the cycles that were missed up to now."""
         self._missed = 0
 

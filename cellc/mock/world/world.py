@@ -19,7 +19,7 @@ class LinkJoint:
     """A joint of the URDF: ``origin`` in the parent link, ``axis`` of unit length in its own frame.
 
     The child ``moves`` in the parent or is fixed to it; it ``slides`` along the axis or turns about it. A mimic joint
-    stands at ``multiplier * position of follows + offset``.
+    is at ``multiplier * position of follows + offset``.
     """
 
     name: str
@@ -128,7 +128,7 @@ def _unit(axis: Vector3) -> Vector3:
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """From ``from_ns`` on the object stands still in the frame of ``link``."""
+    """From ``from_ns`` on the object is at standstill in the frame of ``link``."""
 
     from_ns: int
     link: str
@@ -162,7 +162,7 @@ class World:
 
     def carrier_of(self, joint: str) -> str | None:
         """Return the link in which a joint moves its child; None where no joint is called so."""
-        return next((one.parent for one in self._links.joints.values() if one.name == joint), None)
+        return next((item.parent for item in self._links.joints.values() if item.name == joint), None)
 
     def place(self, name: str, link: str, pose: Pose, now_ns: int) -> None:
         """Let an object stand still in the frame of a link from now on."""
@@ -173,11 +173,11 @@ class World:
         return tuple(sorted(self._placements))
 
     def placements(self, name: str) -> tuple[Placement, ...]:
-        """Return where an object stood from when on, in the order of time."""
+        """Return where an object was from when on, in the order of time."""
         return tuple(self._placements[name])
 
     def carrier(self, name: str) -> str:
-        """Return the link that an object stands on or hangs from now."""
+        """Return the link that an object is on or hangs from now."""
         return self._placements[name][-1].link
 
     def object_pose(self, name: str, stamp_ns: int) -> Pose:

@@ -1,4 +1,4 @@
-"""A child process of bounded processor time, memory and output, which reads what a stranger wrote.
+"""A child process of bounded processor time, memory and output, which reads untrusted input.
 
 What it may do is counted in work, so that a slow or busy machine answers as a fast one does: the clock ends a child
 that hangs, and nothing else. A wrong file can make a reader loop, fill the memory or crash; then only the child ends,
@@ -49,7 +49,7 @@ def ask_child(module: str, request: bytes, wall_seconds: float = HANG_S) -> byte
                 input=request,
                 stdout=answer,
                 stderr=subprocess.DEVNULL,
-                # `-m` puts the current folder first on the import path: it must not be one that a stranger filled.
+                # `-m` puts the current folder first on the import path: it must not be one that untrusted files filled.
                 cwd=Path(__file__).resolve().parents[3],
                 # Threads of numpy would count against the memory.
                 env={**os.environ, "PYTHONHASHSEED": "0", "OPENBLAS_NUM_THREADS": "1"},
@@ -67,7 +67,7 @@ def ask_child(module: str, request: bytes, wall_seconds: float = HANG_S) -> byte
 
 
 def confine_this_process(cpu_seconds: int, memory_bytes: int, file_bytes: int) -> None:
-    """Bound this process, a child, before it reads anything of a stranger.
+    """Bound this process, a child, before it reads untrusted input.
 
     Args:
         file_bytes: size of its answer, and of each other file that it writes.

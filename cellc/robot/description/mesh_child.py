@@ -1,4 +1,4 @@
-"""The child that reads mesh files of strangers, with the library (assimp) that MoveIt and RViz read them with too.
+"""The child that reads untrusted mesh files, with the library (assimp) that MoveIt and RViz read them with too.
 
 It answers on stdout in plain numbers, one mesh after the other, so that where it ends early the first mesh without an
 answer is the one that ended it. The library is given a private copy of exactly the bytes that were hashed, and nothing
@@ -111,10 +111,10 @@ def _shape_of_obj(content: bytes) -> bytes:
 
 
 def _one_file(content: bytes) -> bytes:
-    """Return a binary glTF 2.0 whose JSON is written anew, so that every reader reads the same in it.
+    """Return a binary glTF 2.0 whose JSON is written again, so that every reader reads the same in it.
 
     Raises:
-        MeshError: a buffer or image lies in another file (glTF 2.0 specification, section 4.4), or a key stands twice.
+        MeshError: a buffer or image lies in another file (glTF 2.0 specification, section 4.4), or a key occurs twice.
     """
     magic, version = content[:4], int.from_bytes(content[4:8], "little")
     length = int.from_bytes(content[_GLB_HEAD : _GLB_HEAD + 4], "little")

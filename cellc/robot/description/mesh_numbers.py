@@ -88,7 +88,7 @@ def facts_of(read: MeshNumbers | MeshError) -> MeshFacts:
 
 
 def read_answers(data: bytes, most: int) -> Iterator[MeshNumbers | MeshError]:
-    """Yield what the child said of each mesh, as far as it came, and trust none of it."""
+    """Yield what the child said of each mesh, as far as it got, and trust none of it."""
     at = 0
     for _ in range(most):
         if len(data) < at + _HEAD.size:

@@ -24,7 +24,7 @@ from cellc.robot.description.packages import lies_under, package_folders, packag
 FORMATS = (".stl", ".dae", ".obj", ".ply", ".off", ".glb")
 """Formats whose shape is in the one file."""
 MAX_COORDINATE_M = 1e6
-"""Beyond it the arithmetic of collision checks has no millimetres left."""
+"""Beyond it the arithmetic of collision checks has no millimeters left."""
 
 MESH_NOT_FOUND = "mesh-not-found"
 MESH_OUTSIDE_ROOT = "mesh-outside-root"
@@ -87,7 +87,7 @@ class MeshFacts:
 
 
 def identify_all(meshes: Iterable[Mesh], roots: Sequence[Path]) -> dict[str, MeshFile | MeshError]:
-    """Return the file of each mesh, or why there is none, by the name that the description gives it; see `identify`."""
+    """Return the file of each mesh, or why it is missing, by the name that the description gives it; see `identify`."""
     files: dict[str, MeshFile | MeshError] = {}
     together, most = 0, limits().mesh_bytes_together
     for name in dict.fromkeys(mesh.filename for mesh in meshes):

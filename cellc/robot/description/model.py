@@ -16,14 +16,14 @@ from cellc.contract.transforms import Pose, Vector3
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A box about its origin; ``size`` is the full extent along x, y, z in metres."""
+    """A box about its origin; ``size`` is the full extent along x, y, z in meters."""
 
     size: Vector3
 
 
 @dataclass(frozen=True, slots=True)
 class Cylinder:
-    """A cylinder about its origin, its axis along z; metres."""
+    """A cylinder about its origin, its axis along z; meters."""
 
     radius: float
     length: float
@@ -31,7 +31,7 @@ class Cylinder:
 
 @dataclass(frozen=True, slots=True)
 class Sphere:
-    """A sphere about its origin; metres."""
+    """A sphere about its origin; meters."""
 
     radius: float
 
@@ -70,9 +70,9 @@ class Visual:
 
 @dataclass(frozen=True, slots=True)
 class Inertial:
-    """Mass in kg and the inertia tensor in kg m^2 about the centre of mass, in axes of ``pose``.
+    """Mass in kg and the inertia tensor in kg m^2 about the center of mass, in axes of ``pose``.
 
-    ``pose`` is the centre of mass and the axes of the tensor in the link frame.
+    ``pose`` is the center of mass and the axes of the tensor in the link frame.
     """
 
     pose: Pose
@@ -232,11 +232,11 @@ class Description:
     hardware_error_span: Span | None = None
 
     def link(self, name: str) -> Link | None:
-        """Find a link, the first where a name stands twice."""
+        """Find a link, the first where a name occurs twice."""
         return next((link for link in self.links if link.name == name), None)
 
     def joint(self, name: str) -> Joint | None:
-        """Find a joint, the first where a name stands twice."""
+        """Find a joint, the first where a name occurs twice."""
         return next((joint for joint in self.joints if joint.name == name), None)
 
     def roots(self) -> tuple[str, ...]:

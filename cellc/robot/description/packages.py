@@ -69,7 +69,7 @@ def searched_folders(name: str, root: str) -> tuple[str, ...]:
         ("install", "share", name),
     )
     folders = tuple("/".join((root.rstrip("/"), *parts)) for parts in below)
-    # The root itself is the package where a description stands in its own repository.
+    # The root itself is the package where a description is in its own repository.
     return (root, *folders) if os.path.basename(os.path.abspath(root)) == name else folders
 
 

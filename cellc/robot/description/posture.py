@@ -18,7 +18,7 @@ def posture(description: Description, positions: Mapping[str, float]) -> dict[st
 
     Args:
         description: a tree; links that no chain of joints joins to its first root are left out.
-        positions: rad or m by joint; a joint that is not named stands at zero, one that mimics follows.
+        positions: rad or m by joint; a joint that is not named is at zero, one that mimics follows.
     """
     children: dict[str, list[Joint]] = {}
     for joint in description.joints:
@@ -37,7 +37,7 @@ def posture(description: Description, positions: Mapping[str, float]) -> dict[st
 
 
 def farthest(description: Description, tip: str, start: Mapping[str, float]) -> float:
-    """Return how far ``tip`` gets from the axis of the first joint that moves it, in metres: what an arm can reach.
+    """Return how far ``tip`` gets from the axis of the first joint that moves it, in meters: what an arm can reach.
 
     Each joint in turn goes to its best position, first in coarse steps and then in ever finer ones, until nothing is
     gained. That is a local optimum, so that an arm may reach a little farther.

@@ -7,7 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
-from cellc.contract.limits import Limits, Purse, limits
+from cellc.contract.limits import Budget, Limits, limits
 from cellc.contract.printing import stage
 from cellc.robot.description.model import Description
 from cellc.robot.description.urdf_reader import read_urdf
@@ -18,7 +18,7 @@ _KEPT = 32  # descriptions of the devices of a few cells
 
 
 def read_description(
-    file: Path, arguments: Mapping[str, str], root: Path, purse: Purse | None = None, beside: Sequence[str] = ()
+    file: Path, arguments: Mapping[str, str], root: Path, budget: Budget | None = None, beside: Sequence[str] = ()
 ) -> Outcome[Description]:
     """Read a description that the user brought: ``.xacro`` is expanded in a child process, all else is URDF.
 
@@ -26,12 +26,12 @@ def read_description(
         file: the description, as the user named it.
         arguments: values of ``<xacro:arg>``; a plain URDF takes none.
         root: the folder that the description and all it includes must lie under.
-        purse: what expansions of the spec may still take; as much as one may where it is absent.
+        budget: what expansions of the spec may still take; as much as one may where it is absent.
         beside: further folders of packages that the spec names.
     """
     stage(f"reading {file.as_posix()}")
     if file.suffix == ".xacro":
-        return _read_expanded(file, expand_xacro(file, arguments, root, purse=purse, beside=beside))
+        return _read_expanded(file, expand_xacro(file, arguments, root, budget=budget, beside=beside))
     if arguments:
         message, start = f"`{file.name}` is URDF and takes no arguments", Span(file.as_posix(), 1, 1, 1, 1)
         found = Diagnostic("xacro-unknown-argument", Severity.ERROR, message, start, help="remove `arguments:`")

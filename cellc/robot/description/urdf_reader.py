@@ -81,8 +81,8 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
     _move_spans(root, origins or {})
     found: list[Diagnostic] = []
     name = _read_each([root], lambda element: required(element, "name"), found)
-    colours = _read_each(root.all("material"), _read_colour, found)
-    known = {material: rgba for material, rgba in colours if rgba is not None}
+    colors = _read_each(root.all("material"), _read_color, found)
+    known = {material: rgba for material, rgba in colors if rgba is not None}
     links: list[Link] = _read_each(root.all("link"), lambda element: _read_link(element, known), found)
     joints = _read_each(root.all("joint"), _read_joint, found)
     found.extend(_left_from_xacro(root))
@@ -166,12 +166,12 @@ def _walked(element: XmlElement) -> Iterable[XmlElement]:
         yield from _walked(child)
 
 
-def _read_colour(element: XmlElement) -> tuple[str, Rgba | None]:
-    colour = element.first("color")
+def _read_color(element: XmlElement) -> tuple[str, Rgba | None]:
+    color = element.first("color")
     name = required(element, "name")
-    if colour is None:
+    if color is None:
         return (name, None)
-    r, g, b, a = numbers(colour, "rgba", 4)
+    r, g, b, a = numbers(color, "rgba", 4)
     return (name, (r, g, b, a))
 
 
@@ -232,13 +232,13 @@ def _read_safety(element: XmlElement) -> SafetyController:
     )
 
 
-def _read_link(element: XmlElement, colours: Mapping[str, Rgba]) -> Link:
+def _read_link(element: XmlElement, colors: Mapping[str, Rgba]) -> Link:
     """Read one ``<link>``; ``colours`` are the materials that the robot names at its top level."""
     inertial = element.first("inertial")
     return Link(
         name=required(element, "name"),
         inertial=None if inertial is None else _read_inertial(inertial),
-        visuals=tuple(_read_visual(visual, colours) for visual in element.all("visual")),
+        visuals=tuple(_read_visual(visual, colors) for visual in element.all("visual")),
         collisions=tuple(_read_collision(collision) for collision in element.all("collision")),
         span=element.span,
     )
@@ -262,13 +262,13 @@ def _read_collision(element: XmlElement) -> Collision:
     return Collision(element.attributes.get("name"), origin_pose(element), _read_geometry(element))
 
 
-def _read_visual(element: XmlElement, colours: Mapping[str, Rgba]) -> Visual:
+def _read_visual(element: XmlElement, colors: Mapping[str, Rgba]) -> Visual:
     material = element.first("material")
     name = None if material is None else material.attributes.get("name")
-    rgba = colours.get(name) if name is not None else None
-    colour = None if material is None else material.first("color")
-    if colour is not None:
-        r, g, b, a = numbers(colour, "rgba", 4)
+    rgba = colors.get(name) if name is not None else None
+    color = None if material is None else material.first("color")
+    if color is not None:
+        r, g, b, a = numbers(color, "rgba", 4)
         rgba = (r, g, b, a)
     return Visual(element.attributes.get("name"), origin_pose(element), _read_geometry(element), name, rgba)
 

@@ -82,7 +82,7 @@ def length(element: XmlElement, attribute: str) -> float:
 
 
 def numbers(element: XmlElement, attribute: str, count: int) -> tuple[float, ...]:
-    """Return exactly ``count`` finite numbers separated by white space: lengths, angles, factors or colours."""
+    """Return exactly ``count`` finite numbers separated by white space: lengths, angles, factors or colors."""
     parts = required(element, attribute).split()
     if len(parts) != count:
         message = f"`{attribute}` of `<{element.tag}>` has {len(parts)} numbers, expected {count}"
@@ -97,7 +97,7 @@ def vector(element: XmlElement, attribute: str) -> Vector3:
 
 
 def origin_pose(element: XmlElement) -> Pose:
-    """Return the pose of the ``<origin>`` child: metres and fixed-axis roll, pitch, yaw; identity where absent."""
+    """Return the pose of the ``<origin>`` child: meters and fixed-axis roll, pitch, yaw; identity where absent."""
     origin = element.first("origin")
     if origin is None:
         return identity()

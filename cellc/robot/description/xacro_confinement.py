@@ -1,4 +1,4 @@
-"""The xacro library with its ways out of the description's folder closed.
+"""The xacro library with its exits from the description's folder closed.
 
 xacro keeps its functions and its state in module globals, so the closing is done there and undone afterwards: files are
 read under one root only, ``$(…)`` knows ``arg``, ``find`` and ``dirname``, expressions go through our interpreter, and
@@ -105,7 +105,7 @@ class Confinement:
             return
         fixed = os.path.dirname(path[: wildcard.start()])
         outside = ".." in path[len(fixed) :].split("/") or not self.files.holds(fixed or ".")
-        # What a pattern matches elsewhere is not even looked for: which files a machine has is nobody's business.
+        # What a pattern matches elsewhere is not even looked for: which files a machine has is private.
         files = [] if outside else sorted(glob.glob(path))
         if outside or not all(map(self.files.holds, files)):
             message = f"`{specification[:200]}` reaches for files outside of `{self.files.shown(self.files.root)}`"

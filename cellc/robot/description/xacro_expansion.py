@@ -21,7 +21,7 @@ from xml.dom import minidom
 import xacro
 
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean, nearest
-from cellc.contract.limits import MIB, Purse, as_options, limits, option, raised, use
+from cellc.contract.limits import MIB, Budget, as_options, limits, option, raised, use
 from cellc.robot.description.confined_child import HANG_S, ChildEndedError, ask_child, confine_this_process
 from cellc.robot.description.packages import package_path, use_packages
 from cellc.robot.description.xacro_confinement import Confinement, place_of
@@ -49,7 +49,7 @@ def expand_here(
         file: the xacro file, as the user named it; its includes are found beside it.
         arguments: values of ``<xacro:arg>``.
         root: the folder that no file may lie outside of.
-        shown_root: what stands for ``root`` in messages, where its place on the machine is of no interest.
+        shown_root: what represents ``root`` in messages, where its place on the machine is of no interest.
         beside: further folders of packages that the spec names.
     """
     confinement = Confinement(root, shown_root, beside)
@@ -156,7 +156,7 @@ def expand_xacro(
     arguments: Mapping[str, str],
     root: Path,
     wall_seconds: float = HANG_S,
-    purse: Purse | None = None,
+    budget: Budget | None = None,
     beside: Sequence[str] = (),
 ) -> Outcome[Expansion]:
     """Expand a xacro file that the compiler does not vouch for.
@@ -166,7 +166,7 @@ def expand_xacro(
         arguments: values of ``<xacro:arg>``.
         root: the folder that no file may lie outside of.
         wall_seconds: time by the clock after which the expansion hangs.
-        purse: processor time of the expansions of the spec; one that ends for its time is the last.
+        budget: processor time of the expansions of the spec; one that ends for its time is the last.
         beside: further folders of packages that the spec names.
 
     Returns:
@@ -183,15 +183,15 @@ def expand_xacro(
         "seconds": limits().xacro_seconds,
     }
     start = Span(file.as_posix(), 1, 1, 1, 1)
-    if purse is not None:
-        if not purse.left_s:
+    if budget is not None:
+        if not budget.left_s:
             return _ended("the expansion was not started: others of the spec used the time", start, "-together")
-        request["seconds"] = min(limits().xacro_seconds, math.ceil(purse.left_s))
+        request["seconds"] = min(limits().xacro_seconds, math.ceil(budget.left_s))
     try:
         answer = ask_child(__name__, json.dumps(request).encode(), wall_seconds)
     except ChildEndedError as reason:
-        if purse is not None:
-            purse.empty()
+        if budget is not None:
+            budget.empty()
         return _ended(f"the expansion {reason}", start)
     return _decoded(json.loads(answer))
 

@@ -1,6 +1,6 @@
 """The arithmetic of ``${…}`` in xacro, interpreted node by node instead of by ``eval``.
 
-xacro evaluates expressions as Python; a description from a stranger must not. What robot descriptions use is here:
+xacro evaluates expressions as Python; an untrusted description must not. What robot descriptions use is here:
 numbers, texts, lists, dictionaries, comparison, indexing, a fixed set of functions and of methods. Everything else is
 refused, as is every underscored attribute and every result beyond a bound.
 """
@@ -73,7 +73,7 @@ def evaluate(text: str, symbols: Mapping[str, Any]) -> Any:
     """Evaluate one expression.
 
     Args:
-        text: what stands between ``${`` and ``}``.
+        text: what is between ``${`` and ``}``.
         symbols: properties, macro parameters and functions in scope.
 
     Raises:
@@ -193,7 +193,7 @@ def _turns(
     """Yield the items of a comprehension, all turns of all its loops counted."""
     if not generators:
         of = (node.key, node.value) if isinstance(node, ast.DictComp) else (node.elt,)
-        values = tuple(_value(one, symbols) for one in of)
+        values = tuple(_value(entry, symbols) for entry in of)
         yield values if len(values) == 2 else values[0]
         return
     first = generators[0]

@@ -1,7 +1,7 @@
 """The files that an expansion may read: regular ones under one folder, or in the package path, and of bounded size.
 
 The ament index of the machine is left out on purpose: what is built must depend on what lies beside the spec and on
-what the call names, and a description from a stranger must not reach the packages of the machine.
+what the call names, and an untrusted description must not reach the packages of the machine.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class XacroRefusedError(XacroError):
 class ConfinedFiles:
     """Reads under ``root``; links are resolved before the comparison.
 
-    ``shown_root`` stands for it in messages, and ``beside`` are further folders of packages that the spec names.
+    ``shown_root`` represents it in messages, and ``beside`` are further folders of packages that the spec names.
     """
 
     def __init__(self, root: str, shown_root: str | None = None, beside: Sequence[str] = ()) -> None:

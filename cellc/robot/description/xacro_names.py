@@ -14,7 +14,7 @@ from cellc.contract.limits import limits
 from cellc.robot.description.xacro_expression import ExpressionError
 
 _LARGEST_COUNT = 1000
-"""Of things that are counted out; the number of ways is beyond 1e40 long before."""
+"""Of things that are counted out; the number of combinations is beyond 1e40 long before."""
 
 
 def _of_items(*arguments: int) -> list[int]:
@@ -26,7 +26,7 @@ def _of_items(*arguments: int) -> list[int]:
 
 def _counting(function: Callable[..., int]) -> Callable[..., int]:
     def counted(*arguments: int) -> int:
-        if any(isinstance(one, int) and one > _LARGEST_COUNT for one in arguments):
+        if any(isinstance(argument, int) and argument > _LARGEST_COUNT for argument in arguments):
             raise ExpressionError(f"`{function.__name__}` of more than {_LARGEST_COUNT}")
         return function(*arguments)
 

@@ -1,6 +1,6 @@
 """XML read into a small tree with positions, bounded in size and depth, without entities.
 
-The standard ElementTree keeps no columns and minidom expands entities; a description from a stranger needs neither.
+The standard ElementTree keeps no columns and minidom expands entities; an untrusted description needs neither.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _ATTRIBUTE = re.compile(rb"""\s+([^\s=]+)\s*=\s*("[^"]*"|'[^']*')""")
 class XmlElement:
     """One element: tag and attributes as written, children in order, ``span`` its start tag.
 
-    ``text`` is what stands between its start tag and its first child, or its end tag where it has no child.
+    ``text`` is what is between its start tag and its first child, or its end tag where it has no child.
     """
 
     tag: str
@@ -105,7 +105,7 @@ def with_values(text: str, tag: str, attribute: str, change: Callable[[str], str
 
 
 def _value_place(data: bytes, at: int, attribute: bytes) -> tuple[int, int]:
-    """Return where the value of an attribute of a start tag stands, with its quotes."""
+    """Return where the value of an attribute of a start tag is, with its quotes."""
     while match := _ATTRIBUTE.match(data, at):
         if match[1] == attribute:
             return match.span(2)

@@ -37,7 +37,7 @@ class _Refusal:
 def plan_line(
     chain: GroupChain, limits: JointLimits, start: Array, target_in_world: Pose, *, min_singular_value: float
 ) -> JointPath | PlanFailure:
-    """Lead the tip from where it stands along a straight line, turning along the shorter arc at the same time.
+    """Lead the tip from where it is along a straight line, turning along the shorter arc at the same time.
 
     Args:
         target_in_world: wanted pose of the tip in the world frame.
@@ -54,7 +54,7 @@ def plan_line(
 
 
 def _line(chain: GroupChain, start: Array, target_in_world: Pose) -> FollowedLine:
-    """Follow a line, or remember how it went: what the arm carries changes what touches, and not where it goes."""
+    """Follow a line, or remember the result: what the arm carries changes what touches, and not where it goes."""
     key = (chain.rest.tobytes(), start.tobytes(), target_in_world)
     line = chain.lines.pop(key, None)
     if line is None:

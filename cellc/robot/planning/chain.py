@@ -18,7 +18,7 @@ from cellc.robot.planning.scene import CollisionScene
 
 @dataclass(frozen=True, slots=True)
 class _DrivenJoint:
-    """A joint of pinocchio that stands at ``multiplier * configuration[column] + offset``.
+    """A joint of pinocchio that is at ``multiplier * configuration[column] + offset``.
 
     Attributes:
         place: first index in pinocchio's configuration, of ``width`` values.
@@ -151,7 +151,7 @@ class GroupChain:
         return self.scene.collides(self.full(configuration))
 
     def clearance_m(self, configuration: Array) -> float | None:
-        """Return the least distance from what the group moves to what stands around; None where nothing is checked.
+        """Return the least distance from what the group moves to what is around; None where nothing is checked.
 
         The arm's own base does not stand around: links from the base of the group on.
         """
@@ -183,7 +183,7 @@ def sweep_rates(model: RobotModel, joints: tuple[str, ...], shapes: Iterable[Pin
         joints: the joints that move; those that mimic them move along.
 
     Returns:
-        Metres for each rad or metre of a joint, shape (shapes, joints).
+        Meters for each rad or meter of a joint, shape (shapes, joints).
     """
     columns = {joint: column for column, joint in enumerate(joints)}
     factors = {mimic.joint: mimic for mimic in (*(MimicJoint(name, name, 1.0, 0.0) for name in joints), *model.mimics)}
@@ -216,26 +216,26 @@ def _rates(
     is fixed in the frame above; pushed by it, a ball round the middle of its way.
     """
     shape.geometry.computeLocalAABB()
-    centre = np.asarray(shape.placement.act(shape.geometry.aabb_center))
+    center = np.asarray(shape.placement.act(shape.geometry.aabb_center))
     radius, joint = float(shape.geometry.aabb_radius), int(shape.parentJoint)
     while joint != 0:
         if joint in subspaces:
             direction, axis = subspaces[joint]
             if axis.any():
-                on_axis = (centre @ axis) * axis
-                radius += float(np.linalg.norm(centre - on_axis))
-                centre = on_axis
+                on_axis = (center @ axis) * axis
+                radius += float(np.linalg.norm(center - on_axis))
+                center = on_axis
                 yield joint, radius
             else:
                 lower, upper = _range(model, joint)
-                centre, radius = centre + (lower + upper) / 2.0 * direction, radius + (upper - lower) / 2.0
+                center, radius = center + (lower + upper) / 2.0 * direction, radius + (upper - lower) / 2.0
                 yield joint, 1.0
-        centre = np.asarray(model.kinematics.jointPlacements[joint].act(centre))
+        center = np.asarray(model.kinematics.jointPlacements[joint].act(center))
         joint = int(model.kinematics.parents[joint])
 
 
 def _range(model: RobotModel, joint: int) -> tuple[float, float]:
-    """Return the positions of a prismatic joint in metres; a follower goes where its leader's limits send it."""
+    """Return the positions of a prismatic joint in meters; a follower goes where its leader's limits send it."""
     name = str(model.kinematics.names[joint])
     mimic = next((mimic for mimic in model.mimics if mimic.joint == name), MimicJoint(name, name, 1.0, 0.0))
     at = model.kinematics.idx_qs[model.kinematics.getJointId(mimic.leader)]

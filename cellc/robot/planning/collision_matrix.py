@@ -13,13 +13,13 @@ from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
 
-from cellc.contract.limits import Purse
+from cellc.contract.limits import Budget
 from cellc.robot.planning.model import RobotModel
 from cellc.robot.planning.pair_sampling import PairCheck, beyond_reach, draw_configurations
 from cellc.robot.planning.problem import Array
 from cellc.robot.planning.scene import LinkPair, shape_links
 
-ENDLESS = Purse(math.inf, time.process_time)
+ENDLESS = Budget(math.inf, time.process_time)
 
 
 class DisabledReason(str, Enum):
@@ -45,11 +45,11 @@ class DisabledPair:
 
 
 def disabled_collisions(
-    model: RobotModel, *, samples: int, rng_seed: int, margin_m: float, purse: Purse = ENDLESS
+    model: RobotModel, *, samples: int, rng_seed: int, margin_m: float, budget: Budget = ENDLESS
 ) -> tuple[DisabledPair, ...]:
     """Return the pairs of links that need no collision check, sorted by name.
 
-    - adjacent: neighbours in the tree, with at most one movable joint and no other shape between them;
+    - adjacent: neighbors in the tree, with at most one movable joint and no other shape between them;
     - always: in contact at every sample;
     - never: farther apart than the margin at every sample, or by the lengths of their chains.
 
@@ -58,20 +58,20 @@ def disabled_collisions(
     Args:
         samples: number of configurations, drawn uniformly within the URDF's position limits; 1 or more.
         rng_seed: seed of the draw.
-        margin_m: metres.
-        purse: what looking at shapes may still take.
+        margin_m: meters.
+        budget: what looking at shapes may still take.
 
     Raises:
-        PurseError: it takes longer.
+        BudgetError: it takes longer.
     """
     configurations = draw_configurations(model, samples=samples, rng_seed=rng_seed)
-    decided, left = _without_never(model, configurations, margin_m, purse)
-    apart = _touching_in_none(model, left, purse.over(configurations), margin_m)
+    decided, left = _without_never(model, configurations, margin_m, budget)
+    apart = _touching_in_none(model, left, budget.over(configurations), margin_m)
     return tuple(sorted((*decided, *(DisabledPair(*pair, DisabledReason.NEVER) for pair in apart))))
 
 
 def decided_collisions(
-    model: RobotModel, *, samples: int, rng_seed: int, margin_m: float, purse: Purse = ENDLESS
+    model: RobotModel, *, samples: int, rng_seed: int, margin_m: float, budget: Budget = ENDLESS
 ) -> tuple[DisabledPair, ...]:
     """Return the disabled pairs but for those that only samples show to be apart.
 
@@ -79,11 +79,11 @@ def decided_collisions(
     whether they touch there.
     """
     configurations = draw_configurations(model, samples=samples, rng_seed=rng_seed)
-    return _without_never(model, configurations, margin_m, purse)[0]
+    return _without_never(model, configurations, margin_m, budget)[0]
 
 
 def _without_never(
-    model: RobotModel, configurations: Array, margin_m: float, purse: Purse
+    model: RobotModel, configurations: Array, margin_m: float, budget: Budget
 ) -> tuple[tuple[DisabledPair, ...], set[LinkPair]]:
     """Return the pairs that are decided, sorted, and those that are left: apart in at least one sample."""
     adjacent = set(_adjacent(model))
@@ -91,7 +91,7 @@ def _without_never(
     unreached = beyond_reach(model, margin_m=margin_m) - adjacent - rigid
     moving = set(_pairs(shape_links(model))) - adjacent - rigid - unreached
     at_rest = PairCheck(model, rigid, margin_m=margin_m).all_touching(configurations[0])
-    always = _touching_in_all(PairCheck(model, moving), moving, purse.over(configurations))
+    always = _touching_in_all(PairCheck(model, moving), moving, budget.over(configurations))
     found = {
         DisabledReason.ADJACENT: adjacent,
         DisabledReason.ALWAYS: at_rest | always,

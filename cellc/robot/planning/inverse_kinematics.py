@@ -24,7 +24,7 @@ _SAME_SOLUTION = 1e-4
 _NEAR_RAD = math.pi / 4.0
 POSITION_TOLERANCE_M = 1e-6
 ROTATION_TOLERANCE_RAD = 1e-6
-# Below this the error is rounding of the pose itself: where a descent ends does not depend on where it came from.
+# Below this the error is rounding of the pose itself: where a descent ends does not depend on its source.
 _CONVERGED = 1e-12
 # Decimals of a configuration in rad or m: far finer than a tip is placed, far coarser than the last bits in which
 # linear algebra libraries and processors differ.
@@ -38,8 +38,8 @@ class IkSolution:
     """A configuration that puts the tip at the target, free of collision and within limits.
 
     Attributes:
-        configuration: rad or metres in the group's joint order.
-        position_error: metres.
+        configuration: rad or meters in the group's joint order.
+        position_error: meters.
         rotation_error: radians.
         min_singular_value: least singular value of the tip's Jacobian (rows in m and rad); 0 at a singularity.
         manipulability: product of the singular values (Yoshikawa 1985).
@@ -90,7 +90,7 @@ def solve_inverse(
 
 
 def _stays_on_branch(chain: GroupChain, current: Array, near: Array) -> bool:
-    """Tell whether an arm of six joints has neither flipped nor moved far from where it stands.
+    """Tell whether an arm of six joints has neither flipped nor moved far from where it is.
 
     The sign of the Jacobian's determinant tells branches apart: it changes only at a singularity. The last joint may
     turn as far as the target asks: the others place its axis.
@@ -157,7 +157,7 @@ class Descent:
     """Where a descent ended; errors and Jacobian are those before the configuration was rounded.
 
     Attributes:
-        position_error: distance of the tip from the target in metres.
+        position_error: distance of the tip from the target in meters.
         rotation_error: angle between tip and target in radians.
         jacobian: of the tip there, 6 rows (m, rad).
     """
@@ -207,7 +207,7 @@ def descend(chain: GroupChain, target_to_world: PinTransform, seed: Array, limit
 
 
 def singular_values(chain: GroupChain, configuration: Array) -> Array:
-    """Return the singular values of the tip's Jacobian, largest first; rows in metres and radians."""
+    """Return the singular values of the tip's Jacobian, largest first; rows in meters and radians."""
     jacobian = chain.tip_and_jacobian(configuration)[1]
     return np.asarray(np.linalg.svd(jacobian, compute_uv=False), dtype=np.float64)
 

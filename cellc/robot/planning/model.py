@@ -108,7 +108,7 @@ class RobotModel:
         """Write joint positions as pinocchio's configuration; joints not named stand at the allowed value nearest zero.
 
         Args:
-            positions: rad or metres by joint name; a mimic joint follows its joint and is not named.
+            positions: rad or meters by joint name; a mimic joint follows its joint and is not named.
         """
         vector: Array = np.array(pinocchio.neutral(self.kinematics), dtype=np.float64)
         for joint in positions:
@@ -153,7 +153,7 @@ def _kinematics(text: str) -> PinModel:
 
 
 def _place(shapes: Mapping[tuple[str, int], PinShape], geometry: PinGeometry, model: PinModel) -> None:
-    """Put each mesh in the place of the shape that stands for it; those of a link are in the order of the file."""
+    """Put each mesh in the place of the shape that represents it; those of a link are in the order of the file."""
     numbers: Counter[str] = Counter()
     for shape in geometry.geometryObjects if shapes else ():
         link = str(model.frames[shape.parentFrame].name)
@@ -219,7 +219,7 @@ def _check_tree(description: Description) -> None:
 
 @dataclass(frozen=True, slots=True)
 class MimicJoint:
-    """A joint that stands at ``multiplier * leader + offset``; the leader itself follows nothing."""
+    """A joint that is at ``multiplier * leader + offset``; the leader itself follows nothing."""
 
     joint: str
     leader: str
@@ -248,7 +248,7 @@ def _resolve_mimics(description: Description) -> tuple[MimicJoint, ...]:
 
 def _followers(description: Description) -> Iterator[tuple[str, Mimic]]:
     for joint in description.joints:
-        if joint.mimic is not None and joint.type != "fixed":  # a fixed joint follows nobody
+        if joint.mimic is not None and joint.type != "fixed":  # a fixed joint follows no joint
             yield joint.name, joint.mimic
 
 

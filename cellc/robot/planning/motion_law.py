@@ -78,7 +78,7 @@ def moving(
 def jerk_changes(law: MotionLaw) -> list[float]:
     """Return the instants in seconds at which the jerk of any joint may change, sorted, from 0 to the duration.
 
-    Between two neighbours every joint's position is one cubic of time.
+    Between two neighbors every joint's position is one cubic of time.
     """
     instants = {0.0, float(law.duration)}
     for profile in law.profiles[0]:
@@ -93,7 +93,7 @@ def fastest_bounds(curve: SectionCurve, limits: JointLimits) -> ParameterBounds:
     curve, speed is paid for with acceleration and jerk, so ever lower speeds are tried until they can shorten nothing.
     """
     slope, bend, twist = curve.steepest()
-    # A joint that stands still bounds nothing; the floor keeps its quotient finite.
+    # A joint that is at standstill bounds nothing; the floor keeps its quotient finite.
     steepness = (np.maximum(slope, 1e-12), bend, twist)
     highest = float(np.min(np.array(limits.velocity) / steepness[0]))
     if not np.any(bend):  # without curvature there is always room

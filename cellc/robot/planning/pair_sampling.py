@@ -74,7 +74,7 @@ class PairCheck:
         for request in self._geometry_data.collisionRequests:
             request.security_margin = margin_m
         self._manager = broad_phase(model, self._geometry, self._geometry_data)
-        # Asked for each pair at each sample: fetching the result anew takes six times as long as reading it.
+        # Asked for each pair at each sample: fetching the result again takes six times as long as reading it.
         results = list(self._geometry_data.collisionResults)
         self._active: dict[LinkPair, list[tuple[int, Any]]] = {pair: [] for pair in links}
         for index, (pair, result) in enumerate(zip(links, results, strict=True)):
@@ -123,15 +123,15 @@ def _shapes_of(model: RobotModel, wanted: set[LinkPair]) -> tuple[PinGeometry, l
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Ball:
-    """What holds a shape in the frame of a joint, whatever the joints below it do; metres."""
+    """What holds a shape in the frame of a joint, whatever the joints below it do; meters."""
 
     joint: int
-    centre: Array
+    center: Array
     radius: float
 
 
 def beyond_reach(model: RobotModel, *, margin_m: float) -> set[LinkPair]:
-    """Return the pairs of links on different moving bodies that always stay farther apart than a margin in metres."""
+    """Return the pairs of links on different moving bodies that always stay farther apart than a margin in meters."""
     names, bodies = shape_links(model), [int(shape.parentJoint) for shape in model.geometry.geometryObjects]
     balls = [{ball.joint: ball for ball in _balls(model, shape)} for shape in model.geometry.geometryObjects]
     near: set[LinkPair] = set()
@@ -147,7 +147,7 @@ def beyond_reach(model: RobotModel, *, margin_m: float) -> set[LinkPair]:
 
 def _apart(first: dict[int, _Ball], second: dict[int, _Ball], margin_m: float) -> bool:
     joint = next(joint for joint in first if joint in second)  # the nearest body that carries both
-    distance = math.dist(first[joint].centre, second[joint].centre)
+    distance = math.dist(first[joint].center, second[joint].center)
     return distance > first[joint].radius + second[joint].radius + margin_m
 
 
@@ -155,18 +155,18 @@ def _balls(model: RobotModel, shape: Any) -> Iterator[_Ball]:
     """Yield the ball of a shape in the frame of its joint, and of each joint above it up to the world."""
     geometry, placement, joint = shape.geometry, shape.placement, int(shape.parentJoint)
     geometry.computeLocalAABB()
-    centre, radius = np.asarray(placement.act(geometry.aabb_center)), float(geometry.aabb_radius)
-    yield _Ball(joint, centre, radius)
+    center, radius = np.asarray(placement.act(geometry.aabb_center)), float(geometry.aabb_radius)
+    yield _Ball(joint, center, radius)
     while joint != 0:
         # Turned by this joint, the ball sweeps a ball round the joint's origin.
-        radius += float(np.linalg.norm(centre)) + _travel(model, joint)
-        centre = np.asarray(model.kinematics.jointPlacements[joint].translation)
+        radius += float(np.linalg.norm(center)) + _travel(model, joint)
+        center = np.asarray(model.kinematics.jointPlacements[joint].translation)
         joint = int(model.kinematics.parents[joint])
-        yield _Ball(joint, centre, radius)
+        yield _Ball(joint, center, radius)
 
 
 def _travel(model: RobotModel, joint: int) -> float:
-    """Return how far the origin of a joint leaves its place, in metres."""
+    """Return how far the origin of a joint leaves its place, in meters."""
     kind, name = model.kinematics.joints[joint].shortname(), str(model.kinematics.names[joint])
     if "JointModelR" in kind:
         return 0.0

@@ -75,7 +75,7 @@ class Planner:
         return float(singular_values(self._chain, _array(configuration))[-1])
 
     def clearance_m(self, configuration: Sequence[float]) -> float | None:
-        """Return the least distance from what the group moves to what stands around, m; None where nothing is checked.
+        """Return the least distance from what the group moves to what is around, m; None where nothing is checked.
 
         Its own base and what may touch it do not stand around. Negative where shapes are in each other.
         """
@@ -88,7 +88,7 @@ class Planner:
 
         Args:
             target_in_base: wanted pose of the tip link in the frame of the group's base link.
-            current: rad or metres; the first seed, and where distances are measured from.
+            current: rad or meters; the first seed, and where distances are measured from.
             seeds: number of descents, of which all but the first start at configurations drawn with ``rng_seed``.
         """
         return solve_inverse(
@@ -123,7 +123,7 @@ class Planner:
         """Plan a straight line of the tip to the target, in steps of at most 5 mm and 0.05 rad.
 
         Args:
-            start: rad or metres; the line begins where it puts the tip.
+            start: rad or meters; the line begins where it puts the tip.
             target_in_base: wanted pose of the tip link in the frame of the group's base link.
         """
         first = _array(start)

@@ -1,4 +1,4 @@
-"""What the planner takes and gives: planning groups and joint limits, paths, and the reasons why there is none."""
+"""What the planner takes and gives: planning groups and joint limits, paths, and the reasons why there is no path."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class PlanningGroup:
 
 @dataclass(frozen=True, slots=True)
 class JointLimits:
-    """Limits per joint in the group's order: rad, rad/s, rad/s², rad/s³, or metres for prismatic joints.
+    """Limits per joint in the group's order: rad, rad/s, rad/s², rad/s³, or meters for prismatic joints.
 
     A continuous joint has the position limits -inf and +inf.
 
@@ -88,7 +88,7 @@ class JointPath:
 
     Attributes:
         joints: the order of every configuration.
-        sections: waypoints, rad or metres.
+        sections: waypoints, rad or meters.
     """
 
     joints: tuple[str, ...]

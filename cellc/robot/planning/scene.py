@@ -41,7 +41,7 @@ class CollisionScene:
         Args:
             disabled_collisions: pairs of link or box names that are not checked, in either order.
             boxes: attached objects.
-            other_positions: rad or metres of the joints outside the planning group, a gripper's for instance.
+            other_positions: rad or meters of the joints outside the planning group, a gripper's for instance.
 
         Raises:
             ModelError: a name is not a link, box or joint of this scene.
@@ -59,11 +59,11 @@ class CollisionScene:
         self._rest = model.configuration(self.other_positions)
 
     def attach(self, name: str, link: str, size: Vector3, pose_in_link: Pose) -> CollisionScene:
-        """Return the scene with a box fixed to a link, replacing a box of this name; metres."""
+        """Return the scene with a box fixed to a link, replacing a box of this name; meters."""
         return self._with(boxes=(*self.detach(name).boxes, Box(name, link, size, pose_in_link)))
 
     def detach(self, name: str) -> CollisionScene:
-        """Return the scene without the box of this name; the same scene where there is none."""
+        """Return the scene without the box of this name; the same scene without one."""
         if all(box.name != name for box in self.boxes):
             return self
         pairs = tuple(pair for pair in self.disabled_collisions if name not in pair)
@@ -79,7 +79,7 @@ class CollisionScene:
         return self._with(disabled=tuple(pair for pair in self.disabled_collisions if pair not in refused))
 
     def with_other_positions(self, positions: Mapping[str, float]) -> CollisionScene:
-        """Return the scene with joints outside the group moved, rad or metres; joints not named stay."""
+        """Return the scene with joints outside the group moved, rad or meters; joints not named stay."""
         moved = copy.copy(self)  # the shapes are the same, and what is computed with them is never kept
         moved.other_positions = {**self.other_positions, **positions}
         moved._rest = self.model.configuration(moved.other_positions)
@@ -187,8 +187,8 @@ class Box:
 
     Attributes:
         link: the link that carries it.
-        size: full edge lengths in metres.
-        pose_in_link: pose of its centre in the frame of the link.
+        size: full edge lengths in meters.
+        pose_in_link: pose of its center in the frame of the link.
     """
 
     name: str
@@ -198,7 +198,7 @@ class Box:
 
 
 def broad_phase(model: RobotModel, geometry: PinGeometry, geometry_data: PinData) -> PinManager:
-    """Return bounding boxes round all shapes: they leave only neighbours to be compared shape by shape."""
+    """Return bounding boxes round all shapes: they leave only neighbors to be compared shape by shape."""
     few = len(geometry.geometryObjects) <= _FEW_SHAPES
     manager = (
         pinocchio.BroadPhaseManager_NaiveCollisionManager

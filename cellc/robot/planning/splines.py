@@ -62,7 +62,7 @@ def _second_derivatives(values: Array, width: float) -> Array:
     if count == 3:
         second[:] = bends[0]
         return second
-    # The ends continue the line through their two neighbours, which makes the second and the last but one known. The
+    # The ends continue the line through their two neighbors, which makes the second and the last but one known. The
     # rest by elimination in a fixed order: a library solver differs in its last bits from processor to processor.
     second[1], second[-2] = bends[0], bends[-1]
     right_side = 6.0 * bends[1:-1]

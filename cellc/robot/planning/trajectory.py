@@ -40,7 +40,7 @@ _LONGEST_S = 1e8
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryPoint:
-    """One trajectory_msgs/JointTrajectoryPoint: rad, rad/s, rad/s², or metres for prismatic joints."""
+    """One trajectory_msgs/JointTrajectoryPoint: rad, rad/s, rad/s², or meters for prismatic joints."""
 
     time_from_start_ns: int
     positions: Configuration
@@ -56,7 +56,7 @@ class LimitUse:
         velocity: largest share of a velocity limit; 1 is the whole limit.
         acceleration: largest share of an acceleration limit.
         jerk: largest share of a jerk limit.
-        position_margin: least distance from a position limit in rad or metres; negative outside.
+        position_margin: least distance from a position limit in rad or meters; negative outside.
     """
 
     velocity: float
@@ -75,7 +75,7 @@ class TimedTrajectory:
     """Points between which the controller's quintic interpolation stays within limits.
 
     Attributes:
-        points: the first at time 0 where the robot stands, the last at rest; times rise by 0.1 ms or more.
+        points: the first at time 0 where the robot is, the last at rest; times rise by 0.1 ms or more.
         limit_use: guaranteed for the interpolated motion, not only at the points.
     """
 

@@ -31,7 +31,7 @@ def _kind(kind: ControllerKind) -> Iterator[str]:
     facts = "\n".join(f"- {name}: {text}" for name, text in _facts(kind).items() if text)
     if facts:
         yield facts
-    topics = ((code(one.name), one.type, _DIRECTIONS[one.direction], _only(one.only)) for one in kind.topics)
+    topics = ((code(topic.name), topic.type, _DIRECTIONS[topic.direction], _only(topic.only)) for topic in kind.topics)
     told = table(("topic", "type", "it", "on"), topics)
     if kind.topics:
         yield told
@@ -42,7 +42,7 @@ def _kind(kind: ControllerKind) -> Iterator[str]:
 
 def _facts(kind: ControllerKind) -> Mapping[str, str]:
     plugins = {use.type: None for use in kind.plugins.values()}
-    combined = (" + ".join(map(code, one)) for one in kind.command_combinations)
+    combined = (" + ".join(map(code, combination)) for combination in kind.command_combinations)
     action = kind.action
     return {
         "plugin": ", ".join(map(code, plugins)),
@@ -53,7 +53,7 @@ def _facts(kind: ControllerKind) -> Mapping[str, str]:
         "action": ""
         if action is None
         else f"{code(action.suffix)}, {', '.join(map(code, dict.fromkeys(action.types.values())))}",
-        "services": ", ".join(f"{code(one.name)} ({one.type})" for one in kind.services),
+        "services": ", ".join(f"{code(service.name)} ({service.type})" for service in kind.services),
     }
 
 

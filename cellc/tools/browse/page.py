@@ -176,10 +176,12 @@ def _list(texts: Iterable[str]) -> str:
 
 
 def picture(entry: CatalogDevice) -> str:
-    """Return the device as it stands at home, from two sides, with the frames that a spec can name."""
+    """Return the device as it is at home, from two sides, with the frames that a spec can name."""
     description = entry.description
     poses = posture(description, _home(entry.model))
-    shapes = ((link.name, one) for link in description.links for one in link.collisions if link.name in poses)
+    shapes = (
+        (link.name, collision) for link in description.links for collision in link.collisions if link.name in poses
+    )
     named: Mapping[str, Pose] = {name: poses[link] for name, link in entry.model.frames.items() if link in poses}
     joined = (joint for joint in description.joints if joint.child in poses)
     return two_views(

@@ -71,7 +71,7 @@ def distributions(model: DeviceModel) -> tuple[str, ...]:
     return tuple(dict.fromkeys(row.distro.value for row in rows if row.distro and (row.known or row.built_from)))
 
 
-def metres(text: str) -> float:
+def meters(text: str) -> float:
     """Read a length with its unit, as in a spec.
 
     Raises:

@@ -28,7 +28,7 @@ from cellc.robot.description.packages import package_path, use_packages
 from cellc.tools.cli.fleet import USUAL, Fan, Task
 
 if TYPE_CHECKING:
-    from cellc.contract.compute.work import Hire
+    from cellc.contract.compute.work import ExecutorFactory
 
 Kind = Literal["check", "compile"]
 
@@ -61,11 +61,11 @@ class CellResult:
 
 
 def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
-    """Return the specs that are meant: a folder stands for every ``cell.yaml`` below it, in alphabetical order.
+    """Return the specs that are meant: a folder means every ``cell.yaml`` below it, in alphabetical order.
 
-    A pattern such as ``cells/*/cell.yaml`` stands for what it matches, where no shell has replaced it. Folders that
+    A pattern such as ``cells/*/cell.yaml`` represents what it matches, where no shell has replaced it. Folders that
     begin with a dot and virtual environments are left out, and no link to a folder is followed. A folder without a spec
-    that is the folder of a device stands for its ``device.yaml``; any other stays what it is, so that it is told like
+    that is the folder of a device represents its ``device.yaml``; any other stays what it is, so that it is told like
     any other file that is none.
     """
     below = ((path, files_below(path, SPEC_FILE) if os.path.isdir(path) else ()) for path in matched(paths))
@@ -82,7 +82,7 @@ def several_folders(paths: Sequence[str]) -> tuple[str, ...] | None:
     named = tuple(matched(paths))
     below = {path: files_below(path, "contract.json") for path in named if os.path.isdir(path)}
     inside = {path: tuple(map(os.path.dirname, files)) for path, files in below.items()}
-    found = tuple(dict.fromkeys(one for path in named for one in inside.get(path) or (path,)))
+    found = tuple(dict.fromkeys(text for path in named for text in inside.get(path) or (path,)))
     return (
         None
         if len(found) == 1 and len(named) == 1 and os.path.normpath(found[0]) == os.path.normpath(named[0])
@@ -103,7 +103,7 @@ def files_below(folder: str, *patterns: str) -> tuple[str, ...]:
     for place, folders, files in os.walk(folder):
         kept = (name for name in folders if not name.startswith("."))
         folders[:] = sorted(name for name in kept if not os.path.exists(os.path.join(place, name, "pyvenv.cfg")))
-        named = (file for file in sorted(files) if any(fnmatchcase(file, one) for one in patterns))
+        named = (file for file in sorted(files) if any(fnmatchcase(file, pattern) for pattern in patterns))
         found += (os.path.normpath(os.path.join(place, file)) for file in named)
     return tuple(found)
 
@@ -147,9 +147,9 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
 
     Cells of different versions never run beside each other.
     """
-    hire = _hire(fan, kind, len(tasks))
+    factory = _executor_factory(fan, kind, len(tasks))
     shared = os.getcwd() if fan.cluster is not None else ""
-    computed = (compute(kind, task) for task in tasks) if hire is None else in_workers(kind, tasks, hire, shared)
+    computed = (compute(kind, task) for task in tasks) if factory is None else in_workers(kind, tasks, factory, shared)
     earlier: dict[str, list[Presence]] = {}
     label = {"check": "checking", "compile": "building"}[kind]
     begun, spent_s = monotonic(), 0.0
@@ -174,7 +174,7 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
             yield replace(result, findings=result.findings.with_more(against), artifacts=None) if against else result
 
 
-def _hire(fan: Fan, kind: Kind, tasks: int) -> Hire | None:
+def _executor_factory(fan: Fan, kind: Kind, tasks: int) -> ExecutorFactory | None:
     """Return who does so many tasks; None for this process."""
     if fan.cluster is not None:
         from cellc.contract.compute.cluster import cluster
@@ -228,7 +228,7 @@ def _computed(kind: Kind, task: Task) -> CellResult:
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """What every process of a call is told.
+    """What every process of a call gets.
 
     Attributes:
         folder: where specs are named from, for workers of other computers; empty where that is the current one.
@@ -291,13 +291,15 @@ def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
     paying = min(cells // _CELLS_THAT_PAY[kind], MOST_WORKERS)
     if paying <= 1:
         return 1
-    # One cell needs no processes: loading what hires them takes a fiftieth of its check.
+    # One cell needs no processes: loading their factory takes a fiftieth of its check.
     from cellc.contract.compute.processes import usable_cores
 
     return max(1, min(usable_cores() if cores is None else cores, paying))
 
 
-def in_workers(kind: Kind, tasks: Sequence[Task], hire: Hire, shared: str = "") -> Generator[CellResult, None, None]:
+def in_workers(
+    kind: Kind, tasks: Sequence[Task], factory: ExecutorFactory, shared: str = ""
+) -> Generator[CellResult, None, None]:
     """Yield results in the order of the tasks, whoever computes them; closing it ends them all.
 
     Args:
@@ -305,14 +307,14 @@ def in_workers(kind: Kind, tasks: Sequence[Task], hire: Hire, shared: str = "") 
 
     Raises:
         ClickException: a spec ends every process that computes it, or no worker is within reach.
-        Stopped: what had not begun was dropped, and no process is left.
+        Stopped: what had not started was dropped, and no process is left.
     """
     from cellc.contract.compute.work import ComputeError, Work, in_order, stream
 
     work = Work(_compute_within, _Asked(kind, limits(), package_path(), shared), lambda unit: unit.task.file)
     units = [_Unit(task, digest_of(task.file) if shared else "") for task in tasks]
     try:
-        with closing(stream(work, units, hire)) as computed:
+        with closing(stream(work, units, factory)) as computed:
             yield from in_order(computed)
     except ComputeError as problem:
         raise click.ClickException(str(problem)) from None

@@ -58,7 +58,7 @@ def build(
 ) -> None:
     """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
 
-    A folder stands for every cell.yaml below it. With --matrix each tuple has a folder of its own in OUTPUT.
+    A folder means every cell.yaml below it. With --matrix each tuple has a folder of its own in OUTPUT.
 
     Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock, and are summed
     here; `cellc check` shows each. Files that you put beside the generated ones stay. No option hides an error.
@@ -75,10 +75,10 @@ def build(
     for task, result in zip(tasks, results("compile", tasks, fleet.fan), strict=True):
         folder = folder_of(task.versions)
         built.append(_built(_unless_shared(result, folder, places), output / folder, only_compare, force))
-    shown = [selected_and_errors(one.result.findings, wanted) for one in built]
+    shown = [selected_and_errors(item.result.findings, wanted) for item in built]
     found = [(task, one.result.findings) for task, one in zip(tasks, built, strict=True)]
     show_checked(fleet, found, shown, output_format, sum_blockers=True)
-    told = [line for one in built for line in one.told]
+    told = [line for item in built for line in item.told]
     if output_format == "text" and told and not fleet.as_json:
         show(*told)
     rows = [

@@ -11,7 +11,7 @@ from cellc.compiler.catalog.device_model import device_kinds
 from cellc.compiler.catalog.load import device_names, load_device
 from cellc.contract.printing import refuse, show, show_document, stage
 from cellc.contract.vocabulary import Distro
-from cellc.tools.browse.search import Wanted, found, kilograms, listed, metres
+from cellc.tools.browse.search import Wanted, found, kilograms, listed, meters
 from cellc.tools.cli.handbook import write_pages
 from cellc.tools.cli.words import complete_model
 
@@ -33,7 +33,7 @@ class _Figure(click.ParamType[float]):
 @click.command()
 @click.argument("words", nargs=-1, metavar="[MODEL | WORD...]", shell_complete=complete_model)
 @click.option("--kind", type=click.Choice(device_kinds()), help="Devices of one kind.")
-@click.option("--reach", type=_Figure("LENGTH", metres), help="Arms that reach as far, such as `900 mm`.")
+@click.option("--reach", type=_Figure("LENGTH", meters), help="Arms that reach as far, such as `900 mm`.")
 @click.option("--payload", type=_Figure("MASS", kilograms), help="Arms that carry as much, such as `5 kg`.")
 @click.option("--ros", type=click.Choice([distro.value for distro in Distro]), help="Devices whose driver is for it.")
 @click.option("--all", "everything", is_flag=True, help="With --output, write the pages of all devices.")

@@ -1,4 +1,4 @@
-"""``cellc check``: read, link and check cells; nothing is written but what ``--fix`` mends."""
+"""``cellc check``: read, link and check cells; nothing is written but what ``--fix`` corrects."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FIX = click.option(
     is_flag=True,
     help="Fix what has one safe answer in the files: misspelled keys and units, the modeline.",
 )
-# A mended key can show a misspelt one below it; no spec is nested deeper.
+# A corrected key can show a misspelled one below it; no spec is nested deeper.
 _PASSES = 16
 
 
@@ -50,7 +50,7 @@ def check(
     sarif: Path | None,
     fleet: FleetOptions,
 ) -> None:
-    """Check each cell in FILES and point at what is wrong; a folder stands for every cell.yaml below it.
+    """Check each cell in FILES and point at what is wrong; a folder means every cell.yaml below it.
 
     The file of a device, or of a robot description, is judged by itself.
 
@@ -70,7 +70,7 @@ def check(
             fix_file(file)
     tasks = fleet.tasks(files)
     computed = list(results("check", tasks, fleet.fan))
-    shown = [selected(one.findings, wanted) for one in computed]
+    shown = [selected(result.findings, wanted) for result in computed]
     show_checked(fleet, [(task, one.findings) for task, one in zip(tasks, computed, strict=True)], shown, output_format)
     if sarif is not None:
         write_sarif(shown, sarif)
@@ -79,18 +79,18 @@ def check(
 
 
 def fix_file(file: str) -> None:
-    """Mend a spec and what it includes, and say on standard error what was done."""
+    """Correct a spec and what it includes, and say on standard error what was done."""
     from cellc.compiler.catalog.read_model import is_device
     from cellc.compiler.pipeline import judge
     from cellc.compiler.source import read
-    from cellc.tools.edit.fixes import missing_modeline, misspelt_keys, misspelt_units
+    from cellc.tools.edit.fixes import missing_modeline, misspelled_keys, misspelled_units
 
     for _ in range(_PASSES):
         document = read(file)
         if document.value is None or not document.ok:
             return
         found = judge(file).diagnostics
-        edits: list[Edit] = [*misspelt_keys(found, document.value), *misspelt_units(found, document.value)]
+        edits: list[Edit] = [*misspelled_keys(found, document.value), *misspelled_units(found, document.value)]
         kind = "device" if is_device(document.value.data) else "cell"
         edits += missing_modeline(document.value.file, document.value.texts[document.value.file], kind)
         if not edits:

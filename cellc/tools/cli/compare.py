@@ -34,9 +34,9 @@ def compare(files: tuple[str, ...], output_format: str) -> None:
     if len(files) < 2:
         raise click.UsageError("expected two cells or more, got one.")
     checked = [check(file) for file in files]
-    graphs = [one.graph for one in checked if one.graph is not None]
+    graphs = [item.graph for item in checked if item.graph is not None]
     if len(graphs) < len(checked):
-        show_findings([one.findings for one in checked if one.graph is None], "text")
+        show_findings([item.findings for item in checked if item.graph is None], "text")
         raise click.exceptions.Exit(1)
     from cellc.tools.report.comparison import compare as compared
     from cellc.tools.report.comparison_text import comparison_markdown, render_comparison

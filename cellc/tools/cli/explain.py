@@ -1,4 +1,4 @@
-"""``cellc explain``: what a diagnostic code means, why it matters, and how to mend it."""
+"""``cellc explain``: what a diagnostic code means, why it matters, and how to fix it."""
 
 from __future__ import annotations
 

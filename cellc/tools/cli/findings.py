@@ -62,21 +62,21 @@ def show_findings(
     if output_format != "text":
         _show_for_programs(_each_once(found), output_format)
         return
-    for one in found:
-        summed = sum_blockers and all(each.severity is not Severity.ERROR for each in one.diagnostics)
-        listed = [each for each in one.diagnostics if not summed or each.severity is not Severity.BLOCKER]
+    for findings in found:
+        summed = sum_blockers and all(each.severity is not Severity.ERROR for each in findings.diagnostics)
+        listed = [each for each in findings.diagnostics if not summed or each.severity is not Severity.BLOCKER]
         if listed:
-            show(*render_text(listed, one.texts), "")
-        show(summary(one.diagnostics, [one.file]))
+            show(*render_text(listed, findings.texts), "")
+        show(summary(findings.diagnostics, [findings.file]))
         if summed:
-            show(*summed_blockers(one.diagnostics, one.file))
+            show(*summed_blockers(findings.diagnostics, findings.file))
     if hidden:
         show(f"{hidden} hidden by --select or --ignore")
 
 
 def _each_once(found: Sequence[Findings]) -> tuple[Diagnostic, ...]:
     # A cell with several tuples has most of its findings with each.
-    return tuple(dict.fromkeys(each for one in found for each in one.diagnostics))
+    return tuple(dict.fromkeys(each for findings in found for each in findings.diagnostics))
 
 
 def write_sarif(found: Sequence[Findings], file: Path) -> None:
@@ -92,13 +92,13 @@ def write_sarif(found: Sequence[Findings], file: Path) -> None:
 
 def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:
     """Return how many findings options left out."""
-    return sum(len(one.diagnostics) for one in found) - sum(len(one.diagnostics) for one in shown)
+    return sum(len(findings.diagnostics) for findings in found) - sum(len(findings.diagnostics) for findings in shown)
 
 
 def fails(found: Findings, fail_on: str) -> bool:
     """Tell whether a finding is as severe as ``fail_on``."""
     limit = _RANK[Severity(fail_on)]
-    return any(_RANK[one.severity] <= limit for one in found.diagnostics)
+    return any(_RANK[diagnostic.severity] <= limit for diagnostic in found.diagnostics)
 
 
 def _show_for_programs(found: Sequence[Diagnostic], output_format: str) -> None:
@@ -127,12 +127,18 @@ def read_selection(select: Sequence[str], ignore: Sequence[str]) -> Selection:
 
 def selected(findings: Findings, wanted: Selection) -> Findings:
     """Return the findings that were asked for."""
-    return replace(findings, diagnostics=tuple(one for one in findings.diagnostics if wanted.shows(one)))
+    return replace(
+        findings, diagnostics=tuple(diagnostic for diagnostic in findings.diagnostics if wanted.shows(diagnostic))
+    )
 
 
 def selected_and_errors(findings: Findings, wanted: Selection) -> Findings:
     """Return the findings that were asked for and every error, for a command that errors stop."""
-    shown = (one for one in findings.diagnostics if one.severity is Severity.ERROR or wanted.shows(one))
+    shown = (
+        diagnostic
+        for diagnostic in findings.diagnostics
+        if diagnostic.severity is Severity.ERROR or wanted.shows(diagnostic)
+    )
     return replace(findings, diagnostics=tuple(shown))
 
 

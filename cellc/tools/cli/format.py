@@ -29,7 +29,7 @@ _DIFF_STYLES = {"+": Style.GREEN, "-": Style.RED, "@": Style.CYAN}
 def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
     """Put FILES into their canonical form: order of keys, spacing, spelling of quantities.
 
-    A folder stands for every cell.yaml below it with what it includes, and every device.yaml; `-` reads standard input
+    A folder means every cell.yaml below it with what it includes, and every device.yaml; `-` reads standard input
     and writes standard output. Every comment stays with what it belongs to, and no value changes.
 
     \b
@@ -49,17 +49,17 @@ def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
         for file in _meant(files):
             stage(file)
             done.append(take_file(file))
-    refused = [Findings(one.name, {one.name: one.before}, one.findings) for one in done if one.findings]
+    refused = [Findings(taken.name, {taken.name: taken.before}, taken.findings) for taken in done if taken.findings]
     if refused:
         show_findings(refused, "text")
-    changed = [one for one in done if one.changes]
-    for one in changed if diff else ():
-        show(*_difference(one))
+    changed = [taken for taken in done if taken.changes]
+    for taken in changed if diff else ():
+        show(*_difference(taken))
     writes = not (check or diff)
     if _STDIN in files:
         failed = writes and not refused and not _shown(done[0].after)
     else:
-        failed = [_put(one, writes=writes) for one in changed].count(False) > 0
+        failed = [_put(taken, writes=writes) for taken in changed].count(False) > 0
         _tell_the_others(len(done) - len(changed) - len(refused))
     if refused or failed or (check and changed):
         raise click.exceptions.Exit(1)
@@ -77,10 +77,10 @@ def _meant(files: Sequence[str]) -> Iterator[str]:
             raise click.UsageError(f"there is no {SPEC_FILE}, {DEVICE_FILE} or *{FAMILY_FILE} below `{file}`.")
         for name in below or (file,):
             is_spec = bool(below) and os.path.basename(name) == SPEC_FILE
-            for one in with_includes(name) if is_spec else (name,):
-                if os.path.realpath(one) not in seen:
-                    seen.add(os.path.realpath(one))
-                    yield one
+            for include in with_includes(name) if is_spec else (name,):
+                if os.path.realpath(include) not in seen:
+                    seen.add(os.path.realpath(include))
+                    yield include
 
 
 def _put(one: Taken, *, writes: bool) -> bool:
@@ -105,7 +105,7 @@ def _tell_the_others(same: int) -> None:
 
 def _shown(text: str) -> bool:
     """Write a file to standard output, or nothing where a line of it would not come out as it is."""
-    if as_text(text.removesuffix("\n").split("\n"), colour=False) != text:
+    if as_text(text.removesuffix("\n").split("\n"), color=False) != text:
         refuse("a line reads like a command to a runner of CI; format the file itself")
         return False
     show_document(text)

@@ -1,4 +1,4 @@
-"""Pages of cellc in a folder, and nobody else's replaced: a README.md is what other people's folders have too."""
+"""Pages of cellc in a folder, and no one else's replaced: a README.md is what other people's folders have too."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def write_pages(folder: Path, pages: Mapping[str, str]) -> None:
     """Write pages by their names into a folder.
 
     Raises:
-        UsageError: a file of another title stands in the place of one; nothing is written then.
+        UsageError: a file of another title is in the place of one; nothing is written then.
         OSError: writing is refused.
     """
     for name, text in pages.items():

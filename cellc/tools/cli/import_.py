@@ -118,7 +118,7 @@ def import_(
 
 def _stop_at_errors(found: Findings) -> None:
     """Show what is wrong with a cell, and end the command where something is."""
-    errors = tuple(one for one in found.diagnostics if one.severity is Severity.ERROR)
+    errors = tuple(diagnostic for diagnostic in found.diagnostics if diagnostic.severity is Severity.ERROR)
     if errors:
         show_findings((replace(found, diagnostics=errors),), "text")
         raise click.exceptions.Exit(1)
@@ -140,7 +140,7 @@ def _argument(text: str) -> tuple[str, str]:
 
 
 def _read(named: str, arguments: dict[str, str], kind: str | None, output: Path | None) -> tuple[Robot, Role]:
-    """Return the robot that is meant, and its part in a cell; what is wrong with it is told and ends the command."""
+    """Return the named robot and its part in a cell; an error in it is reported and ends the command."""
     from cellc.tools.importing.device_text import model_name
     from cellc.tools.importing.folder import kept_kind
     from cellc.tools.importing.role import role_of

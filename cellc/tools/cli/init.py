@@ -66,7 +66,9 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     entries = _named(devices, file.parent)
     _add_signals(entries)
     schema = quote(Path(os.path.relpath("schemas/cell.schema.json", file.parent)).as_posix())
-    named = [one.model.description.package for one in entries.values() if one.model.description.package is not None]
+    named = [
+        entry.model.description.package for entry in entries.values() if entry.model.description.package is not None
+    ]
     beside = folders_elsewhere(named, file.parent.as_posix())
     write_whole(file, starter_spec(name, Distro(ros), entries, schema, beside))
     show(f"wrote {file.as_posix()}")

@@ -127,7 +127,7 @@ def mock(
 
 
 def _meant(folders: tuple[str, ...]) -> tuple[str, tuple[str, ...] | None]:
-    """Return the first folder that is meant, and all of them where a table is; a pattern stands for what it matches."""
+    """Return the first folder that is meant, and all of them where a table is; a pattern means what it matches."""
     if len(folders) == 1 and os.path.exists(os.path.join(folders[0], "contract.json")):
         return folders[0], None  # what looks for others loads for longer than a folder is read
     from cellc.tools.cli.batch import matched, several_folders

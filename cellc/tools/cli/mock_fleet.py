@@ -54,7 +54,7 @@ def _rehearsed(members: Sequence[Member], options: MockOptions) -> Iterator[Rehe
 
 def _stopped(result: CellResult) -> str:
     """Say what stops a cell from being built: its first error."""
-    errors = [one for one in result.findings.diagnostics if one.severity is Severity.ERROR]
+    errors = [diagnostic for diagnostic in result.findings.diagnostics if diagnostic.severity is Severity.ERROR]
     if result.problem or not errors:
         return result.problem
     more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""

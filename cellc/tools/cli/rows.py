@@ -23,7 +23,7 @@ def row_of(task: Task, result: CellResult, shown: Findings, fail_on: str, proble
 
     Args:
         shown: the findings that were asked for.
-        problem: what went wrong beyond findings.
+        problem: what failed beyond findings.
     """
     # The models of the table load for as long as a small cell is checked.
     from cellc.contract.fleet import FleetRow
@@ -31,8 +31,13 @@ def row_of(task: Task, result: CellResult, shown: Findings, fail_on: str, proble
 
     problem = problem or result.problem
     told = (
-        ReviewFinding(code=one.code, severity=one.severity.value, message=one.message, place=str(one.span))
-        for one in shown.diagnostics
+        ReviewFinding(
+            code=diagnostic.code,
+            severity=diagnostic.severity.value,
+            message=diagnostic.message,
+            place=str(diagnostic.span),
+        )
+        for diagnostic in shown.diagnostics
     )
     return FleetRow(
         cell="" if result.cell is None else result.cell.name,

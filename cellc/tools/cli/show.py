@@ -1,4 +1,4 @@
-"""``cellc show``: the value that cellc uses, and where it came from."""
+"""``cellc show``: the value that cellc uses, and its source."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from cellc.tools.report.resolved import Leaf, Tree, flatten, resolved_tree
 @click.argument("path", required=False, default="")
 @limit_option
 def show(file: str, path: str) -> None:
-    """Show the resolved value at PATH of the cell in FILE, such as `devices.arm.joints`, and where it came from.
+    """Show the resolved value at PATH of the cell in FILE, such as `devices.arm.joints`, and its source.
 
     Without PATH the sections are listed.
 

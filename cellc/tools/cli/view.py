@@ -115,7 +115,7 @@ def _hold_replaceable(place: Path, heads: tuple[bytes, ...] = _HEADS, what: str 
     """Refuse to put a page in the place of anything but a page, such as the spec itself.
 
     Raises:
-        ViewError: something else stands there.
+        ViewError: something else is there.
     """
     from cellc.tools.view.subject import ViewError
 

@@ -39,7 +39,7 @@ _SETTLED_S = 0.02
 def watch(files: tuple[str, ...], builds: bool, output: Path, select: tuple[str, ...], ignore: tuple[str, ...]) -> None:
     """Check the cells in FILES, and again each that is changed, until Ctrl-C.
 
-    A folder stands for every cell.yaml below it, and for those that come later. What a cell reads counts: included
+    A folder means every cell.yaml below it, and for those that come later. What a cell reads counts: included
     files, devices, descriptions, meshes and measured files, those of its `packages` too. Other files do not. The
     compiler stays loaded, so that an answer takes a fraction of a second.
 
@@ -59,7 +59,7 @@ def watch(files: tuple[str, ...], builds: bool, output: Path, select: tuple[str,
             if not os.path.isdir(spec):
                 watched.packages[spec] = _answer(spec, wanted, output if builds else None)
                 watched.learn(spec)
-        empty = [one for one in watched.specs() if os.path.isdir(one)]
+        empty = [text for text in watched.specs() if os.path.isdir(text)]
         show(*(f"there is no {SPEC_FILE} below `{folder}` yet" for folder in empty))
         number = len(watched.specs()) - len(empty)
         show(f"watching {number} {'cell' if number == 1 else 'cells'}; Ctrl-C ends it", to=Stream.ERR)
@@ -117,11 +117,11 @@ class Watched:
         named = (path if os.path.isdir(path) else os.path.dirname(path) or "." for path in self._paths)
         folders = (*named, *(folder for folders in self.packages.values() for folder in folders))
         places = dict.fromkeys(map(os.path.abspath, folders))
-        outer = (one for one in places if not any(one != other and is_below(one, (other,)) for other in places))
+        outer = (place for place in places if not any(place != other and is_below(place, (other,)) for other in places))
         return self._counting(states(outer, self._output))
 
     def learn(self, spec: str) -> None:
-        """Find out anew what a cell reads."""
+        """Find out again what a cell reads."""
         self._reads[spec] = reads_of(spec, self.packages.get(spec, ()), self._reads.get(spec))
 
     def next_change(self, before: Mapping[str, State]) -> tuple[dict[str, State], tuple[str, ...]]:
@@ -131,13 +131,13 @@ class Watched:
         touched = different(before, after)
         there = self.specs()
         self._reads = {spec: reads for spec, reads in self._reads.items() if spec in there}
-        return after, tuple(spec for spec in there if any(self._of(spec).has(one) for one in touched))
+        return after, tuple(spec for spec in there if any(self._of(spec).has(text) for text in touched))
 
     def _counting(self, found: Mapping[str, State]) -> dict[str, State]:
         for spec in self.specs():
             self._of(spec)
         reads = tuple(self._reads.values())  # also of a cell that has gone since
-        return {file: state for file, state in found.items() if any(one.has(file) for one in reads)}
+        return {file: state for file, state in found.items() if any(read.has(file) for read in reads)}
 
     def _of(self, spec: str) -> Reads:
         if spec not in self._reads:

@@ -26,11 +26,11 @@ Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
 
 def _complete(known: Callable[[click.Context], Iterable[tuple[str, str]]], apart: str = "") -> Complete:
-    """Return a completion of words with a help for each; what stands before the last ``apart`` is kept as it is."""
+    """Return a completion of words with a help for each; what is before the last ``apart`` is kept as it is."""
 
     def complete(context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
         before, mark, begun = incomplete.rpartition(apart) if apart else ("", "", incomplete)
-        words = (one for one in known(context) if one[0].startswith(begun))
+        words = (pair for pair in known(context) if pair[0].startswith(begun))
         return [CompletionItem(f"{before}{mark}{word}", help=said) for word, said in words]
 
     return complete
@@ -49,7 +49,7 @@ def _models(_context: click.Context) -> Iterable[tuple[str, str]]:
 
 
 def _rehearsals(context: click.Context) -> Iterable[tuple[str, str]]:
-    return ((one.name, f"expects {one.expect}") for one in _entries(context))
+    return ((entry.name, f"expects {entry.expect}") for entry in _entries(context))
 
 
 def _entries(context: click.Context) -> Sequence[RehearsalEntry]:
@@ -64,7 +64,7 @@ def _entries(context: click.Context) -> Sequence[RehearsalEntry]:
 
 
 def _folder(context: click.Context) -> Path:
-    # Behind an option without its value click has not told arguments from each other yet.
+    # Behind an option without its value click has not distinguished arguments from each other yet.
     return Path(str(next(iter((*(context.params.get("folders") or ()), *context.args)), "")))
 
 
@@ -73,7 +73,7 @@ def complete_run(context: click.Context, _parameter: click.Parameter, incomplete
 
     Which steps a fault can meet is known by a run without it; only the rehearsal that is meant is run.
     """
-    names = [f"{one.name}/" for one in _entries(context) if one.is_plain]
+    names = [f"{entry.name}/" for entry in _entries(context) if entry.is_plain]
     meant = [name for name in names if name.startswith(incomplete) or incomplete.startswith(name)]
     found = meant if len(meant) > 1 else _campaign_runs(context, meant[0].rstrip("/")) if meant else ()
     known = (*found, *_swept_runs(context.params.get("journal")))

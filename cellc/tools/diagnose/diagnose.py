@@ -75,7 +75,7 @@ class Match:
 def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> tuple[Match, ...]:
     """Return up to three symptoms, the best first; layers that are ruled out first win ties.
 
-    A recognised log line says more than any choice of words: next to one, words that happen to fit would only distract.
+    A recognized log line says more than any choice of words: next to one, words that happen to fit would only distract.
 
     Args:
         text: a symptom in words, its name, or one or more log lines.
@@ -105,7 +105,7 @@ def _possible(known: Sequence[Match], drivers: Collection[str] | None) -> list[M
     return [
         match
         for match in known
-        if drivers is None or not match.symptom.drivers or any(one in drivers for one in match.symptom.drivers)
+        if drivers is None or not match.symptom.drivers or any(driver in drivers for driver in match.symptom.drivers)
     ]
 
 
@@ -200,7 +200,7 @@ def _subjects(cell: Cell | None, scope: Scope) -> tuple[Subject, ...]:
 def _chosen(found: tuple[Subject, ...], scope: Scope, text: str) -> tuple[Subject, ...]:
     """Return the subjects that the text names, all where it names none."""
     key = FIELDS[scope][0]
-    named = tuple(one for one in found if re.search(rf"(?<![\w/]){re.escape(one[key])}(?![\w/])", text))
+    named = tuple(mapping for mapping in found if re.search(rf"(?<![\w/]){re.escape(mapping[key])}(?![\w/])", text))
     return named or found
 
 

@@ -49,5 +49,5 @@ FIELDS: dict[Scope, tuple[str, ...]] = {
 
 
 def placeholders(scope: Scope) -> Subject:
-    """Return the subject that stands for any, where no cell is given."""
+    """Return the subject that represents all, where no cell is given."""
     return {field: f"<{field}>" for field in FIELDS[scope]}

@@ -1,8 +1,8 @@
 """Log lines as programs write them, found again in what somebody pasted.
 
 A template is the text of the source with ``{controller}`` where it names a controller, and ``{}`` where it says what
-nobody asks for, such as a number. At its end a place is one word, and ``{reason}`` all that follows up to the next line
-with a level in brackets. The pasted text may have times, names of nodes, colours and line breaks around it.
+nothing asks for, such as a number. At its end a place is one word, and ``{reason}`` all that follows up to the next
+line with a level in brackets. The pasted text may have times, names of nodes, colors and line breaks around it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _NEXT_LINE = " ["
 
 
 def plain(text: str) -> str:
-    """Return a pasted text as one line without colours."""
+    """Return a pasted text as one line without colors."""
     return " ".join(_COLOUR.sub("", text).split())
 
 

@@ -18,7 +18,7 @@ _NOT_STATED = "not stated"
 
 
 def subjects(cell: Cell, scope: Scope) -> tuple[Subject, ...]:
-    """Return what a scope stands for in a cell, in its order."""
+    """Return what a scope represents in a cell, in its order."""
     rows = _ROWS[scope](cell)
     return tuple(dict(zip(FIELDS[scope], row, strict=True)) for row in rows)
 
@@ -43,7 +43,7 @@ def _cell(cell: Cell) -> Rows:
 
 
 def _topics(cell: Cell) -> Rows:
-    return [_topic(one) for one in cell.interfaces if one.kind is InterfaceKind.TOPIC]
+    return [_topic(interface) for interface in cell.interfaces if interface.kind is InterfaceKind.TOPIC]
 
 
 def _topic(topic: Interface) -> tuple[str, ...]:
@@ -65,29 +65,34 @@ def _qos(way: str, end: Endpoint) -> str:
 
 def _actions(cell: Cell) -> Rows:
     rows: Rows = [
-        (one.name, _list(end.node for end in one.sources), _list(end.node for end in one.sinks))
-        for one in cell.interfaces
-        if one.kind is InterfaceKind.ACTION
+        (interface.name, _list(end.node for end in interface.sources), _list(end.node for end in interface.sinks))
+        for interface in cell.interfaces
+        if interface.kind is InterfaceKind.ACTION
     ]
     known = {row[0] for row in rows}
     rows += [
-        (one.action, one.name, one.client or "none")
-        for one in cell.controllers
-        if one.action is not None and one.action not in known
+        (controller.action, controller.name, controller.client or "none")
+        for controller in cell.controllers
+        if controller.action is not None and controller.action not in known
     ]
     return rows
 
 
 def _controllers(cell: Cell) -> Rows:
-    return [_controller(one, manager) for manager in cell.managers for one in manager.controllers if one.joints]
+    return [
+        _controller(controller, manager)
+        for manager in cell.managers
+        for controller in manager.controllers
+        if controller.joints
+    ]
 
 
 def _trajectories(cell: Cell) -> Rows:
     return [
-        _controller(one, manager)
+        _controller(controller, manager)
         for manager in cell.managers
-        for one in manager.controllers
-        if cell.behaviours.get(one.plugin) in TRAJECTORIES
+        for controller in manager.controllers
+        if cell.behaviours.get(controller.plugin) in TRAJECTORIES
     ]
 
 
@@ -105,15 +110,15 @@ def _controller(controller: Controller, manager: ControllerManager) -> tuple[str
 
 
 def _managers(cell: Cell) -> Rows:
-    hardware = {one.name: one.hardware.name for one in cell.devices if one.hardware is not None}
+    hardware = {device.name: device.hardware.name for device in cell.devices if device.hardware is not None}
     return [
         (
-            _manager_node(one),
-            one.namespace,
-            shortest(one.update_rate_hz),
-            _list(hardware[name] for name in one.devices if name in hardware),
+            _manager_node(manager),
+            manager.namespace,
+            shortest(manager.update_rate_hz),
+            _list(hardware[name] for name in manager.devices if name in hardware),
         )
-        for one in cell.managers
+        for manager in cell.managers
     ]
 
 
@@ -124,7 +129,7 @@ def _manager_node(manager: ControllerManager) -> str:
 def _frames(cell: Cell) -> Rows:
     # Links inside a device are its description's business; what the cell places or publishes is what goes wrong.
     wanted = (FrameKind.DYNAMIC, FrameKind.FIXED, FrameKind.MOUNT)
-    return [_frame(one) for one in cell.frames if one.kind in wanted]
+    return [_frame(frame) for frame in cell.frames if frame.kind in wanted]
 
 
 def _frame(frame: Frame) -> tuple[str, ...]:
@@ -132,15 +137,15 @@ def _frame(frame: Frame) -> tuple[str, ...]:
 
 
 def _nodes(cell: Cell) -> Rows:
-    return [(one.full_name,) for one in cell.nodes]
+    return [(node.full_name,) for node in cell.nodes]
 
 
 def _lifecycle_nodes(cell: Cell) -> Rows:
-    return [(one.full_name,) for one in cell.nodes if one.lifecycle]
+    return [(node.full_name,) for node in cell.nodes if node.lifecycle]
 
 
 def _hosts(cell: Cell) -> Rows:
-    return [_host(one) for one in cell.hosts.values()]
+    return [_host(host) for host in cell.hosts.values()]
 
 
 def _host(host: Host) -> tuple[str, ...]:
@@ -150,27 +155,27 @@ def _host(host: Host) -> tuple[str, ...]:
 
 
 def _groups(cell: Cell) -> Rows:
-    return [(one.name, _list(one.joints), one.tip_frame) for one in cell.groups]
+    return [(group.name, _list(group.joints), group.tip_frame) for group in cell.groups]
 
 
 def _devices(cell: Cell) -> Rows:
-    return [_device(cell, one) for one in cell.devices]
+    return [_device(cell, device) for device in cell.devices]
 
 
 def _arms(cell: Cell) -> Rows:
-    return [_device(cell, one) for one in cell.devices if one.kind == "arm"]
+    return [_device(cell, device) for device in cell.devices if device.kind == "arm"]
 
 
 def _grippers(cell: Cell) -> Rows:
-    return [_device(cell, one) for one in cell.devices if one.kind == "gripper"]
+    return [_device(cell, device) for device in cell.devices if device.kind == "gripper"]
 
 
 def _cameras(cell: Cell) -> Rows:
     return [
-        (stream.topic, stream.frame, f"{shortest(stream.rate_hz)} Hz", *_device(cell, one))
-        for one in cell.devices
-        if one.camera is not None
-        for stream in one.camera.streams
+        (stream.topic, stream.frame, f"{shortest(stream.rate_hz)} Hz", *_device(cell, device))
+        for device in cell.devices
+        if device.camera is not None
+        for stream in device.camera.streams
     ]
 
 

@@ -2,7 +2,7 @@
 
 A text becomes the set of what its words mean. A word means every group of ``catalog/symptoms/words.yaml`` that has a
 beginning of it, so that "PCs", "machine" and "laptop" all mean ``host``; a word of a symptom's phrases that is in no
-group stands for itself and for what begins with it. A beginning of up to three letters is a whole word or its plural.
+group means itself and for what begins with it. A beginning of up to three letters is a whole word or its plural.
 
 A phrase fits where the text means all its words, in whatever order; a symptom fits where one of its phrases does. What
 is rare among the symptoms says more than what many have: a word that n of N symptoms have weighs the number of binary
@@ -35,9 +35,9 @@ class Words:
 
     def __init__(self, groups: Mapping[str, Sequence[str]], phrases: Sequence[Sequence[str]]) -> None:
         """Note which beginning means what, and how rare each meaning is."""
-        self._phrases = tuple(tuple(frozenset(phrase.split()) for phrase in one) for one in phrases)
-        self._all = tuple(_NOTHING.union(*one) for one in self._phrases)
-        having = Counter(meaning for one in self._all for meaning in one)
+        self._phrases = tuple(tuple(frozenset(phrase.split()) for phrase in row) for row in phrases)
+        self._all = tuple(_NOTHING.union(*pair) for pair in self._phrases)
+        having = Counter(meaning for group in self._all for meaning in group)
         self._weights = {meaning: (len(self._all) // number).bit_length() for meaning, number in having.items()}
         self._beginnings: dict[str, set[str]] = {}
         for meaning in having:
@@ -70,7 +70,7 @@ class Words:
             for phrases, every in zip(self._phrases, self._all, strict=True)
         ]
         order = sorted(range(len(weights)), key=lambda one: [-weight for weight in weights[one]])
-        return [one for one in order if weights[one][0]]
+        return [number for number in order if weights[number][0]]
 
     def _best_of(self, phrases: Sequence[Meanings], said: Meanings) -> Meanings:
         return max((phrase for phrase in phrases if phrase <= said), key=self._weight, default=_NOTHING)

@@ -1,1 +1,1 @@
-"""Mends what has one safe answer in the user's own file: comments, order and layout stay."""
+"""Corrects what has one safe answer in the user's own file: comments, order and layout stay."""

@@ -1,4 +1,4 @@
-"""What has one safe answer: misspelt keys and units, and a missing modeline.
+"""What has one safe answer: misspelled keys and units, and a missing modeline.
 
 A number without any unit is left alone: each field takes several, and which one was meant only its author knows.
 """
@@ -16,7 +16,7 @@ from cellc.contract.diagnostics import Diagnostic, is_slip, only_suggestion
 from cellc.tools.edit.rewrite import Edit
 
 
-def misspelt_keys(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
+def misspelled_keys(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
     """Yield the edit of each unknown key that can mean only one thing, and that does not stand there already."""
     unknown = [found for found in diagnostics if found.code == "unknown-key" and found.yaml_path]
     # An alias brings one line into several places, where its key may mean different things.
@@ -72,7 +72,7 @@ _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling 
 _WRITTEN_UNIT = re.compile(r"[\d.][\s]*([^\s\d.][^\s\"']*)[\"']?$")
 
 
-def misspelt_units(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
+def misspelled_units(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
     """Yield the edit of each wrong unit that is another spelling of one that its field takes."""
     wrong = [found for found in diagnostics if found.code == "wrong-unit"]
     # An alias brings one text into several fields, which may take different units.
@@ -89,7 +89,7 @@ def misspelt_units(diagnostics: Iterable[Diagnostic], document: SourceDocument) 
 
 
 def _written(found: Diagnostic, document: SourceDocument) -> str:
-    """Return the text of a value as it stands in its file, quotes included; empty where it spans lines."""
+    """Return the text of a value as it is in its file, quotes included; empty where it spans lines."""
     span = found.span
     lines = document.texts.get(span.file, "").split("\n")
     if span.line != span.end_line or span.line > len(lines):

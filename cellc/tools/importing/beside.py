@@ -22,7 +22,7 @@ _DEFAULT_HZ, _DEFAULT_S = 100.0, 1.0
 
 @dataclass(frozen=True, slots=True)
 class ControllerFacts:
-    """What a first cell takes from the parameters of controllers: Hz and s, and the file; none where there is none."""
+    """What a first cell takes from the parameters of controllers: Hz and s, and the file, or None."""
 
     update_rate_hz: float = _DEFAULT_HZ
     goal_time_s: float = _DEFAULT_S
@@ -56,8 +56,8 @@ def read_controllers(file: Path, joints: Sequence[str]) -> ControllerFacts | Non
         nodes = dict(_nodes(load_values(text), set()))
     except (yaml.YAMLError, ValueError, RecursionError):
         return None
-    moving = (one for one in nodes.values() if set(joints) <= set(_listed(one.get("joints"))))
-    found = next((one for one in moving if "constraints" in one or "command_interfaces" in one), None)
+    moving = (node for node in nodes.values() if set(joints) <= set(_listed(node.get("joints"))))
+    found = next((mapping for mapping in moving if "constraints" in mapping or "command_interfaces" in mapping), None)
     if found is None:
         return None
     constraints = found.get("constraints")
@@ -88,7 +88,7 @@ def _text(file: Path, most: int) -> str:
 
 
 def _nodes(data: Any, seen: set[int]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Yield each node with its parameters; what stands below a name space or a wildcard too, an alias once."""
+    """Yield each node with its parameters; what is below a name space or a wildcard too, an alias once."""
     if not isinstance(data, dict) or id(data) in seen:
         return
     seen.add(id(data))
@@ -101,7 +101,7 @@ def _nodes(data: Any, seen: set[int]) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _listed(value: Any) -> list[str]:
-    return [one for one in value if isinstance(one, str)] if isinstance(value, list) else []
+    return [item for item in value if isinstance(item, str)] if isinstance(value, list) else []
 
 
 def _positive(value: Any, default: float) -> float:

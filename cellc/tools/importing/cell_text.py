@@ -1,4 +1,4 @@
-"""A first cell around an imported robot: it stands at home, goes a little way, and comes back."""
+"""A first cell around an imported robot: it is at home, goes a little way, and comes back."""
 
 from __future__ import annotations
 

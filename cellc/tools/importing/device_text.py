@@ -124,7 +124,9 @@ def _unit(joint: Joint) -> str:
 def _limits(joints: tuple[Joint, ...], which: int) -> dict[str, object]:
     """Return one figure for all that turn, and one for each that slides."""
     turns: dict[str, object] = {"*": {"value": _ASSUMED[False][which], "source": _UNKNOWN}}
-    return turns | {one.name: {"value": _ASSUMED[True][which], "source": _UNKNOWN} for one in joints if one.slides}
+    return turns | {
+        joint.name: {"value": _ASSUMED[True][which], "source": _UNKNOWN} for joint in joints if joint.slides
+    }
 
 
 def _control(description: Description) -> dict[str, object]:
@@ -134,9 +136,9 @@ def _control(description: Description) -> dict[str, object]:
     joints: dict[str, object] = {"*": {"command": ["position"], "state": ["position", "velocity"]}}
     named = {joint.name for joint in description.joints}
     for part in (part for component in description.hardware for part in component.joints):
-        command = [one.name for one in part.command_interfaces]
+        command = [interface.name for interface in part.command_interfaces]
         if part.name in named and "position" in command:
-            joints[part.name] = {"command": command, "state": [one.name for one in part.state_interfaces]}
+            joints[part.name] = {"command": command, "state": [interface.name for interface in part.state_interfaces]}
     return {"component": "{device}_hardware", "hardware": {**hardware, "mock": mock}, "joints": joints}
 
 
@@ -146,11 +148,15 @@ def _drivers(description: Description) -> tuple[HardwareComponent, ...]:
     Where none commands anything, all do. A system, an actuator and a sensor of ros2_control differ in the kind of
     plugin that it looks for alone.
     """
-    real = [one for one in description.hardware if not one.plugin.startswith(_PRETEND)]
-    commanding = [one for one in real if any(part.command_interfaces for part in (*one.joints, *one.gpios))]
+    real = [component for component in description.hardware if not component.plugin.startswith(_PRETEND)]
+    commanding = [
+        component
+        for component in real
+        if any(part.command_interfaces for part in (*component.joints, *component.gpios))
+    ]
     found: dict[tuple[object, ...], HardwareComponent] = {}
-    for one in commanding or real:
-        found.setdefault((one.type, one.plugin, *sorted(one.parameters.items())), one)
+    for component in commanding or real:
+        found.setdefault((component.type, component.plugin, *sorted(component.parameters.items())), component)
     return tuple(found.values())
 
 
@@ -162,14 +168,21 @@ def _of_hardware(description: Description) -> Iterator[str]:
         yield "there is no `<ros2_control>` in the description: which plugin drives the robot, with which parameters?"
     drivers = _drivers(description)
     if len(drivers) > 1:
-        named = ", ".join(f"`{one.name}` with {one.plugin}" for one in drivers)
+        named = ", ".join(f"`{driver.name}` with {driver.plugin}" for driver in drivers)
         yield f"{len(drivers)} components of `<ros2_control>` drive it, {named}: which has a device of its own?"
-    left = [one for one in description.hardware if not one.plugin.startswith(_PRETEND) and one not in drivers]
-    for one in left if drivers else ():
-        if (one.plugin, one.parameters) != (drivers[0].plugin, drivers[0].parameters):
-            yield f"`{one.name}` of `<ros2_control>` with {one.plugin} is left out: is it a device of its own?"
-    for part in (part for one in description.hardware for part in one.joints):
-        commands = [one.name for one in part.command_interfaces]
+    left = [
+        component
+        for component in description.hardware
+        if not component.plugin.startswith(_PRETEND) and component not in drivers
+    ]
+    for component in left if drivers else ():
+        if (component.plugin, component.parameters) != (drivers[0].plugin, drivers[0].parameters):
+            yield (
+                f"`{component.name}` of `<ros2_control>` with {component.plugin} is left out. "
+                "Describe it as a separate device if it is one."
+            )
+    for part in (part for component in description.hardware for part in component.joints):
+        commands = [interface.name for interface in part.command_interfaces]
         if commands and "position" not in commands:
             yield f"`{part.name}` takes {', '.join(commands)}, and position is assumed: what moves it?"
 
@@ -188,9 +201,9 @@ def disabled_by_srdf(file: Path, links: set[str]) -> Outcome[Pairs]:
     if read.value is None:
         return Outcome(None, read.diagnostics)
     found: dict[tuple[str, str], str] = {}
-    for one in read.value.all("disable_collisions"):
-        first, second = (one.attributes.get(key, "") for key in ("link1", "link2"))
+    for element in read.value.all("disable_collisions"):
+        first, second = (element.attributes.get(key, "") for key in ("link1", "link2"))
         if first != second and {first, second} <= links:
-            reason = one.attributes.get("reason", "") or "no reason"
+            reason = element.attributes.get("reason", "") or "no reason"
             found[min(first, second), max(first, second)] = f"{file.name} says {reason}"
     return Outcome(found)

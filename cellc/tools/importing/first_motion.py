@@ -22,7 +22,7 @@ def first_goal(graph: CellGraph | None, group: str, chain: Chain) -> Configurati
 
     Returns:
         All joints moved where that way is free; else those that can be moved one after the other without closing it,
-        each to its farther side or else to the other. All joints where nobody can tell, or none is free.
+        each to its farther side or else to the other. All joints where nothing can tell, or none is free.
     """
     wanted = tuple(away_of(joint) for joint in chain.joints)
     free = None if graph is None else _free_way(graph, group, chain)

@@ -94,7 +94,7 @@ def write_folder(
     lock = {
         "format": 1,
         "source": robot.file.name,
-        "files": {one.path: f"sha256:{sha256(one.content)}" for one in sorted(files, key=lambda one: one.path)},
+        "files": {file.path: f"sha256:{sha256(file.content)}" for file in sorted(files, key=lambda one: one.path)},
         "device": device.imported,
     }
     text = json.dumps(lock, indent=2) + "\n"
@@ -102,7 +102,7 @@ def write_folder(
     written = write(whole, folder, force=force, index=LOCK, known=device.known)
     if written.value is None:
         return Outcome(None, written.diagnostics)
-    size = sum(len(one.content) for one in files)
+    size = sum(len(file.content) for file in files)
     return Outcome(Written(len(whole), size, device.kept, device.changed, checked, away))
 
 
@@ -159,7 +159,7 @@ class _Device:
 
     Attributes:
         text: of the file, as it shall be.
-        known: the hash of the file that it is made from, by its name; nothing where there is none.
+        known: the hash of the file that it is made from, by its name; nothing without one.
         kept: whether there was one.
         changed: keys whose values the vendor changed since.
         imported: what this import would have written by itself.
@@ -229,11 +229,13 @@ def _judged(folder: Path, role: Role, away: tuple[float, ...], before: Judged) -
     write_whole(spec, cell_text("imported", "./", FirstCell(role, away)))
     checked = check(spec)
     graph = checked.graph
-    excused = {one.code: _EXCUSES[one.code] for one in checked.diagnostics if one.code in _EXCUSES}
+    excused = {
+        diagnostic.code: _EXCUSES[diagnostic.code] for diagnostic in checked.diagnostics if diagnostic.code in _EXCUSES
+    }
     asked = tuple(_ASKED[code] for code in sorted({finding.code for finding in checked.diagnostics} & set(_ASKED)))
     touching = dict(before.allowed)
     answer = MotionAnswer() if graph is None else motion_answer(graph)
-    for contact in (*answer.start, *(one for pose in answer.poses for one in pose.contacts)):
+    for contact in (*answer.start, *(contact for pose in answer.poses for contact in pose.contacts)):
         first, second = sorted(link.removeprefix(f"{role.device}_") for link in (contact.first, contact.second))
         touching.setdefault((first, second), _TOUCHING)
     return Judged(touching, {**before.excused, **excused}, asked), checked

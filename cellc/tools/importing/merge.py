@@ -67,16 +67,16 @@ def _one(before: Any, now: Any, person: Any) -> Any:
 def _of_pairs(value: Any) -> bool:
     """Tell whether a value is the list of pairs of links that may touch."""
     return isinstance(value, list) and all(
-        isinstance(one, dict) and isinstance(one.get("links"), list) for one in value
+        isinstance(item, dict) and isinstance(item.get("links"), list) for item in value
     )
 
 
 def _by_pair(pairs: list[Facts]) -> Facts:
-    return {" ".join(sorted(map(str, one["links"]))): one for one in pairs}
+    return {" ".join(sorted(map(str, pair["links"]))): pair for pair in pairs}
 
 
 def rewritten(text: str, person: Facts, facts: Facts) -> str:
-    """Return a file that holds ``person`` with the blocks written anew that are otherwise in ``facts``."""
+    """Return a file that holds ``person`` with the blocks written again that are otherwise in ``facts``."""
     written = dict(_blocks(dumped(facts)))
     anew = {key: written[key] for key in facts if key not in person or person[key] != facts[key]}
     kept = (anew.pop(key, block) for key, block in _blocks(text) if not key or key in facts)
@@ -84,7 +84,7 @@ def rewritten(text: str, person: Facts, facts: Facts) -> str:
 
 
 def _blocks(text: str) -> Iterator[tuple[str, str]]:
-    """Yield each key at the left with all up to the next one; what stands above the first is of no key."""
+    """Yield each key at the left with all up to the next one; what is above the first is of no key."""
     starts = [match.start() for match in _KEY.finditer(text)]
     yield "", text[: starts[0]] if starts else text
     for begin, end in pairwise((*starts, len(text))):

@@ -21,7 +21,7 @@ def package_of(name: str) -> str:
 
 
 def path_in_folder(name: str) -> str:
-    """Return where a mesh stands in the device folder."""
+    """Return where a mesh is in the device folder."""
     return name.removeprefix(PACKAGE)
 
 

@@ -134,7 +134,7 @@ def _packaged(name: str, file: Path) -> str:
     """Name a mesh by a package: one beside the description becomes one of a package of the description's own."""
     scheme, separator, path = name.partition("://")
     if separator and scheme != "file":
-        # `package:///PKG/…` stands in vendors' files, and their loaders take it; so do `//` and `..` within a package.
+        # `package:///PKG/…` is in vendors' files, and their loaders take it; so do `//` and `..` within a package.
         return PACKAGE + posixpath.normpath(path.lstrip("/")) if scheme in ("package", "model") else name
     here = Path(os.path.normpath(file.absolute().parent))
     absolute = Path(os.path.normpath(here / (path if separator else name)))
@@ -157,7 +157,7 @@ def packages_elsewhere(robot: Robot, folder: Path) -> tuple[str, ...]:
 
 
 def _license(file: Path) -> str:
-    """Return the first license that the manifest of a description's package names; empty where there is none."""
+    """Return the first license that the manifest of a description's package names; empty without one."""
     manifest = next((above / MANIFEST for above in file.parents if (above / MANIFEST).is_file()), None)
     if manifest is None:
         return ""

@@ -20,7 +20,7 @@ _COMMENT = re.compile("#")
 def formatted(name: str, text: str) -> Outcome[str]:
     """Return the canonical form of a file, or why it cannot be read.
 
-    A legal text whose form nobody writes by hand (explicit keys, directives) stays as it is.
+    A legal text whose form is not written by hand (explicit keys, directives) stays as it is.
 
     Args:
         name: the file in findings.

@@ -50,7 +50,7 @@ def _order(value: Value, data: Plain, annotation: object) -> None:
     keys = keys_in_order(model)
     if model is CellSpec:
         # Where a person looks for it: before the sections, of which it brings some.
-        keys = tuple(one for key in keys for one in ((INCLUDE, key) if key == "versions" else (key,)))
+        keys = tuple(text for key in keys for text in ((INCLUDE, key) if key == "versions" else (key,)))
     ranks = {key: rank for rank, key in enumerate(keys)}
     _sort(value, ranks)
 
@@ -69,7 +69,7 @@ def _sort(value: Collection, ranks: dict[str, int]) -> None:
 
 
 def _is_bound(entries: list[Entry]) -> bool:
-    """Whether entries take aliases from each other: an anchor stands before its aliases."""
+    """Whether entries take aliases from each other: an anchor is before its aliases."""
     used = Counter(name for entry in entries for name in set(names(entry.value)))
     return any(count > 1 for count in used.values())
 
@@ -82,9 +82,9 @@ def _at(data: Plain, part: str | int) -> Plain:
 
 def _is_quantity(annotation: object) -> bool:
     annotation = required(annotation)
-    if any(isinstance(one, QuantityType) for one in get_args(annotation)[1:]):
+    if any(isinstance(argument, QuantityType) for argument in get_args(annotation)[1:]):
         return True
-    return any(_is_quantity(one) for one in get_args(annotation) if get_origin(one) is not None)
+    return any(_is_quantity(argument) for argument in get_args(annotation) if get_origin(argument) is not None)
 
 
 def _with_spaces(text: str) -> str:

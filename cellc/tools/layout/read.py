@@ -26,7 +26,7 @@ def read_written(text: str) -> Written:
         text: of a file without any finding of ``compose``, with line breaks as ``\\n``.
 
     Raises:
-        UnusualError: the text is legal and has a form that nobody writes by hand.
+        UnusualError: the text is legal and has a form that is not written by hand.
     """
     return _Reader(text).document()
 
@@ -44,7 +44,7 @@ class _Reader:
         self._at = 0
         # The first of a line that no scalar holds: whatever follows is part of it.
         found = reversed(comments(text, _COMMENT))
-        self._comments = {one.line - 1: Comment(one.column - 1, one.text) for one in found}
+        self._comments = {comment.line - 1: Comment(comment.column - 1, comment.text) for comment in found}
         self._last = -1
         """The line up to which comments have their place."""
 
@@ -55,7 +55,7 @@ class _Reader:
         if not isinstance(start, yaml.DocumentStartEvent) or start.version or start.tags:
             raise UnusualError("the text has directives")
         head = self._head(start, line)
-        if any(one.startswith("...") for one in self._lines):
+        if any(text.startswith("...") for text in self._lines):
             raise UnusualError("the end of the document is marked")
         root = self._value(-1)
         written = Written(_squeezed(head), root, self._beside())
@@ -69,7 +69,7 @@ class _Reader:
         return written
 
     def _head(self, start: yaml.DocumentStartEvent, line: int) -> list[str]:
-        """Return what stands before the line of the first value."""
+        """Return what is before the line of the first value."""
         if not start.explicit:
             return self._own_lines(line)
         mark = _start(start)[0]
@@ -104,7 +104,7 @@ class _Reader:
         self._last = end
         if line == end:
             return Scalar((self._lines[line][column:end_column],))
-        between = (one.strip() for one in self._lines[line + 1 : end])
+        between = (text.strip() for text in self._lines[line + 1 : end])
         return Scalar((self._lines[line][column:].rstrip(), *between, self._lines[end][:end_column].strip()))
 
     def _block_scalar(self, line: int, column: int, end: int, parent: int) -> Scalar:
@@ -144,7 +144,7 @@ class _Reader:
         if entry.broken or (is_block and made.is_mapping):
             entry.beside = self._comments.pop(line, None)
         if entry.broken and not is_block:
-            entry.above += [one for one in self._own_lines(after) if one]
+            entry.above += [text for text in self._own_lines(after) if text]
         entry.value = self._value(column)
         behind = self._beside() if not is_block else None
         if behind is not None and entry.beside is not None:
@@ -236,7 +236,7 @@ class _Reader:
         while following < len(self._events) and isinstance(self._events[following], yaml.CollectionEndEvent):
             following += 1
         until = len(self._lines) if following == len(self._events) else _start(self._events[following])[0]
-        numbers = [one for one in range(self._last + 1, until) if one in self._comments]
+        numbers = [number for number in range(self._last + 1, until) if number in self._comments]
         deep = 0
         while deep < len(numbers) and self._comments[numbers[deep]].column >= column:
             deep += 1

@@ -1,7 +1,7 @@
 """A YAML text as a tree of what is written: scalars as they stand, with every comment beside what it belongs to.
 
 A comment belongs to the value before it on its line; on a line of its own, to the key or item below it, unless it
-stands as deep as the collection that ends above it.
+is as deep as the collection that ends above it.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Collection:
 
     Args:
         anchor: with its ``&`` and a space behind it, or empty.
-        flow: whether it stands in braces or brackets.
+        flow: whether it is in braces or brackets.
         bare: a mapping of one pair in a list in brackets, which needs no braces.
         below: comments on own lines after the last entry, and empty lines between them as "".
     """

@@ -1,6 +1,6 @@
 """From the tree of what is written to the canonical text.
 
-Two spaces a level, lists indented below their key, at most one empty line. What stands in braces takes one line where
+Two spaces a level, lists indented below their key, at most one empty line. What is in braces takes one line where
 it fits; else its author's lines stay, aligned behind the brace, or it takes as few as it needs where one is too long. A
 comment beside a value stays in its column where it can.
 """
@@ -106,7 +106,7 @@ def _scalar(value: Scalar, depth: int) -> list[str]:
     if value.block is not None:
         return [value.lines[0], *_moved(value.block, depth - value.depth)]
     pad = " " * (depth + _STEP)
-    return [value.lines[0], *(f"{pad}{one}" if one else "" for one in value.lines[1:])]
+    return [value.lines[0], *(f"{pad}{line}" if line else "" for line in value.lines[1:])]
 
 
 def _moved(block: tuple[str, ...], by: int) -> Iterator[str]:
@@ -136,7 +136,7 @@ def _value_lines(value: Value, column: int, tail: int, depth: int, *, keep: bool
 
 
 class _Lines:
-    """The lines of what stands in braces, and the one that is being written.
+    """The lines of what is in braces, and the one that is being written.
 
     Args:
         keep: whether a line begins where it did, not where the last one is full.
@@ -166,7 +166,7 @@ class _Lines:
     def _break(self, above: list[str]) -> None:
         if self._current.strip():
             self._lines.append(self._current)
-        self._lines += [" " * self._start + one for one in above]
+        self._lines += [" " * self._start + text for text in above]
         self._current, self._lead, self._is_fresh = " " * self._start, 0, True
 
     def _put(self, entry: Entry, *, is_last: bool) -> None:
@@ -194,7 +194,7 @@ class _Lines:
         return [f"{name}{first}", *others]
 
     def _goes_on(self, entry: Entry, piece: str | None, behind: int) -> bool:
-        """Whether an entry stands on the line of the one before it."""
+        """Whether an entry is on the line of the one before it."""
         if self._keep:
             return not entry.opens
         return piece is not None and _fits(piece, self._lead + len(self._current) + 1, behind)
@@ -245,4 +245,4 @@ def _commented(line: str, comment: Comment | None, lead: int = 0) -> str:
 
 
 def _indented(lines: list[str], pad: str) -> Iterator[str]:
-    yield from (f"{pad}{one}" if one else "" for one in lines)
+    yield from (f"{pad}{line}" if line else "" for line in lines)

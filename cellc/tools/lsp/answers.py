@@ -1,4 +1,4 @@
-"""What is told of a place in a cell: what it is, where it is written, what may stand there, how to mend it."""
+"""What is told of a place in a cell: what it is, where it is written, what may stand there, how to fix it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from cellc.compiler.source.document import Node, SourceDocument
 from cellc.compiler.source.include import INCLUDE
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Severity, Span, YamlPath
-from cellc.tools.edit.fixes import misspelt_keys, misspelt_units
+from cellc.tools.edit.fixes import misspelled_keys, misspelled_units
 from cellc.tools.edit.rewrite import Edit
 from cellc.tools.lsp.cursor import Begun, begun, here
 from cellc.tools.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
@@ -80,7 +80,7 @@ def hover(text: str, line: int, column: int, known: Known) -> tuple[str, Span] |
 
 
 def _uses(cell: Cell, path: YamlPath) -> str:
-    leaves = [one for tree, name in resolved_at(resolved_tree(cell), path) for one in flatten(tree, name)]
+    leaves = [item for tree, name in resolved_at(resolved_tree(cell), path) for item in flatten(tree, name)]
     rows = [(code(name), code(leaf.text or " "), leaf.origin) for name, leaf in leaves[:_MOST_ROWS]]
     more = len(leaves) - _MOST_ROWS
     rows += [(f"{more} more", "", "`cellc show`")] if more > 0 else []
@@ -127,7 +127,7 @@ def _top(file: Path) -> Span | None:
 
 def completions(text: str, line: int, column: int, known: Known) -> list[Proposal]:
     """Return what may stand at a place, in the order of the reference or of the spec."""
-    told = (_keys(one, known) if one.is_key else _values(one, known) for one in begun(text, line, column))
+    told = (_keys(item, known) if item.is_key else _values(item, known) for item in begun(text, line, column))
     return list(dict.fromkeys(proposal for each in told for proposal in each))
 
 
@@ -156,7 +156,7 @@ def _values(found: Begun, known: Known) -> Iterator[Proposal]:
 def _models() -> Iterator[Proposal]:
     from cellc.tools.browse.search import entries
 
-    return (Proposal(one.model.model, "device", one.model.summary) for one in entries())
+    return (Proposal(entry.model.model, "device", entry.model.summary) for entry in entries())
 
 
 def _controller_types(known: Known) -> Iterator[Proposal]:
@@ -172,12 +172,12 @@ def fixes(found: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tup
 
     The comment has no reason, and no effect, until its author writes one.
     """
-    for one in found:
-        for edit in (*misspelt_keys([one], document), *misspelt_units([one], document)):
-            yield one, edit
-        comment = _excuse(one, document)
+    for item in found:
+        for edit in (*misspelled_keys([item], document), *misspelled_units([item], document)):
+            yield item, edit
+        comment = _excuse(item, document)
         if comment is not None:
-            yield one, comment
+            yield item, comment
 
 
 def _excuse(found: Diagnostic, document: SourceDocument) -> Edit | None:
@@ -210,8 +210,8 @@ def _symbols(node: Node, depth: int) -> Iterator[Symbol]:
 def by_file(found: Iterable[Diagnostic]) -> dict[str, list[Diagnostic]]:
     """Return findings by the file that they point into."""
     files: dict[str, list[Diagnostic]] = {}
-    for one in found:
-        files.setdefault(one.span.file, []).append(one)
+    for item in found:
+        files.setdefault(item.span.file, []).append(item)
     return files
 
 

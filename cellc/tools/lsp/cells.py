@@ -43,7 +43,7 @@ class Cells:
         if os.path.basename(file) != _SPEC:
             above = Path(file).parents[:_MOST_FOLDERS]
             candidates = ((folder / _SPEC).as_posix() for folder in above if (folder / _SPEC).is_file())
-            includes = (one for one in candidates if file in _texts(read(one, opened).value))
+            includes = (candidate for candidate in candidates if file in _texts(read(candidate, opened).value))
             spec = next(includes, file)
         if spec != file:  # what nobody includes yet may be included soon
             self._spec_of[file] = spec
@@ -65,9 +65,9 @@ class Cells:
             whole = document.value if document.ok else None
             cell = None if checked.graph is None else checked.graph.cell
             self._known[spec] = self._known.get(spec, Known()).with_more(whole, cell)
-        before = {one.span.file for one in self._found.get(spec, ())}
+        before = {diagnostic.span.file for diagnostic in self._found.get(spec, ())}
         self._found[spec] = found
-        return found, before - {one.span.file for one in found} | {spec}
+        return found, before - {diagnostic.span.file for diagnostic in found} | {spec}
 
     def known(self, file: str) -> Known:
         """Return what is known of the cell of a file."""
@@ -83,7 +83,7 @@ class Cells:
 
     def shown(self, file: str) -> str:
         """Return the text of a file that the last checks read; empty where none did."""
-        texts = (one.texts[file] for one in self._documents.values() if file in one.texts)
+        texts = (document.texts[file] for document in self._documents.values() if file in document.texts)
         return next(texts, "")
 
 

@@ -1,4 +1,4 @@
-"""What stands at a place of a text: the path of a value or a key, also in a text that is being written."""
+"""What is at a place of a text: the path of a value or a key, also in a text that is being written."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from cellc.compiler.source.document import Child, Node, Plain
 from cellc.contract.diagnostics import Span, YamlPath
 
 MARK = "cellc__here"
-"""Stands for what is being written while the text around it is read."""
+"""Represents what is being written while the text around it is read."""
 
 _WORD = re.compile(r"[^\s,{}\[\]:#\"']*$")
 _REST = re.compile(r"[^\s,{}\[\]:#\"']*")
@@ -20,7 +20,7 @@ _CLOSING = {"{": "}", "[": "]"}
 
 @dataclass(frozen=True, slots=True)
 class Here:
-    """What stands at a place.
+    """What is at a place.
 
     Args:
         path: of the value, or of the key.
@@ -64,7 +64,7 @@ class Begun:
     Args:
         path: of the mapping for a key, of the value for a value.
         is_key: whether a key is being written.
-        word: what stands there so far, up to the place.
+        word: what is there so far, up to the place.
         data: of the file, with the mark in the place of the word.
     """
 
@@ -96,11 +96,11 @@ def begun(text: str, line: int, column: int) -> list[Begun]:
 
 def _guesses(kept: str, rest: str) -> Iterator[str]:
     """Yield the line with the mark, as a key and as a value, with its rest and without, braces closed."""
-    opened = [one for one in kept if one in "{["]
-    for one in kept:
-        if one in "}]" and opened:
+    opened = [text for text in kept if text in "{["]
+    for text in kept:
+        if text in "}]" and opened:
             opened.pop()
-    closing = "".join(_CLOSING[one] for one in reversed(opened))
+    closing = "".join(_CLOSING[text] for text in reversed(opened))
     is_value = kept.rstrip().endswith((":", "-", "[")) or (bool(opened) and opened[-1] == "[")
     pairs = (MARK, f"{MARK}: 0") if is_value else (f"{MARK}: 0", MARK)
     for mark in pairs:

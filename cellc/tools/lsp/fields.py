@@ -50,7 +50,7 @@ def root_model(data: Plain) -> type[BaseModel]:
 
 
 def annotation_at(data: Plain, path: YamlPath) -> object:
-    """Return the annotation of what stands at a path; ``object`` where no model knows it."""
+    """Return the annotation of what is at a path; ``object`` where no model knows it."""
     annotation: object = root_model(data)
     for number, part in enumerate(path):
         annotation = inner(chosen(annotation, value_at(data, path[:number])), part)
@@ -87,19 +87,23 @@ def words_of(annotation: object) -> list[str]:
     """Return the words that a value may be: those of a closed list, true and false."""
     annotation = bare(annotation)
     if get_origin(annotation) is Literal:
-        return [str(one).lower() if isinstance(one, bool) else str(one) for one in get_args(annotation)]
+        return [
+            str(argument).lower() if isinstance(argument, bool) else str(argument) for argument in get_args(annotation)
+        ]
     if annotation is bool:
         return ["true", "false"]
     if isinstance(annotation, type) and issubclass(annotation, Enum):
-        return [str(one.value) for one in annotation]
+        return [str(enum.value) for enum in annotation]
     if is_tagged(annotation):
-        return [word for one in branches(annotation).values() for word in words_of(one)]
-    return [word for one in _options(annotation) for word in words_of(one)]
+        return [word for branch in branches(annotation).values() for word in words_of(branch)]
+    return [word for option in _options(annotation) for word in words_of(option)]
 
 
 def takes_a_frame(annotation: object) -> bool:
     """Whether a value names a frame."""
-    return any(getattr(one, "pattern", None) == REFERENCE_PATTERN for one in get_args(required(annotation))[1:])
+    return any(
+        getattr(argument, "pattern", None) == REFERENCE_PATTERN for argument in get_args(required(annotation))[1:]
+    )
 
 
 def in_si(annotation: object, text: str) -> str:
@@ -111,12 +115,12 @@ def in_si(annotation: object, text: str) -> str:
         return ""
     if isinstance(read, Quantity):
         return f"{read.si:.9g}"
-    return "" if read is None else " ".join(f"{one:.9g}" for one in read.si)
+    return "" if read is None else " ".join(f"{value:.9g}" for value in read.si)
 
 
 def _quantity_type(annotation: object) -> QuantityType | None:
     metadata = get_args(required(annotation))[1:]
-    return next((one for one in metadata if isinstance(one, QuantityType)), None)
+    return next((item for item in metadata if isinstance(item, QuantityType)), None)
 
 
 def _key(model: type[BaseModel], name: str) -> Key:

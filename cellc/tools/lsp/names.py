@@ -80,9 +80,11 @@ def names_of(document: SourceDocument, cell: Cell | None) -> Names:
         written["nic"] |= _below(document.data, (*host, "nics"))
     derived = {"frame": ("world", *written["thing"])}
     if cell is not None:
-        links = (f"{one.name}/{link}" for one in cell.devices for link in one.frames)
+        links = (f"{device.name}/{link}" for device in cell.devices for link in device.frames)
         derived["frame"] = (*derived["frame"], *links)
-        derived["joint"] = tuple(f"{one.name}/{joint.local_name}" for one in cell.devices for joint in one.joints)
+        derived["joint"] = tuple(
+            f"{device.name}/{joint.local_name}" for device in cell.devices for joint in device.joints
+        )
     return Names(written, derived)
 
 

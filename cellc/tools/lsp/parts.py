@@ -22,7 +22,7 @@ def place_of_part(cell: Cell, name: str, kinds: tuple[str, ...]) -> Span | None:
         kinds: what is meant where a link and a joint have one name.
     """
     owner, _, part = name.partition("/")
-    device = next((one for one in cell.devices if one.name == owner), None)
+    device = next((device for device in cell.devices if device.name == owner), None)
     if device is None:
         return None
     named = list(_parts(device, part))
@@ -37,9 +37,9 @@ def place_of_part(cell: Cell, name: str, kinds: tuple[str, ...]) -> Span | None:
 
 def _parts(device: Device, part: str) -> Iterator[tuple[str, Span]]:
     """Yield the link and the joint of a name, each as its file calls it."""
-    links = [(one.name, one.span) for one in device.description.links if one.name == device.frames.get(part)]
-    moved = {one.name for one in device.joints if one.local_name == part}
-    joints = [(one.name, one.span) for one in device.description.joints if one.name in moved]
+    links = [(link.name, link.span) for link in device.description.links if link.name == device.frames.get(part)]
+    moved = {joint.name for joint in device.joints if joint.local_name == part}
+    joints = [(joint.name, joint.span) for joint in device.description.joints if joint.name in moved]
     for name, span in (*links, *joints):
         if span is not None:
             yield name.removeprefix(device.prefix), _at_hand(span)
@@ -49,7 +49,7 @@ def _called(device: Device, own: str) -> Span | None:
     """Return the first line of the description that makes something of a name, or None."""
     named = re.compile(rf"""\b(?:name|child)=["'](?:[^"']*\}})?{re.escape(own)}["']""")
     of = device.description
-    spans = (*(one.span for one in of.links), *(one.span for one in of.joints))
+    spans = (*(link.span for link in of.links), *(joint.span for joint in of.joints))
     for file in dict.fromkeys(_at_hand(span).file for span in spans if span is not None):
         for number, line in enumerate(_lines(file), 1):
             if named.search(line):

@@ -127,15 +127,15 @@ class CellServer(LanguageServer):
             return  # the data of the package, which nobody edits here
         text = opened.get(file) or self.cells.shown(file)
         ranges = Ranges(self.workspace.position_codec, text)
-        told = [self._told(one, ranges) for one in found]
+        told = [self._told(diagnostic, ranges) for diagnostic in found]
         uri = from_fs_path(file) or ""
         self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, told))
 
     def _told(self, found: Diagnostic, ranges: Ranges) -> lsp.Diagnostic:
         related = [
-            lsp.DiagnosticRelatedInformation(self.location(one.span), one.message)
-            for one in found.related
-            if Path(one.span.file).is_absolute()
+            lsp.DiagnosticRelatedInformation(self.location(related.span), related.message)
+            for related in found.related
+            if Path(related.span.file).is_absolute()
         ]
         message = f"{found.message}\nhelp: {found.help}" if found.help else found.message
         return lsp.Diagnostic(
@@ -293,13 +293,17 @@ def _actions(of: CellServer, params: lsp.CodeActionParams) -> list[lsp.CodeActio
     if document is None or document.texts.get(file) != of.text_of(uri):
         return []  # the places are those of another text: the next check will tell
     lines = range(params.range.start.line + 1, params.range.end.line + 2)
-    found = [one for one in of.cells.found(file) if one.span.file == file and one.span.line in lines]
+    found = [
+        diagnostic
+        for diagnostic in of.cells.found(file)
+        if diagnostic.span.file == file and diagnostic.span.line in lines
+    ]
     ranges = _text(of, uri)[1]
     return [
         lsp.CodeAction(
             title=edit.message.replace("`", ""),
             kind=lsp.CodeActionKind.QuickFix,
-            diagnostics=[one for one in params.context.diagnostics if one.code == about.code],
+            diagnostics=[diagnostic for diagnostic in params.context.diagnostics if diagnostic.code == about.code],
             edit=lsp.WorkspaceEdit(changes={uri: [lsp.TextEdit(ranges.of(_span(edit)), edit.text)]}),
         )
         for about, edit in fixes(found, document)
@@ -309,7 +313,7 @@ def _actions(of: CellServer, params: lsp.CodeActionParams) -> list[lsp.CodeActio
 @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
 def _symbols(of: CellServer, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
     text, ranges = _text(of, params.text_document.uri)
-    return [_symbol(one, ranges) for one in symbols(text)]
+    return [_symbol(symbol, ranges) for symbol in symbols(text)]
 
 
 @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)

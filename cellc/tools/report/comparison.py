@@ -37,7 +37,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """Cells by the name that each is told apart by: the contract of motion, and the duties."""
+    """Cells by the name that each is distinguished by: the contract of motion, and the duties."""
 
     cells: tuple[str, ...]
     motion: tuple[Row, ...]
@@ -45,7 +45,7 @@ class Comparison:
 
 
 def compare(named: Mapping[str, Cell]) -> Comparison:
-    """Put cells beside each other, each under the name that it is told apart by."""
+    """Put cells beside each other, each under the name that it is distinguished by."""
     compared = tuple(named.values())
     return Comparison(
         tuple(named),
@@ -151,7 +151,8 @@ def _discovery(cell: Cell) -> Iterator[str]:
 
 
 def _frames(cell: Cell) -> Iterator[str]:
-    yield f"one TF tree of {len(cell.frames)} frames, of {', '.join(sorted({one.authority for one in cell.frames}))}"
+    publishers = sorted({frame.authority for frame in cell.frames})
+    yield f"one TF tree of {len(cell.frames)} frames, of {', '.join(publishers)}"
     yield f"owner {cell.owners.responsibilities.frames}"
 
 
@@ -198,13 +199,17 @@ def _boundary(cell: Cell) -> Iterator[str]:
 
 
 def _commanding(cell: Cell) -> Iterator[Controller]:
-    commanding = (one for one in cell.controllers if one.behaviour not in PASSIVE and "real" in one.targets)
-    return (one for one in commanding if one.claims("real"))
+    commanding = (
+        controller
+        for controller in cell.controllers
+        if controller.behaviour not in PASSIVE and "real" in controller.targets
+    )
+    return (controller for controller in commanding if controller.claims("real"))
 
 
 def _driven(cell: Cell) -> Iterator[Device]:
     """Yield the devices that a node of their vendor moves on real hardware."""
-    adapted = {one.device for one in cell.adapters}
+    adapted = {adapter.device for adapter in cell.adapters}
     return (device for device in _moving(cell) if device.driver is not None and device.name not in adapted)
 
 

@@ -44,6 +44,8 @@ def comparison_markdown(compared: Comparison) -> str:
     """Return two tables: what motion rests on, and who has which duty."""
     blocks = [f"# {' and '.join(map(markdown, compared.cells))}"]
     for title, rows, common in _parts(compared):
-        stated = ((row.question, *(one or ("nothing stated",) for one in row.answers), row.common) for row in rows)
+        stated = (
+            (row.question, *(answer or ("nothing stated",) for answer in row.answers), row.common) for row in rows
+        )
         blocks += [f"## {title}", table(("question", *compared.cells, common), stated)]
     return "\n\n".join(blocks) + "\n"

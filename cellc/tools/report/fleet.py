@@ -16,7 +16,7 @@ _NONE = "-"
 
 
 def fleet_lines(rows: Sequence[FleetRow]) -> Iterator[Line]:
-    """Yield the table, and below it why nothing came of a row, and which rehearsals failed."""
+    """Yield the table, and below it why there is no result of a row, and which rehearsals failed."""
     parts = tuple(dict.fromkeys(part for row in rows for part in row.versions))
     labels = [_label(row) for row in rows]
     names = [row.cell if row.cell and labels.count(_label(row)) == 1 else row.source for row in rows]
@@ -32,7 +32,11 @@ def fleet_lines(rows: Sequence[FleetRow]) -> Iterator[Line]:
         columns = "  ".join(texts[place].ljust(widths[place]) for place in kept)
         yield (Styled(verdict.ljust(6), style), f"  {columns}".rstrip())
     for row in rows:
-        failed = [f"`{one.name}` ended as {one.outcome}" for one in row.rehearsals or () if not one.passed]
+        failed = [
+            f"`{rehearsal.name}` ended as {rehearsal.outcome}"
+            for rehearsal in row.rehearsals or ()
+            if not rehearsal.passed
+        ]
         if row.problem or failed:
             yield f"{_label(row)}: {row.problem or ', '.join(failed)}"
     passed = sum(row.passed for row in rows)
@@ -45,10 +49,10 @@ def _label(row: FleetRow) -> str:
 
 def _columns(row: FleetRow, parts: Sequence[str]) -> Iterator[str]:
     yield from (row.versions.get(part, _NONE) for part in parts)
-    counted = Counter(one.severity for one in row.findings or ())
+    counted = Counter(finding.severity for finding in row.findings or ())
     yield from (_NONE if row.findings is None else str(counted[severity.value]) for severity in _COUNTED)
     ended = row.rehearsals
-    yield _NONE if ended is None else f"{sum(one.passed for one in ended)} of {len(ended)}"
+    yield _NONE if ended is None else f"{sum(rehearsal.passed for rehearsal in ended)} of {len(ended)}"
     yield ", ".join(map(_swept, row.sweeps or ())) or _NONE
 
 
@@ -66,13 +70,13 @@ def render_combined(found: Sequence[tuple[str, Findings]], *, sum_blockers: bool
     """
     having: dict[Diagnostic, list[int]] = {}
     for number, (_, findings) in enumerate(found):
-        for one in findings.diagnostics:
-            if one.severity is Severity.BLOCKER and sum_blockers:
+        for diagnostic in findings.diagnostics:
+            if diagnostic.severity is Severity.BLOCKER and sum_blockers:
                 continue
-            having.setdefault(one, []).append(number)
+            having.setdefault(diagnostic, []).append(number)
     groups: dict[tuple[int, ...], list[Diagnostic]] = {}
-    for one, numbers in having.items():
-        groups.setdefault(tuple(dict.fromkeys(numbers)), []).append(one)
+    for diagnostic, numbers in having.items():
+        groups.setdefault(tuple(dict.fromkeys(numbers)), []).append(diagnostic)
     for those, diagnostics in sorted(groups.items(), key=lambda group: (-len(group[0]), group[0])):
         every = 1 < len(found) == len(those)
         names = "every tuple" if every else "; ".join(found[number][0] for number in those)

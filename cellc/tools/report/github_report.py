@@ -28,7 +28,7 @@ def render_github(diagnostics: Iterable[Diagnostic], folder: PurePath) -> list[W
     Args:
         folder: absolute; the root of the checkout, from which GitHub counts paths.
     """
-    return [_command(one, folder) for one in sorted(diagnostics, key=Diagnostic.sort_key)]
+    return [_command(diagnostic, folder) for diagnostic in sorted(diagnostics, key=Diagnostic.sort_key)]
 
 
 def _command(diagnostic: Diagnostic, folder: PurePath) -> WorkflowCommand:

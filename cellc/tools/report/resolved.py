@@ -1,4 +1,4 @@
-"""The resolved cell as a tree of values, each with where it came from: spec line, catalog, or default."""
+"""The resolved cell as a tree of values, each with its source: spec line, catalog, or default."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
     ):
         tree[key] = _section(cell, getattr(device, key), (*path, key))
     tree["limits"] = _section(cell, device.limit_shares, (*path, "limits"))
-    tree["simulated_joints"] = {one.name: _section(cell, one, one.path) for one in device.simulated_joints}
+    tree["simulated_joints"] = {joint.name: _section(cell, joint, joint.path) for joint in device.simulated_joints}
     tree["stamp"] = _stamp(cell, device)
     return tree
 
@@ -187,7 +187,7 @@ def _value(cell: Cell, value: object, origin: str, path: YamlPath) -> Tree:
 
 
 def _section(cell: Cell, value: object, path: YamlPath) -> Tree:
-    """Return what stands under a key of the spec, as written where the user wrote it."""
+    """Return what is under a key of the spec, as written where the user wrote it."""
     if is_dataclass(value) and not isinstance(value, (JointFigure, type)):
         hidden = {*_BOOKKEEPING, *_DERIVED} if isinstance(value, Entity) else set[str]()
         names = {_key(field.name): field.name for field in fields(value) if field.name not in hidden}
@@ -229,7 +229,7 @@ def _origin(cell: Cell, entity: Entity, field: str) -> str:
 def _catalog_entry(cell: Cell, entity: Entity) -> str:
     if isinstance(entity, Controller):
         return f"controllers/{entity.kind}"
-    device = next((one for one in cell.devices if entity.path[:2] == one.path), None)
+    device = next((device for device in cell.devices if entity.path[:2] == device.path), None)
     return "interfaces" if device is None else f"devices/{device.model}"
 
 
@@ -258,7 +258,7 @@ def resolved_at(tree: Tree, path: YamlPath) -> list[tuple[Tree, str]]:
     """Return what becomes of a path of the spec, with its dotted names: one key may become several values, or none."""
     found = [(tree, "")]
     for part in ("managers", *path) if path[:1] == ("control",) else path:
-        found = [one for inner, name in found for one in _step(inner, name, str(part))]
+        found = [pair for inner, name in found for pair in _step(inner, name, str(part))]
     return found
 
 

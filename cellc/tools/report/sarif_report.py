@@ -1,7 +1,7 @@
 """Diagnostics as SARIF 2.1.0 (OASIS standard, errata 01), which code hosts and editors read.
 
 One run; the rules are the pages of the codes that were reported. Blockers are level ``warning`` and audits ``note``: no
-artifact stops because of them; cellc's own severity stands in the properties. Columns count code points and their
+artifact stops because of them; cellc's own severity is in the properties. Columns count code points and their
 end is exclusive, both as in spans. Left out: times, machines and absolute places, so that a report can be compared.
 """
 

@@ -82,7 +82,7 @@ def summary(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Line:
 
 def summed_blockers(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
     """Return in two lines how many blockers of which code keep the real target closed, and who shows each of them."""
-    found = Counter(one.code for one in diagnostics if one.severity is Severity.BLOCKER)
+    found = Counter(diagnostic.code for diagnostic in diagnostics if diagnostic.severity is Severity.BLOCKER)
     if not found:
         return []
     codes = ", ".join(f"{number} {code}" for code, number in sorted(found.items(), key=lambda one: (-one[1], one[0])))
@@ -95,7 +95,9 @@ def summed_blockers(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
 
 def summed_errors(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
     """Return in two lines how many errors there are and where the first is, and who shows each of them."""
-    errors = sorted((one for one in diagnostics if one.severity is Severity.ERROR), key=Diagnostic.sort_key)
+    errors = sorted(
+        (diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR), key=Diagnostic.sort_key
+    )
     if not errors:
         return []
     first = errors[0]
@@ -134,8 +136,8 @@ def _cut(line: str | None) -> str:
 def render_suspicions(suspicions: tuple[Suspicion, ...]) -> list[Line]:
     """Return every suspicion with its hypotheses, the best first, separated by empty lines."""
     shown: list[Line] = []
-    for one in suspicions:
-        shown += ["", *_suspicion(one)]
+    for suspicion in suspicions:
+        shown += ["", *_suspicion(suspicion)]
     return shown[1:]
 
 
@@ -158,9 +160,9 @@ def render_nearest(nearest: Sequence[Suspicion], layers: Sequence[str]) -> list[
     shown: list[Line] = [
         "UNKNOWN: no known symptom fits" + ("; the nearest, which may not be meant:" if nearest else "")
     ]
-    for one in nearest:
-        shown.append(("  ", Styled(f"{one.layer}: {one.symptom}", Style.BOLD)))
-        shown.append(f"    likeliest: {one.causes[0].text}")
+    for suspicion in nearest:
+        shown.append(("  ", Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD)))
+        shown.append(f"    likeliest: {suspicion.causes[0].text}")
     shown.append("say it in other words or paste a line of the log; `cellc diagnose` alone lists every symptom")
     return [*shown, f"rule out in this order: {', '.join(layers)}"]
 

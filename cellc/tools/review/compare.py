@@ -20,13 +20,13 @@ from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, R
 from cellc.tools.review.units import difference, shown
 
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
-"""A spec that was moved makes the same package: its path stands in the head of every file."""
+"""A spec that was moved makes the same package: its path is in the head of every file."""
 
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
 _SHOWS = ("graph/", "README.md")
-"""Files that show people what the others say, in the order of the spec: they are told where a hand edited them."""
+"""Files that show people what the others say, in the order of the spec: they are reported where a hand edited them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Change:
 
     Attributes:
         words: words and figures that it explains in other files.
-        names: names of things that came or went with it.
+        names: names of things added or removed with it.
     """
 
     area: ReviewArea
@@ -98,7 +98,11 @@ def _reviewed(change: Change, subjects: Sequence[str], owner: str) -> ReviewChan
 def _told(before: Facts, after: Facts) -> list[Change]:
     # What only specs say is compared where both sides were made of one.
     both = before.cell is not None and after.cell is not None
-    deltas = [one for one in differences(before.leaves, after.leaves) if both or one.path[0] not in OF_SPEC]
+    deltas = [
+        difference
+        for difference in differences(before.leaves, after.leaves)
+        if both or difference.path[0] not in OF_SPEC
+    ]
     came_or_went, rest = _things(deltas, before, after)
     primary = [delta for delta in rest if not _follows(delta.path)]
     told = [*came_or_went, *_effects(before, after)]
@@ -113,7 +117,7 @@ def _told(before: Facts, after: Facts) -> list[Change]:
     edited = before.edited | after.edited
     renamed = before.contract.cell != after.contract.cell
     left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
-    told += [_of_lines(one) for one in left if one.file in edited or not one.file.startswith(_SHOWS)]
+    told += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
     return told or list(_unexplained(before, after))
 
 
@@ -125,14 +129,14 @@ def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
     found = list[Delta]()
     if before.cell is not None and after.cell is not None:
         cells = (dict(flatten(as_json(before.cell))), dict(flatten(as_json(after.cell))))
-        found = [one for one in differences(*cells) if one.path[0] not in _SAID_ELSEWHERE]
-    for one in found or [Delta(("cell",), was[:12], now[:12])]:
+        found = [difference for difference in differences(*cells) if difference.path[0] not in _SAID_ELSEWHERE]
+    for delta in found or [Delta(("cell",), was[:12], now[:12])]:
         yield Change(
             ReviewArea.GATES,
-            " ".join(one.path),
+            " ".join(delta.path),
             "value that no file of the package shows",
-            shown(one.before, _unit_in(one.path[-1])),
-            shown(one.after, _unit_in(one.path[-1])),
+            shown(delta.before, _unit_in(delta.path[-1])),
+            shown(delta.after, _unit_in(delta.path[-1])),
             Grade.REVIEW,
         )
 
@@ -149,7 +153,7 @@ def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
 
 
 def _ids(facts: Facts) -> frozenset[str]:
-    """Return what follows from whatever is told: ids, names of files, and of spawners after their first controller."""
+    """Return what follows from reported changes: ids, names of files, and of spawners after their first controller."""
     names = (name for manager in facts.contract.managers.values() for name in manager.controllers)
     inputs = facts.manifest.configuration_inputs
     ids = (facts.contract.configuration_id, inputs.urdf_sha256, inputs.cell_sha256)
@@ -161,12 +165,12 @@ def _known(told: Iterable[Change], ids: frozenset[str]) -> Known:
     changes = list(told)
     return Known(
         frozenset().union(ids, *(change.words for change in changes)),
-        frozenset().union(*(_spelt(change.names) for change in changes)),
+        frozenset().union(*(_spelled(change.names) for change in changes)),
         frozenset().union(*(change.differing for change in changes)),
     )
 
 
-def _spelt(names: Iterable[str]) -> set[str]:
+def _spelled(names: Iterable[str]) -> set[str]:
     """Return names in the forms in which files have them: of a node full or bare, of a file with or without its end."""
     paths = [PurePosixPath(name) for name in names]
     return {form for path in paths for form in (path.as_posix(), path.as_posix().strip("/"), path.name, path.stem)}
@@ -180,7 +184,7 @@ def _differing(before: Leaf | None, after: Leaf | None) -> frozenset[str]:
 
 
 def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[Change], list[Delta]]:
-    """Take out what came or went as a whole, and return it with the values that are left."""
+    """Take out what was added or removed as a whole, and return it with the values that are left."""
     old, new = prefixes(before.leaves), prefixes(after.leaves)
     folded: dict[tuple[Path, Thing], list[Delta]] = {}
     rest = []
@@ -196,9 +200,9 @@ def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[
 
 
 def _told_by(following: Change, told: Sequence[Change]) -> bool:
-    """Tell whether something that came or went says of another that it did too, and no less gravely."""
+    """Tell whether something that was added or removed says of another that it did too, and no less gravely."""
     grades = tuple(Grade)
-    worst = [grades.index(one.grade) for one in told if _spelt(one.names) & _spelt(following.names)]
+    worst = [grades.index(change.grade) for change in told if _spelled(change.names) & _spelled(following.names)]
     return max(worst, default=-1) >= grades.index(following.grade)
 
 
@@ -213,7 +217,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta]) -> Change:
     came = inner[0].before is None
     fit = fits(thing.parts, path)
     names = () if fit is None else fit.subject
-    shown_leaf = next((one for one in inner if one.path == (*path, thing.shown)), None)
+    shown_leaf = next((delta for delta in inner if delta.path == (*path, thing.shown)), None)
     value = "present" if shown_leaf is None else shown(shown_leaf.after if came else shown_leaf.before, "")
     return Change(
         thing.area,
@@ -224,7 +228,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta]) -> Change:
         thing.came if came else thing.went,
         breaking=thing.breaking and not came,
         why=thing.why if (thing.came if came else thing.went) is Grade.DANGEROUS else "",
-        words=frozenset(word for one in inner for word in (*words(one.before), *words(one.after), *one.path)),
+        words=frozenset(word for delta in inner for word in (*words(delta.before), *words(delta.after), *delta.path)),
         names=frozenset(names[-1:]),
     )
 
@@ -292,10 +296,15 @@ def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:
 
 def _effects(before: Facts, after: Facts) -> Iterator[Change]:
     """Yield what follows for motion and data, though no value of it changed."""
-    for one in moved_places(before, after):
-        sides = (shown(one.before, ""), shown(one.after, ""))
+    for place in moved_places(before, after):
+        sides = (shown(place.before, ""), shown(place.after, ""))
         yield Change(
-            ReviewArea.MOTION, one.subject, one.quantity, *sides, Grade.REVIEW, difference(one.before, one.after, "")
+            ReviewArea.MOTION,
+            place.subject,
+            place.quantity,
+            *sides,
+            Grade.REVIEW,
+            difference(place.before, place.after, ""),
         )
     for subject, missed in offers_less(before.contract, after.contract):
         why = "subscribers outside the cell that request the old offer no longer connect"

@@ -42,7 +42,9 @@ def parameter_changes(cell: Cell, target: Distro, was: Told, now: Told) -> tuple
         was: what the cell gives its nodes on its own distribution.
         now: the same on the target.
     """
-    return tuple(change for one in _declarations(cell, was, now) for change in _changes(one, cell.distro, target))
+    return tuple(
+        change for declaration in _declarations(cell, was, now) for change in _changes(declaration, cell.distro, target)
+    )
 
 
 def _declarations(cell: Cell, was: Told, now: Told) -> Iterator[Declaration]:
@@ -56,7 +58,7 @@ def _declarations(cell: Cell, was: Told, now: Told) -> Iterator[Declaration]:
         if controller.declared is not None:
             kinds.setdefault(controller.kind, (controller.declared, []))[1].append(controller.full_name)
     every = tuple(name for _, names in kinds.values() for name in names)
-    written = {one.full_name: frozenset(one.written_parameters) for one in cell.controllers}
+    written = {controller.full_name: frozenset(controller.written_parameters) for controller in cell.controllers}
     if every:
         yield _of_nodes(every, facts.controller_parameters, was, now, written)
     for kind, names in kinds.values():

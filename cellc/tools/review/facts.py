@@ -186,7 +186,7 @@ def _plain(value: object) -> Json:
 
 
 def _of_manifest(manifest: Manifest) -> Iterator[tuple[Path, Leaf]]:
-    """Yield what is told nowhere else: the id and the hashes are of what other leaves and lines tell."""
+    """Yield what is reported nowhere else: the id and the hashes are of what other leaves and lines tell."""
     yield ("manifest", "cellc_version"), manifest.cellc_version
     yield from flatten(dict(manifest.version_tuple), ("manifest", "version_tuple"))
 
@@ -234,7 +234,7 @@ def _of_placements(contract: Contract, description: Description) -> Iterator[tup
 
 
 def _of_description(target: str, description: Description) -> Iterator[tuple[Path, Leaf]]:
-    """Yield what moves, collides and weighs, and what drives it; where joints stand is told as placements."""
+    """Yield what moves, collides and weighs, and what drives it; where joints stand is reported as placements."""
     for link in description.links:
         yield from flatten(as_json(link.inertial), (target, "inertia", link.name))
         if link.collisions:
@@ -330,8 +330,11 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
 
 
 def _of_excuses(excused: Sequence[Diagnostic]) -> Iterator[tuple[Path, Leaf]]:
-    for one in excused:
-        yield ("excused", one.severity.value, f"{one.code}: {one.message}"), "by a comment in the spec"
+    for diagnostic in excused:
+        yield (
+            ("excused", diagnostic.severity.value, f"{diagnostic.code}: {diagnostic.message}"),
+            "by a comment in the spec",
+        )
 
 
 def _without_place(entity: Json) -> Json:

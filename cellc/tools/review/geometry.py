@@ -17,7 +17,7 @@ _NOTICED_M, _NOTICED_RAD = 1e-6, 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Moved:
-    """A tip in a named pose, or a goal, that stands elsewhere in the root frame though nobody wrote so there."""
+    """A tip in a named pose, or a goal, that is elsewhere in the root frame though nobody wrote so there."""
 
     subject: str
     quantity: str
@@ -31,8 +31,8 @@ def moved_places(before: Facts, after: Facts) -> Iterator[Moved]:
         was, now = place(before), place(after)
         for name in was:
             if name in now and not (of == _GOAL and _same_frame(name, before, after)):
-                metres, radians = apart(was[name], now[name])
-                if metres > _NOTICED_M or radians > _NOTICED_RAD:
+                meters, radians = apart(was[name], now[name])
+                if meters > _NOTICED_M or radians > _NOTICED_RAD:
                     yield Moved(name, of, was[name], now[name])
 
 
@@ -43,7 +43,7 @@ def _same_frame(goal: str, before: Facts, after: Facts) -> bool:
 
 
 def tips(facts: Facts) -> dict[str, Pose]:
-    """Return where the tip of each group stands in each named pose, in the root frame."""
+    """Return where the tip of each group is in each named pose, in the root frame."""
     found = {}
     for name, targets in facts.contract.poses.items():
         positions = _positions(facts, name)
@@ -102,7 +102,7 @@ def _carried(joint: Joint, positions: Mapping[str, float]) -> Pose:
     length = math.hypot(*joint.axis)
     if not position or not joint.movable or not length:
         return joint.pose
-    x, y, z = (one / length for one in joint.axis)
+    x, y, z = (value / length for value in joint.axis)
     if joint.type == "prismatic":
         return joint.pose @ Pose((x * position, y * position, z * position), (0.0, 0.0, 0.0, 1.0))
     sine = math.sin(position / 2.0)

@@ -56,7 +56,7 @@ def _named(before: Leaf | None, after: Leaf | None) -> Grade:
 
 
 def _matrix(before: Leaf | None, after: Leaf | None) -> Grade:
-    was, now = (str(one).startswith("OK") for one in (before, after))
+    was, now = (str(item).startswith("OK") for item in (before, after))
     if was and not now:
         return Grade.DANGEROUS
     return Grade.SAFE if now and not was else Grade.REVIEW
@@ -85,7 +85,7 @@ _GRADES = {
 
 def _entries(value: Leaf | None) -> set[str]:
     if isinstance(value, tuple):
-        return {said(one) for one in value}
+        return {said(item) for item in value}
     return set() if value is None else {str(value)}
 
 

@@ -38,7 +38,7 @@ Leaves: TypeAlias = Mapping[Path, Leaf]
 
 
 def flatten(value: Json, path: Path = ()) -> Iterator[tuple[Path, Leaf]]:
-    """Yield every leaf of JSON-like data; null is as good as absent, and an entry with a name stands under it."""
+    """Yield every leaf of JSON-like data; null is as good as absent, and an entry with a name is under it."""
     if value is None:
         return
     if isinstance(value, dict):
@@ -70,10 +70,10 @@ def _pose(value: Mapping[str, Json]) -> Pose | None:
     place = value.get("xyz", value.get("position"))
     if len(value) != 2 or not isinstance(turn, list) or not isinstance(place, list):
         return None
-    if len(place) != 3 or len(turn) != 4 or not all(isinstance(one, (int, float)) for one in (*place, *turn)):
+    if len(place) != 3 or len(turn) != 4 or not all(isinstance(item, (int, float)) for item in (*place, *turn)):
         return None
-    x, y, z = (float(one) for one in place if isinstance(one, (int, float)))
-    qx, qy, qz, qw = (float(one) for one in turn if isinstance(one, (int, float)))
+    x, y, z = (float(item) for item in place if isinstance(item, (int, float)))
+    qx, qy, qz, qw = (float(item) for item in turn if isinstance(item, (int, float)))
     return Pose((x, y, z), (qx, qy, qz, qw))
 
 
@@ -129,8 +129,8 @@ def _same_item(before: Item, after: Item) -> bool:
 
 
 def _same_pose(before: Pose, after: Pose) -> bool:
-    metres, radians = apart(before, after)
-    return metres <= 1e-9 and radians <= 1e-7
+    meters, radians = apart(before, after)
+    return meters <= 1e-9 and radians <= 1e-7
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +145,9 @@ class Delta:
 def differences(before: Leaves, after: Leaves) -> tuple[Delta, ...]:
     """Return the leaves that differ, in the order of paths."""
     found = (Delta(path, before.get(path), after.get(path)) for path in sorted({*before, *after}))
-    return tuple(one for one in found if one.before is None or one.after is None or not same(one.before, one.after))
+    return tuple(
+        delta for delta in found if delta.before is None or delta.after is None or not same(delta.before, delta.after)
+    )
 
 
 def prefixes(leaves: Leaves) -> frozenset[Path]:

@@ -1,4 +1,4 @@
-"""Files that are text alone: which of their lines differ, and which of those no told change explains."""
+"""Files that are text alone: which of their lines differ, and which of those no listed change explains."""
 
 from __future__ import annotations
 
@@ -23,8 +23,9 @@ class Known:
 
     Attributes:
         words: words and figures of values before and after.
-        names: names of things that came or went: a line that holds one follows from it.
-        differing: words of those values that one side alone has: a line that came or went with one follows, too.
+        names: names of things that were added or removed: a line that holds one follows from it.
+        differing: words of those values that one side alone has: a line that was added or removed with one follows,
+            too.
     """
 
     words: frozenset[str]
@@ -32,7 +33,7 @@ class Known:
     differing: frozenset[str]
 
     def explains(self, before: Sequence[str], after: Sequence[str], common: frozenset[str] = frozenset()) -> bool:
-        """Tell whether a text changed in nothing but what is known, or names what came or went.
+        """Tell whether a text changed in nothing but what is known, or names what was added or removed.
 
         Args:
             common: words that both sides of a file have, which say nothing of a line without a counterpart.
@@ -45,7 +46,7 @@ class Known:
         return differing - common <= self.words or not named.isdisjoint(_with_parts(differing))
 
     def explains_leaf(self, delta: Delta) -> bool:
-        """Tell the same of a value, which may stand under a name that came or went."""
+        """Tell the same of a value, which may stand under a name that was added or removed."""
         if self.names.intersection(delta.path):
             return True
         return self.explains(words(delta.before), words(delta.after))
@@ -58,7 +59,7 @@ def _with_parts(words: Iterable[str]) -> set[str]:
 
 @dataclass(frozen=True, slots=True)
 class LinesLeft:
-    """Lines of one file that differ and that nothing explains; ``whole`` where the file itself came or went."""
+    """Lines of one file that differ and that nothing explains; ``whole`` where the file itself was added or removed."""
 
     file: str
     before: tuple[str, ...]
@@ -71,7 +72,7 @@ def lines_left(
 ) -> list[LinesLeft]:
     """Return what is left of each file; the order of lines and of words in them says nothing."""
     found = (_left(file, before.get(file, ()), after.get(file, ()), known) for file in sorted({*before, *after}))
-    return [one for one in found if one.before or one.after]
+    return [left for left in found if left.before or left.after]
 
 
 def _left(file: str, before: Sequence[str], after: Sequence[str], known: Known) -> LinesLeft:
@@ -107,16 +108,16 @@ def _more(one: Mapping[_Words, list[str]], other: Mapping[_Words, list[str]]) ->
 def _paired(gone: list[_Words], come: list[_Words]) -> list[tuple[_Words, _Words]]:
     """Pair each line that went with the nearest that came; what has no partner is beside nothing."""
     if len(gone) * len(come) > _MOST_PAIRS:
-        return [*((one, ()) for one in gone), *(((), one) for one in come)]
-    waiting = [Counter(one) for one in come]
+        return [*((pair, ()) for pair in gone), *(((), pair) for pair in come)]
+    waiting = [Counter(pair) for pair in come]
     rest = list(range(len(come)))
     pairs: list[tuple[_Words, _Words]] = []
-    for one in gone:
-        counted = Counter(one)
+    for pair in gone:
+        counted = Counter(pair)
         nearest = max(rest, key=lambda at: sum((counted & waiting[at]).values()), default=None)
-        if nearest is None or 4 * sum((counted & waiting[nearest]).values()) <= 3 * len(one):
-            pairs.append((one, ()))
+        if nearest is None or 4 * sum((counted & waiting[nearest]).values()) <= 3 * len(pair):
+            pairs.append((pair, ()))
             continue
         rest.remove(nearest)
-        pairs.append((one, come[nearest]))
+        pairs.append((pair, come[nearest]))
     return pairs + [((), come[at]) for at in rest]

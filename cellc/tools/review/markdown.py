@@ -1,7 +1,7 @@
 """A review as a comment of a pull request: GitHub's Markdown, no longer than GitHub takes.
 
 Source: GitHub refuses a comment of more than 65536 characters ("body is too long (maximum is 65536 characters)").
-Everything that comes from a file stands as code, so that it mentions nobody and links nowhere.
+Everything that comes from a file is written as code, so that it mentions no user and links nowhere.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def _row(change: ReviewChange) -> str:
 def _tail(review: Review) -> Iterator[str]:
     yield from folded("New findings", map(_finding, review.new_findings))
     yield from folded("Resolved findings", map(_finding, review.gone_findings))
-    yield from folded("Rehearsals", (as_code(outcomes(one)) for one in review.rehearsals))
+    yield from folded("Rehearsals", (as_code(outcomes(rehearsal)) for rehearsal in review.rehearsals))
     yield from folded("Gates to repeat", (as_code(gate_line(gate)) for gate in review.gates))
     yield from folded("Notes", map(as_code, review.notes))
 

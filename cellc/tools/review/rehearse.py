@@ -56,7 +56,7 @@ def _run(packages: Sequence[Package], folder: Path) -> list[_Ended]:
 
 
 def _started(place: Path) -> subprocess.Popen[str]:
-    # What was edited is told as a note; here no gate is signed by it.
+    # What was edited gets as a note; here no gate is signed by it.
     raised = [word for option in as_options(limits()) for word in ("--limit", option)]
     command = [sys.executable, "-m", "cellc", "mock", place.as_posix(), "--json", "--edited", *raised]
     return subprocess.Popen(
@@ -65,7 +65,7 @@ def _started(place: Path) -> subprocess.Popen[str]:
         stderr=subprocess.PIPE,
         text=True,
         encoding="utf-8",
-        # `-m` puts the current folder first on the import path: it must not be one that a stranger filled.
+        # `-m` puts the current folder first on the import path: it must not be one that untrusted files filled.
         cwd=Path(__file__).resolve().parents[3],
     )
 
@@ -74,4 +74,4 @@ def _ended(package: Package, child: subprocess.Popen[str]) -> _Ended:
     out, err = child.communicate()
     if child.returncode not in (0, 1) or not out:
         raise SideError(f"{package.name}: the mock refuses it: {err.strip().removeprefix('error: ') or 'no answer'}")
-    return {one["name"]: (one["outcome"], one["passed"]) for one in json.loads(out)["rehearsals"]}
+    return {load["name"]: (load["outcome"], load["passed"]) for load in json.loads(out)["rehearsals"]}

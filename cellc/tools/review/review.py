@@ -1,4 +1,4 @@
-"""Two packages into a review: changes, findings that came and went, and the gates to pass again."""
+"""Two packages into a review: changes, new and resolved findings, and the gates to pass again."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ class Taken:
 
     Attributes:
         path: what was asked for.
-        folder: that it stands in, or is.
+        folder: that it is in, or is.
         top: the private folder; that of the whole repository where all of it was taken, else ``folder``.
         links: how many were left out.
     """

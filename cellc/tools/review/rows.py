@@ -1,7 +1,7 @@
 """Each kind of value that a package holds, and how a change of it is graded.
 
-The first row whose pattern fits a path counts. A part of a pattern in braces stands for any name, and the names are the
-subject; `...` at the end stands for whatever follows.
+The first row whose pattern fits a path counts. A part of a pattern in braces means any name, and the names are the
+subject; `...` at the end represents whatever follows.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """How changes are graded: one row for each kind of value and of thing, in the order of docs/review.md.
 
-The first row whose pattern fits a path counts. A part of a pattern in braces stands for any name, and the names are the
-subject; `...` at the end stands for whatever follows. What a row that `follows` tells is a repetition: it is told only
-where no other change explains it.
+The first row whose pattern fits a path counts. A part of a pattern in braces means any name, and the names are the
+subject; `...` at the end represents whatever follows. What a row that `follows` tells is a repetition: it is reported
+only where no other change explains it.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Thing:
 
     Args:
         shown: the value that is told of it.
-        follows: it is told only where nothing else of its name came or went.
+        follows: it is reported only where nothing else of its name was added or removed.
     """
 
     pattern: str
@@ -169,7 +169,7 @@ THINGS: Sequence[Thing] = (
     Thing("file {file}", _A.CONTROL, "parameter file", _R, _R, follows=True),
     Thing("contract clock_of {node}", _A.TIME, "stamp clock", _R, _R, follows=True),
 )
-"""A thing that came is told once; where rows of both tables fit, the thing that came or went counts."""
+"""An added or removed thing is listed once; where rows of both tables fit, the thing counts."""
 
 AREA_OF_FILE: Sequence[tuple[str, ReviewArea]] = (
     ("gates/", _A.GATES),
@@ -183,7 +183,7 @@ AREA_OF_FILE: Sequence[tuple[str, ReviewArea]] = (
     ("config/moveit/", _A.MOTION),
     ("config/", _A.CONTROL),
 )
-"""Area of a file by the beginning of its path; what is none of these is a document."""
+"""Area of a file by the beginning of its path; what is not one of these is a document."""
 
 APPROVAL: Mapping[ReviewArea, ApprovalArea] = {
     _A.SAFETY: "safety",

@@ -36,7 +36,7 @@ class Side:
 
     Args:
         path: spec or folder; in a revision from the top of the repository of ``within``.
-        revision: None for what stands in the work tree.
+        revision: None for what is in the work tree.
         within: a folder in the repository.
         merged_into: the side is what ``revision`` and this revision have in common.
     """
@@ -119,7 +119,7 @@ def _stated(argument: str) -> Side:
 
 
 def _revised(revision: str, path: str) -> Side:
-    """Return a path of the work tree as it stands in a revision."""
+    """Return a path of the work tree as it is in a revision."""
     place = Path(path)
     folder = place if place.is_dir() else place.parent
     try:
@@ -133,7 +133,7 @@ def _revised(revision: str, path: str) -> Side:
 def _range(text: str, path: str) -> tuple[Side, Side]:
     dots = "..." if "..." in text else ".."
     first, _, second = text.partition(dots)
-    before, after = (_revised(one or "HEAD", path) for one in (first, second))
+    before, after = (_revised(text or "HEAD", path) for text in (first, second))
     if dots == "...":
         before = replace(before, name=f"{text}:{before.path}", merged_into=after.revision)
     return before, after
@@ -165,7 +165,9 @@ def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
     found = _read(side.name, taken.path, taken.path.as_posix())
     shown = f"{side.revision}:{PurePosixPath(path).parent.as_posix()}/"
     named = {f"{taken.folder.as_posix()}/": shown, f"{taken.top.as_posix()}/": f"{side.revision}:"}
-    findings, excused = (tuple(_shown_from(one, named) for one in each) for each in (found.findings, found.excused))
+    findings, excused = (
+        tuple(_shown_from(finding, named) for finding in each) for each in (found.findings, found.excused)
+    )
     links = (f"{side.name}: {taken.links} links or submodules were left out",) if taken.links else ()
     return replace(found, findings=findings, excused=excused, notes=(*found.notes, *links)), taken.path
 
@@ -198,20 +200,20 @@ def package_of(name: str, checked: Checked) -> Package:
     """Return the package of a cell that was checked.
 
     Raises:
-        SideError: it holds errors, and there is none.
+        SideError: it holds errors, or does not exist.
     """
     from cellc.compiler.pipeline import emit_cell
 
     emitted = emit_cell(checked)
     if emitted.value is None or checked.graph is None:
         found = (*checked.diagnostics, *emitted.diagnostics)
-        errors = [one for one in found if one.severity is Severity.ERROR]
+        errors = [diagnostic for diagnostic in found if diagnostic.severity is Severity.ERROR]
         more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""
         first = errors[0]
         raise SideError(f"{name}:{first.span.line}:{first.span.column}: {first.message}{more}; see `cellc check`")
     files = {artifact.path: artifact.text for artifact in emitted.value}
-    told = tuple(as_review_finding(one) for one in checked.diagnostics)
-    excused = tuple(as_review_finding(one) for one in checked.excused)
+    told = tuple(as_review_finding(diagnostic) for diagnostic in checked.diagnostics)
+    excused = tuple(as_review_finding(diagnostic) for diagnostic in checked.excused)
     return Package(name, files, facts_of(files, checked.graph.cell, checked.excused), told, excused, is_spec=True)
 
 

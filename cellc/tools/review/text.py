@@ -30,7 +30,7 @@ def render_review(review: Review) -> Iterator[Line]:
     if review.rehearsals:
         yield ""
         yield "rehearsals"
-        yield from (f"  {outcomes(one)}" for one in review.rehearsals)
+        yield from (f"  {outcomes(rehearsal)}" for rehearsal in review.rehearsals)
     if review.gates:
         yield ""
         yield "gates to repeat (their evidence is no longer valid)"
@@ -92,7 +92,7 @@ def _change(change: ReviewChange) -> Iterator[Line]:
 
 
 def findings_told(title: str, findings: tuple[ReviewFinding, ...]) -> Iterator[Line]:
-    """Yield findings of the check under a title; nothing where there are none."""
+    """Yield findings of the check under a title, if any."""
     if findings:
         yield ""
         yield title

@@ -7,14 +7,14 @@ import re
 
 from cellc.compiler.spec import quantity
 
-_DIMENSIONS = tuple(one for one in vars(quantity).values() if isinstance(one, quantity.Dimension))
+_DIMENSIONS = tuple(var for var in vars(quantity).values() if isinstance(var, quantity.Dimension))
 _FACTORS = {
     unit: math.radians(1.0) if factor is None else float(factor)
     for dimension in _DIMENSIONS
     for unit, factor in dimension.units
 }
 _UNITS = "|".join(re.escape(unit) for unit in sorted(_FACTORS, key=len, reverse=True))
-# Bounded, so that a line of a stranger costs no square.
+# Bounded, so that an untrusted line costs no square.
 _NUMBER = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"
 _TOKEN = re.compile(
     rf"(?<![\w.+-])(?P<number>{_NUMBER})(?:(?P<unit>{_UNITS})(?![\w/^]))?(?![\w.]{{0,30}}\w)"

@@ -14,7 +14,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.site import UNKNOWN, Versions
 from cellc.compiler.graph.releases import PACKAGED, named_row, package_of
-from cellc.compiler.graph.versions import Answer, Judgement, Pin, cell_pins, compatibility, device_pins
+from cellc.compiler.graph.versions import Answer, Judgment, Pin, cell_pins, compatibility, device_pins
 from cellc.contract.pins import same_version
 from cellc.contract.vocabulary import Distro
 
@@ -25,7 +25,7 @@ class PinMove:
 
     pin: Pin
     text: str
-    judged: Judgement
+    judged: Judgment
     question: str
 
 
@@ -78,7 +78,7 @@ def _of_cell(pin: Pin, facts: DistroFacts, target: Distro) -> str:
 
 
 def _numbered(text: str, version: str | None) -> str:
-    """Return a pin with another version, and UNKNOWN where there is none; words before the version stay."""
+    """Return a pin with another version, and UNKNOWN without one; words before the version stay."""
     return UNKNOWN if version is None else " ".join((*text.split()[:-1], version))
 
 
@@ -98,7 +98,7 @@ def _of_device(pin: Pin, device: Device, facts: DistroFacts, target: Distro) -> 
     return UNKNOWN if rows else pin.text
 
 
-def _question(before: Judgement, after: Judgement, target: Distro) -> str:
+def _question(before: Judgment, after: Judgment, target: Distro) -> str:
     """Return what is asked of a pin: only what the new distribution brings up, not what was open before."""
     pin, text = before.pin, after.pin.text
     what = f"`{pin.part}` of `{pin.holder}`"

@@ -33,10 +33,10 @@ def shown(value: Leaf | None, unit: str) -> str | None:
 
 
 def _shown_list(value: tuple[str | float | int | bool, ...], unit: str) -> str:
-    if value and all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in value):
+    if value and all(isinstance(item, (int, float)) and not isinstance(item, bool) for item in value):
         factor, name = _SHOWN.get(unit, (1.0, unit))
-        return f"{_numbers(tuple(float(one) for one in value), factor)} {name}".rstrip()
-    return ", ".join(said(one) for one in value) if len(value) <= _FEW else f"{len(value)} entries"
+        return f"{_numbers(tuple(float(item) for item in value), factor)} {name}".rstrip()
+    return ", ".join(said(item) for item in value) if len(value) <= _FEW else f"{len(value)} entries"
 
 
 _SHOWN = {
@@ -84,15 +84,15 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str) -> str:
     return sign + _with_unit(after - before, unit)
 
 
-def motion(metres: float, radians: float) -> str:
+def motion(meters: float, radians: float) -> str:
     """Return how far something moves and turns."""
-    parts = [f"moves {_length(metres)}"] if metres > 1e-9 else []
+    parts = [f"moves {_length(meters)}"] if meters > 1e-9 else []
     parts += [f"turns {_number(round(math.degrees(radians), 4))} deg"] if radians > 1e-7 else []
     return ", ".join(parts)
 
 
-def _length(metres: float) -> str:
-    shown = _rounded(metres)
+def _length(meters: float) -> str:
+    shown = _rounded(meters)
     return f"{shown * 1e3:.9f}".rstrip("0").rstrip(".") + " mm" if shown < 1.0 else f"{shown:.10g} m"
 
 
@@ -102,7 +102,7 @@ def _rounded(value: float) -> float:
 
 
 def _of_lists(before: tuple[str | float | int | bool, ...], after: tuple[str | float | int | bool, ...]) -> str:
-    if max(len(before), len(after)) <= 1 or not all(isinstance(one, str) for one in (*before, *after)):
+    if max(len(before), len(after)) <= 1 or not all(isinstance(item, str) for item in (*before, *after)):
         return ""
     gone, come = Counter(map(said, before)), Counter(map(said, after))
     lost, new = sorted((gone - come).elements()), sorted((come - gone).elements())

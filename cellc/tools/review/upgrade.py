@@ -61,7 +61,7 @@ def plan_upgrade(file: str, target: Distro) -> Planned:
         SideError: nothing can be made of it.
     """
     checked = check(file)
-    errors = [one for one in checked.diagnostics if one.severity is Severity.ERROR]
+    errors = [diagnostic for diagnostic in checked.diagnostics if diagnostic.severity is Severity.ERROR]
     if errors or checked.graph is None:
         more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""
         raise UpgradeError(f"{errors[0].span}: {errors[0].message}{more}; see `cellc check`")
@@ -82,8 +82,12 @@ def _upgrade(
 ) -> Upgrade:
     compared = None if after is None else review(before, after)
     parameters = parameter_changes(cell, target, _given(before.facts), _given((after or before).facts))
-    asked = (*(move.question for move in moves), *(one.question for one in parameters), _rollback(cell, moves))
-    errors = (one for one in moved.diagnostics if one.severity is Severity.ERROR)
+    asked = (
+        *(move.question for move in moves),
+        *(parameter.question for parameter in parameters),
+        _rollback(cell, moves),
+    )
+    errors = (diagnostic for diagnostic in moved.diagnostics if diagnostic.severity is Severity.ERROR)
     return Upgrade(
         format=1,
         cell=cell.name,
@@ -164,12 +168,12 @@ def _granted(policy: str) -> Mapping[str, frozenset[tuple[str, str]]]:
 
 
 def _below(element: XmlElement, group: str, tag: str) -> Iterator[XmlElement]:
-    for one in element.all(group):
-        yield from one.all(tag)
+    for item in element.all(group):
+        yield from item.all(tag)
 
 
 def _rights(profile: XmlElement) -> Iterator[tuple[str, str]]:
     for group in profile.children:
         for right in _RIGHTS:
             if right in group.attributes:
-                yield from ((right, one.text.strip()) for one in group.children)
+                yield from ((right, child.text.strip()) for child in group.children)

@@ -45,10 +45,10 @@ def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
     head += folded("Errors of the check on it", errors, is_open=True)
     pins = (f"{as_code(_moved(pin))} {pin.answer}: {as_code(pin.evidence)}" for pin in upgrade.pins)
     head += folded("Version tuple", pins, is_open=True)
-    head += folded("Declared parameters", (as_code(parameters_told(one)) for one in _alike(upgrade.parameters)))
-    head += folded("Names at the ROS graph", (as_code(interface_told(one)) for one in upgrade.interfaces))
+    head += folded("Declared parameters", (as_code(parameters_told(row)) for row in _alike(upgrade.parameters)))
+    head += folded("Names at the ROS graph", (as_code(interface_told(interface)) for interface in upgrade.interfaces))
     if upgrade.review is None:
-        return "\n".join((*head, *folded("Gates to repeat", (as_code(gate_line(one)) for one in upgrade.gates))))
+        return "\n".join((*head, *folded("Gates to repeat", (as_code(gate_line(gate)) for gate in upgrade.gates))))
     own = "\n".join(head) + "\n"
     return own + render_markdown(upgrade.review, longest - len(own))
 
@@ -70,7 +70,7 @@ def parameters_told(alike: Sequence[UpgradeParameter]) -> str:
     """Return what becomes of parameters that the same nodes declare and of which the same becomes."""
     first = alike[0]
     what = f" {first.what}" if first.what else ""
-    named = ", ".join(one.parameter + _values(one) for one in alike)
+    named = ", ".join(parameter.parameter + _values(parameter) for parameter in alike)
     return f"{_nodes(first.nodes)}: {first.change}{what}: {named}"
 
 
@@ -84,8 +84,8 @@ def _values(one: UpgradeParameter) -> str:
 
 def _alike(parameters: Iterable[UpgradeParameter]) -> Iterator[Sequence[UpgradeParameter]]:
     groups: dict[tuple[tuple[str, ...], str, str], list[UpgradeParameter]] = {}
-    for one in parameters:
-        groups.setdefault((one.nodes, one.change, one.what), []).append(one)
+    for parameter in parameters:
+        groups.setdefault((parameter.nodes, parameter.change, parameter.what), []).append(parameter)
     yield from groups.values()
 
 

@@ -1,4 +1,4 @@
-"""Everything that the page shows, computed: what stands in the cell, and its rehearsals as they ran."""
+"""Everything that the page shows, computed: what is in the cell, and its rehearsals as they ran."""
 
 from __future__ import annotations
 
@@ -89,27 +89,29 @@ def before_of(other: str, path: str) -> Before:
 
 def _shown(standing: Standing, scene: Scene) -> frozenset[YamlPath]:
     """Return what the drawing has of what a cell names."""
-    frames = [one.name for one in scene.frames]
+    frames = [frame.name for frame in scene.frames]
     return frozenset(
         (
             *(("devices", name) for name in standing.roots),
             *((section, name) for section in ("frames", "scene") for name in frames),
-            *(("motion", "poses", one.name) for one in scene.poses),
-            *(("motion", "goals", one.name) for one in scene.goals),
+            *(("motion", "poses", pose.name) for pose in scene.poses),
+            *(("motion", "goals", goal.name) for goal in scene.goals),
         )
     )
 
 
 def _not_drawn(subject: Subject, shown: Container[YamlPath]) -> Iterator[tuple[str, str]]:
-    """Yield what a reader may look for in vain: its own error, or that nothing says where it stands."""
+    """Yield what a reader may look for and not find: its own error, or that nothing says where it is."""
     findings = () if subject.findings is None else subject.findings.diagnostics
-    errors = [one for one in findings if one.severity is Severity.ERROR]
+    errors = [finding for finding in findings if finding.severity is Severity.ERROR]
     if errors and not subject.wanted:
         yield "the whole cell", f"{errors[0].message} ({errors[0].span})"
     for path, error in subject.wanted.items():
         if path not in shown:
             # What links and is still not drawn may stand in a circle, which a rule tells.
-            told = error or next((one for one in errors if one.yaml_path[: len(path)] == path), None)
+            told = error or next(
+                (diagnostic for diagnostic in errors if diagnostic.yaml_path[: len(path)] == path), None
+            )
             yield format_path(path), _unplaced(subject) if told is None else f"{told.message} ({told.span})"
 
 

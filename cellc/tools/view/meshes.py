@@ -20,7 +20,7 @@ _LEAST_SHARE, _LARGEST_SHARE = 200, 20_000
 """Of one mesh; the larger one keeps the numbers of its vertices within 16 bits."""
 _UNREAD = "mesh `{}` cannot be read together with the others"
 _CELLS = 4095
-"""Steps along the longest edge of a mesh: 0.2 mm of a metre."""
+"""Steps along the longest edge of a mesh: 0.2 mm of a meter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class DrawnMesh:
 
 @dataclass(frozen=True, slots=True)
 class Meshes:
-    """The meshes that are drawn, where each that a description names stands among them, and why others are not."""
+    """The meshes that are drawn, where each that a description names is among them, and why others are not."""
 
     drawn: tuple[DrawnMesh, ...] = ()
     numbers: Mapping[Mesh, int] = field(default_factory=dict)
@@ -53,9 +53,9 @@ def meshes_at_hand(links: Sequence[Link], roots: Sequence[Path]) -> Meshes:
     Args:
         roots: folders of the specs that bring the descriptions, beside the package path.
     """
-    there = identify_all((one for link in links for one in meshes_of(link.visuals)), roots)
+    there = identify_all((mesh for link in links for mesh in meshes_of(link.visuals)), roots)
     found = {name for name, file in there.items() if isinstance(file, MeshFile)}
-    wanted = tuple(dict.fromkeys(one for link in links for one in _chosen(link, found)))
+    wanted = tuple(dict.fromkeys(mesh for link in links for mesh in _chosen(link, found)))
     if not wanted:
         return Meshes()
     files = identify_all(wanted, roots)
@@ -75,12 +75,12 @@ def meshes_at_hand(links: Sequence[Link], roots: Sequence[Path]) -> Meshes:
 
 def meshes_of(shapes: Iterable[Visual | Collision]) -> tuple[Mesh, ...]:
     """Return the meshes among shapes, in their order."""
-    return tuple(one.geometry for one in shapes if isinstance(one.geometry, Mesh))
+    return tuple(shape.geometry for shape in shapes if isinstance(shape.geometry, Mesh))
 
 
 def _chosen(link: Link, found: Container[str]) -> tuple[Mesh, ...]:
     seen = meshes_of(link.visuals)
-    return seen if link.visuals and all(one.filename in found for one in seen) else link.collision_meshes() or seen
+    return seen if link.visuals and all(mesh.filename in found for mesh in seen) else link.collision_meshes() or seen
 
 
 def _drawn(read: MeshNumbers, mesh: Mesh, most: int) -> DrawnMesh:
@@ -91,7 +91,7 @@ def _drawn(read: MeshNumbers, mesh: Mesh, most: int) -> DrawnMesh:
     if np.prod(mesh.scale) < 0:  # mirrored: what was outside is inside
         triangles = triangles[:, ::-1]
     return DrawnMesh(
-        tuple(round(float(one), 6) for one in low),
+        tuple(round(float(item), 6) for item in low),
         float(f"{step:.6g}"),
         _packed(np.rint((points - low) / step)),
         _packed(triangles),

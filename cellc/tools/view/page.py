@@ -116,13 +116,13 @@ def _json(content: Content) -> str:
     told = {
         "scene": None if scene is None else asdict(scene),
         "before": None if before is None else asdict(before),
-        "runs": [asdict(one) for one in content.runs],
+        "runs": [asdict(run) for run in content.runs],
     }
     return json.dumps(told, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _policy(style: str, scripts: Sequence[str]) -> str:
-    """Return what the browser may load and run: what stands in this page, and nothing from anywhere."""
+    """Return what the browser may load and run: what is in this page, and nothing from anywhere."""
     allowed = " ".join(map(_hash, scripts)) or "'none'"
     sources = f"img-src data:; style-src {_hash(style)}; script-src {allowed}"
     return f"default-src 'none'; {sources}; base-uri 'none'; form-action 'none'"
@@ -155,7 +155,7 @@ def _header(content: Content) -> Element:
     subject, folder = content.subject, content.subject.folder
     contract = None if folder is None else folder.contract
     facts = [] if contract is None else [("configuration", contract.configuration_id), ("ROS 2", contract.distro.value)]
-    found = [] if subject.findings is None else [one.severity for one in subject.findings.diagnostics]
+    found = [] if subject.findings is None else [diagnostic.severity for diagnostic in subject.findings.diagnostics]
     facts += [("findings", ", ".join(_counted(found)) or "none")] if subject.findings is not None else []
     notes = [*(() if folder is None else folder.notes), *_drawn_less(content)]
     return tag(
@@ -182,7 +182,7 @@ def _drawn_less(content: Content) -> Iterator[str]:
 
 
 def _counted(found: Sequence[Severity]) -> Iterator[str]:
-    return (count(found.count(one), one.value) for one in Severity if one in found)
+    return (count(found.count(severity), severity.value) for severity in Severity if severity in found)
 
 
 def _places(content: Content) -> Iterator[tuple[str, str]]:

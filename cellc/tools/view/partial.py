@@ -47,13 +47,13 @@ def cell_as_far(path: Path) -> tuple[Cell | None, Wanted]:
     wanted: dict[YamlPath, Diagnostic | None] = dict.fromkeys(_named(document))
     for _ in range(_ROUNDS):
         cell, errors = _linked(document)
-        places = {_place(document, one): one for one in reversed(errors)}
+        places = {_place(document, diagnostic): diagnostic for diagnostic in reversed(errors)}
         wanted |= {
             place: error
             for place, error in places.items()
             if place in wanted and not (document is not source.value and _follows(error, written))
         }
-        smaller = _without(document, (one for one in places if one))
+        smaller = _without(document, (pair for pair in places if pair))
         if smaller is document:
             break
         document = smaller
@@ -87,7 +87,7 @@ def _linked(document: SourceDocument) -> tuple[Cell | None, tuple[Diagnostic, ..
         return None, spec.diagnostics
     devices = {name: one for name, one in spec.value.devices.items() if name != _NOBODY}
     cell = link(spec.value.model_copy(update={"devices": devices}), document)
-    return cell.value, tuple(one for one in cell.diagnostics if one.severity is Severity.ERROR)
+    return cell.value, tuple(diagnostic for diagnostic in cell.diagnostics if diagnostic.severity is Severity.ERROR)
 
 
 def _without(document: SourceDocument, places: Iterable[YamlPath]) -> SourceDocument:
@@ -119,7 +119,7 @@ def _moves(document: SourceDocument, path: YamlPath, length: int, code: str) -> 
         length = 3
     entry, key = path[:length], str(path[length]) if len(path) > length else ""
     if code == "unknown-key":
-        return any(could_mean(key, one) for one in _PLACING)
+        return any(could_mean(key, text) for text in _PLACING)
     return key not in _BESIDE and not (key == "calibration" and document.has((*entry, "xyz")))
 
 

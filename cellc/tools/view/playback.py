@@ -1,4 +1,4 @@
-"""A rehearsal as it ran on the mock: where every group stood when, what was done, and which fault began when."""
+"""A rehearsal as it ran on the mock: where every group was when, what was done, and which fault began when."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _STEP_NS = 40_000_000
 """Twenty-five pictures a second; between two of them the page goes on a straight line."""
 _MS = 1_000_000
 _STILL = 1e-5
-"""Below it, in rad or m from one picture to the next, a joint stands."""
+"""Below it, in rad or m from one picture to the next, a joint is at rest."""
 
 _Positions = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ class FaultMark:
 
 @dataclass(frozen=True, slots=True)
 class Track:
-    """Where a group stood at each time of the run: seven numbers for each."""
+    """Where a group was at each time of the run: seven numbers for each."""
 
     group: int
     poses: Numbers
@@ -60,7 +60,7 @@ class Run:
     """A rehearsal to play back.
 
     Attributes:
-        times: of the pictures, s; none where the cell never came up.
+        times: of the pictures, s; none where the cell never started.
         base: seven numbers for each group as the run begins.
         tracks: of the groups that moved.
         reason: why it ended as it did.
@@ -149,7 +149,7 @@ def _kept(joints: Sequence[_Signal], handed_over: Sequence[int], end_ns: int) ->
     """Return the times of the pictures: a picture between two equal ones is left out."""
     times = np.arange(0, end_ns + _STEP_NS, _STEP_NS)
     times[-1] = end_ns
-    table = np.array([np.interp(times, one.stamps_ns, one.positions) for one in joints]).reshape(
+    table = np.array([np.interp(times, joint.stamps_ns, joint.positions) for joint in joints]).reshape(
         len(joints), len(times)
     )
     moved = (np.abs(np.diff(table, axis=1)) > _STILL).any(axis=0)
@@ -160,11 +160,11 @@ def _kept(joints: Sequence[_Signal], handed_over: Sequence[int], end_ns: int) ->
 
 
 def _handed_over(plant: Plant, name: str) -> Iterator[int]:
-    return (one.from_ns for one in plant.world.placements(name)[1:])
+    return (placement.from_ns for placement in plant.world.placements(name)[1:])
 
 
 def _at(joints: Sequence[_Signal], time_ns: int) -> dict[str, float]:
-    return {one.name: float(np.interp(time_ns, one.stamps_ns, one.positions)) for one in joints}
+    return {joint.name: float(np.interp(time_ns, joint.stamps_ns, joint.positions)) for joint in joints}
 
 
 def _carried(plant: Plant, time_ns: int) -> Carried:
@@ -194,7 +194,7 @@ def _run(
         end_s=round(end_s, 3),
         times=tuple(round(time, 3) for time in times),
         base=tuple(value for pose in first for value in pose),
-        tracks=tuple(Track(one, tuple(value for row in postures for value in row[one])) for one in moving),
+        tracks=tuple(Track(number, tuple(value for row in postures for value in row[number])) for number in moving),
         moments=tuple(_moment(record) for record in result.attempts[:-1]),
         faults=tuple(FaultMark(round(at, 3), _said(fault)) for at, fault in begun_faults(faults, result.attempts)),
     )

@@ -18,7 +18,7 @@ Numbers = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """What stands still in a rigid group."""
+    """What is at standstill in a rigid group."""
 
     group: int
     pose: Numbers
@@ -78,7 +78,7 @@ class PoseMark:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Everything that stands still, and the postures that can be chosen.
+    """Everything that is at standstill, and the postures that can be chosen.
 
     Attributes:
         kinds: which shapes of each device are drawn, in words.
@@ -98,7 +98,7 @@ class Scene:
 
 
 def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Skeleton) -> Scene:
-    """Return what is drawn of what stands."""
+    """Return what is drawn of the static parts."""
     links = standing.description.links
     meshes = meshes_at_hand(links, standing.mesh_roots)
     owners = _owners(standing)
@@ -128,7 +128,7 @@ def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Ske
 
 
 def numbers(pose: Pose) -> Numbers:
-    """Return a pose in tenths of a millimetre and about a hundredth of a degree: the page shows no more."""
+    """Return a pose in tenths of a millimeter and about a hundredth of a degree: the page shows no more."""
     return (*(round(value, 4) + 0.0 for value in pose.position), *(round(value, 4) + 0.0 for value in pose.quaternion))
 
 
@@ -136,7 +136,7 @@ def _bodies(link: Link, meshes: Meshes) -> tuple[str, list[tuple[Pose, Geometry]
     """Return what is seen of a link, what collides where that is not at hand, and which of them it is."""
 
     def at_hand(shapes: Sequence[Visual | Collision]) -> list[tuple[Pose, Geometry]]:
-        return [(one.pose, one.geometry) for one in shapes if _drawable(one.geometry, meshes)]
+        return [(shape.pose, shape.geometry) for shape in shapes if _drawable(shape.geometry, meshes)]
 
     seen = at_hand(link.visuals)
     if seen and len(seen) == len(link.visuals):
@@ -157,8 +157,8 @@ def _left_out(links: Iterable[Link], owners: Mapping[str, str], meshes: Meshes) 
         if (link.visuals or link.collisions) and not _bodies(link, meshes)[1]:
             bare.setdefault(owners[link.name], []).append(link)
     for owner, found in bare.items():
-        named = [one for link in found for one in (*meshes_of(link.visuals), *link.collision_meshes())]
-        why = next((meshes.absent[one] for one in named if one in meshes.absent), "")
+        named = [mesh for link in found for mesh in (*meshes_of(link.visuals), *link.collision_meshes())]
+        why = next((meshes.absent[mesh] for mesh in named if mesh in meshes.absent), "")
         links_ = f"{len(found)} {'link' if len(found) == 1 else 'links'}"
         yield f"shapes of {links_} of {owner or 'the cell'}", why
 
@@ -179,7 +179,7 @@ def _owners(standing: Standing) -> dict[str, str]:
 
 def _shape(skeleton: Skeleton, owner: str, link: str, pose: Pose, kind: str, size: Numbers) -> Shape:
     held = skeleton.held(link)
-    return Shape(held.group, numbers(held.pose @ pose), kind, tuple(round(one, 5) for one in size), owner, link)
+    return Shape(held.group, numbers(held.pose @ pose), kind, tuple(round(value, 5) for value in size), owner, link)
 
 
 def _measured(shape: Geometry, meshes: Meshes) -> tuple[str, Numbers]:

@@ -18,7 +18,7 @@ from cellc.tools.report.snippet import excerpt
 from cellc.tools.view.playback import Run
 
 _OPEN = (Severity.ERROR, Severity.WARNING)
-"""Severities whose findings are shown at once; the others are one click away."""
+"""Severities whose findings are shown immediately; the others are one click away."""
 
 
 def section(id_: str, title: str, *children: Child) -> Element:
@@ -36,7 +36,7 @@ def findings_section(findings: Findings) -> Element:
 
 def _by_severity(ordered: Sequence[Diagnostic], texts: Mapping[str, str]) -> Iterator[Element]:
     for severity, found in groupby(ordered, key=lambda one: one.severity):
-        articles = [_finding(one, texts) for one in found]
+        articles = [_finding(diagnostic, texts) for diagnostic in found]
         details = tag("details", tag("summary", count(len(articles), severity.value)), *articles)
         if severity in _OPEN:
             details.set("open", "")
@@ -45,7 +45,11 @@ def _by_severity(ordered: Sequence[Diagnostic], texts: Mapping[str, str]) -> Ite
 
 def _finding(found: Diagnostic, texts: Mapping[str, str]) -> Element:
     title = tag("h3", found.message, tag("span", f" {found.code}"))
-    related = [part for one in found.related for part in (_place(one.span, one.message), *_snippet(one.span, texts))]
+    related = [
+        part
+        for related in found.related
+        for part in (_place(related.span, related.message), *_snippet(related.span, texts))
+    ]
     help_ = [tag("p", f"help: {found.help}", class_="hint")] if found.help else []
     return tag(
         "article",
@@ -85,14 +89,14 @@ def changes_section(review: Review) -> Element:
     names = ("grade", "what", "before", "after", "difference", "why")
     rows = [
         (
-            tag("span", one.grade.value, class_=_GRADES[one.grade]),
-            tag("span", tag("b", ", ".join(one.subjects)), f" {one.quantity}", tag("small", one.area.value)),
-            one.before or "–",
-            one.after or "–",
-            one.delta or "–",
-            one.why or "–",
+            tag("span", change.grade.value, class_=_GRADES[change.grade]),
+            tag("span", tag("b", ", ".join(change.subjects)), f" {change.quantity}", tag("small", change.area.value)),
+            change.before or "–",
+            change.after or "–",
+            change.delta or "–",
+            change.why or "–",
         )
-        for one in review.changes
+        for change in review.changes
     ]
     told = f"{review.before.name} → {review.after.name}. Gates to repeat: "
     gates = ", ".join(gate.code.value for gate in review.gates) or "none"
@@ -167,7 +171,7 @@ def gates_section(contract: Contract) -> Element:
     """Return the gates between this package and motion, in their order."""
     texts = gate_texts()
     names = ("gate", "what it shows", "state", "evidence", "signed by")
-    rows = [_gate(one, contract) for one in (*texts.promotion, *texts.network)]
+    rows = [_gate(text, contract) for text in (*texts.promotion, *texts.network)]
     told = "Passed by people at the cell, in this order; G3 layer by layer. The package has the checks of each."
     return section("gates", "Gates", tag("p", told, class_="hint"), cards(names, rows))
 

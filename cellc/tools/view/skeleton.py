@@ -33,7 +33,7 @@ class Skeleton:
     """
 
     def __init__(self, standing: Standing) -> None:
-        """Find the groups of what stands."""
+        """Find the groups of the static parts."""
         description = standing.description
         self._tree: LinkTree = link_tree(description)
         self._start = dict(_start_positions(description))

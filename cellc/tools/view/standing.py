@@ -1,4 +1,4 @@
-"""What stands in the cell, and how it may move: all of a package, or as much of a spec with errors as can be linked."""
+"""What is in the cell, and how it may move: all of a package, or as much of a spec with errors as can be linked."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Standing:
 
 
 def of_package(folder: GeneratedFolder) -> Standing:
-    """Return what stands in the cell of a package."""
+    """Return what is in the cell of a package."""
     contract = folder.contract
     return Standing(
         {name: device.root_link for name, device in contract.devices.items()},
@@ -52,7 +52,7 @@ def of_package(folder: GeneratedFolder) -> Standing:
 
 
 def of_cell(cell: Cell) -> Standing | None:
-    """Return what stands in a cell that no package was made of; None where not even its description can be read.
+    """Return what is in a cell that no package was made of; None where not even its description can be read.
 
     Links that hang from nothing or in a circle are left out, and poses and goals that do not fit their group.
     """
@@ -76,7 +76,7 @@ def of_cell(cell: Cell) -> Standing | None:
     fitting = {
         name: targets
         for name, targets in poses(cell).items()
-        if all(one.group in known and len(known[one.group].joints) == len(one.positions) for one in targets)
+        if all(target.group in known and len(known[target.group].joints) == len(target.positions) for target in targets)
     }
     roots = {device.name: device.root_link for device in cell.devices if device.root_link not in apart}
     reached = {name: goal for name, goal in goals(cell).items() if goal.group in known}

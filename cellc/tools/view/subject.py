@@ -41,7 +41,7 @@ class Subject:
     Attributes:
         findings: what the check says, with the text of the spec; None for a generated folder.
         folder: the package; None where an error keeps it from being made.
-        standing: what stands in the cell; None where too little of the spec can be linked.
+        standing: what is in the cell; None where too little of the spec can be linked.
         wanted: what the cell names and a reader looks for in the drawing.
         views: what cameras see, by optical frame.
         pictures: text of the package's pictures, by file.
@@ -119,7 +119,7 @@ def _of_spec(path: Path) -> Subject:
 
 
 def _of_description(path: Path, findings: Findings) -> Subject:
-    """Return a robot alone, which stands in the world."""
+    """Return a robot alone, which is in the world."""
     from cellc.compiler.link.link import bare_cell
     from cellc.robot.description.read_description import read_description
 

@@ -21,7 +21,7 @@ BEST_EFFORT = qos(reliability="best_effort")
 def outage(bench: Bench, from_ms: float, until_ms: float) -> None:
     """Lose every sample that is sent in a span of time."""
     bench.clock.at_background(round(from_ms * MS), lambda: bench.network.disturb(TOPIC, SEVERED))
-    bench.clock.at_background(round(until_ms * MS), lambda: bench.network.calm(TOPIC))
+    bench.clock.at_background(round(until_ms * MS), lambda: bench.network.restore_topic(TOPIC))
 
 
 def test_latency_is_added_to_every_sample() -> None:
@@ -106,7 +106,7 @@ def test_overtaken_samples_reach_a_reliable_reader_in_order_and_no_best_effort_o
     bench = Bench(profile, profile, network=ContractNetwork(reordering=0.3))
     subscription = bench.listen()
     bench.publish_every(10, count=500)
-    bench.network.calm(TOPIC)
+    bench.network.restore_topic(TOPIC)
     samples = [sample for _, sample in bench.received]
     assert samples == sorted(samples)
     if kept:

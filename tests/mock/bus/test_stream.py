@@ -37,7 +37,7 @@ def edge(
         clock.run_until(outage_ms[0])
         carried.disturb(TOPIC, SEVERED)
         clock.run_until(outage_ms[1])
-        carried.calm(TOPIC)
+        carried.restore_topic(TOPIC)
     return stream
 
 

@@ -22,7 +22,12 @@ Chosen = Sequence[CampaignRun]
 def campaign_of(cell: MockCell, choose: Callable[[CampaignPlan], Chosen], *, jobs: int = 1, seed: int = 0) -> Campaign:
     plan, baselines = make_plan(cell, possible_faults(cell.contract), seed)
     return conduct(
-        cell, choose(plan), baselines, seed=seed, hire=processes(jobs) if jobs > 1 else None, progress=lambda *_: None
+        cell,
+        choose(plan),
+        baselines,
+        seed=seed,
+        factory=processes(jobs) if jobs > 1 else None,
+        progress=lambda *_: None,
     )
 
 
@@ -125,7 +130,7 @@ def test_run_that_raises_is_told_as_crashed_and_hides_no_other(
     plan, baselines = make_plan(cell, possible_faults(cell.contract), 0)
     monkeypatch.setattr(task_context.TaskContext, "check_cell", raising)
     runs = tuple(plan.singles())[:2]
-    campaign = conduct(cell, runs, baselines, seed=0, hire=None, progress=lambda *_: None)
+    campaign = conduct(cell, runs, baselines, seed=0, factory=None, progress=lambda *_: None)
     assert [end.crash for end in campaign.ends] == ["ZeroDivisionError: by hand"] * 2
     assert len(campaign.failed) == 2
 

@@ -36,11 +36,17 @@ def missed_by_hand() -> float:
 
 
 def swept(cell: MockCell, most: int, *, jobs: int = 1, known: dict[int, SweepRun] | None = None) -> Sweep:
-    hire = processes(jobs) if jobs > 1 else None
+    factory = processes(jobs) if jobs > 1 else None
     kept = dict[int, SweepRun]()
     entry = cell.entry("put")
     return sweep(
-        cell, entry, seed=0, most=most, hire=hire, known=known or {}, keep=lambda run: kept.update({run.number: run})
+        cell,
+        entry,
+        seed=0,
+        most=most,
+        factory=factory,
+        known=known or {},
+        keep=lambda run: kept.update({run.number: run}),
     )
 
 
@@ -113,7 +119,7 @@ def test_a_drawing_holds_the_bound_and_every_run(nest: MockCell, twelve: Sweep) 
 def test_a_margin_of_what_is_observed_ends_where_an_observation_is_too_old() -> None:
     pick = load(generated("ur5e_pick"))
     stated = pick.contract.interfaces["/object_pose"].max_age_s
-    swept_twice = sweep(pick, pick.entry("pick_and_place"), seed=0, most=2, hire=None, known={}, keep=lambda _: None)
+    swept_twice = sweep(pick, pick.entry("pick_and_place"), seed=0, most=2, factory=None, known={}, keep=lambda _: None)
     found = {one.name: one.bound for one in margins(swept_twice, pick.contract)}
     assert stated is not None
     assert (found["age of transforms at pick"], found["age of transforms at place"]) == (stated, None)

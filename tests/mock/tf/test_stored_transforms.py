@@ -15,8 +15,8 @@ from cellc.mock.tf.sources import SampledSource, StaticSource
 SECOND = 1_000_000_000
 
 
-def at_x(metres: float) -> Pose:
-    return from_xyz_rpy((metres, 0.0, 0.0), (0.0, 0.0, 0.0))
+def at_x(meters: float) -> Pose:
+    return from_xyz_rpy((meters, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 def x_of(buffer: TransformBuffer, frame: str, stamp_ns: int) -> float:
@@ -77,8 +77,8 @@ def test_repeated_stamp_is_stored_silently_and_the_later_value_is_found(
 def test_repeated_stamp_among_older_ones_is_found_with_its_later_value(
     buffer: TransformBuffer, part: SampledSource
 ) -> None:
-    for stamp, metres in ((10, 0.0), (12, 2.0), (11, 1.0), (11, 7.0)):
-        part.insert(stamp * SECOND, at_x(metres))
+    for stamp, meters in ((10, 0.0), (12, 2.0), (11, 1.0), (11, 7.0)):
+        part.insert(stamp * SECOND, at_x(meters))
     assert x_of(buffer, "part", 11 * SECOND) == 7.0
 
 

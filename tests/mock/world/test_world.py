@@ -114,7 +114,7 @@ def test_cycles_that_are_being_missed_are_counted_too() -> None:
 
 def test_count_of_missed_cycles_begins_anew() -> None:
     history = history_of([0.0] * 20, skip=frozenset({5}))
-    history.count_anew()
+    history.count_again()
     assert history.missed_until(38 * MS) == 0
 
 

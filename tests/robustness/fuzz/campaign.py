@@ -49,7 +49,7 @@ class Campaign:
         self._lock = threading.Lock()
         self._figures: dict[str, _Figures] = defaultdict(_Figures)
         self._finds: list[tuple[str, int, str, str]] = []
-        self._begun = time.perf_counter()
+        self._started = time.perf_counter()
 
     def run(self) -> int:
         """Run to the end, print the table and return 1 where something was found."""
@@ -118,7 +118,7 @@ class Campaign:
             done = sum(figures.inputs for figures in self._figures.values())
             found = len(self._finds)
         print(
-            f"{done} of {self._count}, {found} finds, {time.perf_counter() - self._begun:.0f} s",
+            f"{done} of {self._count}, {found} finds, {time.perf_counter() - self._started:.0f} s",
             file=sys.stderr,
             flush=True,
         )

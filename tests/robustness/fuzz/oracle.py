@@ -283,8 +283,8 @@ def _messages(found: Sequence[Diagnostic]) -> Iterator[Find]:
 def _rendered(checked: Checked) -> Iterator[Find]:
     """Show the findings in every format, as the one door prints them."""
     findings = checked.findings
-    printed = as_text(render_text(findings.diagnostics, findings.texts), colour=False)
-    printed += as_text(render_github(findings.diagnostics, Path.cwd()), colour=False)
+    printed = as_text(render_text(findings.diagnostics, findings.texts), color=False)
+    printed += as_text(render_github(findings.diagnostics, Path.cwd()), color=False)
     render_json(findings.diagnostics).encode()
     render_sarif(findings.diagnostics, Path.cwd()).encode()
     if (found := HIDDEN.search(printed)) is not None:

@@ -32,7 +32,7 @@ from cellc.compiler.formats.escape import code, markdown, markdown_comment
 from cellc.compiler.formats.markdown_table import table
 from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.compiler.graph.versions import Answer, Judgement, compatibility
+from cellc.compiler.graph.versions import Answer, Judgment, compatibility
 
 _QUESTIONS = {
     "graph": "Is there one command publisher or action server?",
@@ -58,7 +58,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Shapes": shapes_section(cell),
         "Command owners": owners_section(graph),
         "Command paths": command_section(graph),
-        **({"Digital signals": signals_section(cell)} if any(one.switched for one in cell.devices) else {}),
+        **({"Digital signals": signals_section(cell)} if any(device.switched for device in cell.devices) else {}),
         "Expected nodes": nodes_section(cell),
         "Expected topics": interfaces_section(cell, InterfaceKind.TOPIC),
         "Expected services": interfaces_section(cell, InterfaceKind.SERVICE),
@@ -66,7 +66,11 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Expected of drivers": drivers_section(cell),
         "Expected TF publishers": tf_section(cell),
         "Attempt record": record_section(cell),
-        **({"Calibration files": calibration_section(cell)} if any(one.file for one in measured) else {}),
+        **(
+            {"Calibration files": calibration_section(cell)}
+            if any(calibration.file for calibration in measured)
+            else {}
+        ),
         "Approvals": table(("area", "question", "owner"), approvals(cell)),
         "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
         "Ending": _numbered(ending(cell)),
@@ -97,9 +101,11 @@ def ending(cell: Cell) -> Iterator[str]:
     joints = {joint.name for device in cell.devices for joint in device.joints}
     for manager in cell.managers:
         claiming = " ".join(
-            one.name
-            for one in manager.controllers
-            if any(name.rpartition("/")[0] in joints for name in one.claims("real") if "real" in one.targets)
+            controller.name
+            for controller in manager.controllers
+            if any(
+                name.rpartition("/")[0] in joints for name in controller.claims("real") if "real" in controller.targets
+            )
         )
         command = f"ros2 control switch_controllers --deactivate {claiming} -c {manager.node}"
         if claiming:
@@ -220,7 +226,7 @@ def _untested(cell: Cell) -> Iterator[tuple[str, ...]]:
             yield _asked_for_matrix(cell, devices.get(judged.pin.holder), judged)
 
 
-def _asked_for_matrix(cell: Cell, device: Device | None, judged: Judgement) -> tuple[str, ...]:
+def _asked_for_matrix(cell: Cell, device: Device | None, judged: Judgment) -> tuple[str, ...]:
     asked = _person(cell.owners.approvals.graph) if device is None else f"supplier {device.vendor}"
     pin = f"{judged.pin.part} {code(judged.pin.text)}"
     text = f"Is {pin} supported with ROS 2 {cell.distro}? Known so far: {judged.evidence}"

@@ -58,9 +58,16 @@ def _owners(cell: Cell) -> Iterator[tuple[str, ...]]:
 def calibration_section(cell: Cell) -> str:
     """Write the files of calibration tools that transforms are taken from, each with its date and hash."""
     rows = (
-        (one.name, str(one.revision), one.measured, one.owner, code(one.file.path), code(one.file.sha256))
-        for one in cell.calibrations.values()
-        if one.file is not None
+        (
+            calibration.name,
+            str(calibration.revision),
+            calibration.measured,
+            calibration.owner,
+            code(calibration.file.path),
+            code(calibration.file.sha256),
+        )
+        for calibration in cell.calibrations.values()
+        if calibration.file is not None
     )
     return table(("calibration", "revision", "measured", "owner", "file", "sha256"), rows)
 
@@ -111,22 +118,22 @@ def _claims(controller: Controller) -> dict[tuple[str, ...], str]:
 
 def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
     served = {controller.action for controller in cell.controllers}
-    for one in cell.interfaces:
-        if one.kind is InterfaceKind.ACTION and one.name not in served:
-            ends = f"{_names(one.sinks)} → {code(one.name)} → {_names(one.sources)}"
-            time = one.time_source or _NOT_STATED
-            qos = _qos((*one.sinks, *one.sources))
-            by = next((adapted.device for adapted in cell.adapters if adapted.action == one.name), None)
+    for interface in cell.interfaces:
+        if interface.kind is InterfaceKind.ACTION and interface.name not in served:
+            ends = f"{_names(interface.sinks)} → {code(interface.name)} → {_names(interface.sources)}"
+            time = interface.time_source or _NOT_STATED
+            qos = _qos((*interface.sinks, *interface.sources))
+            by = next((adapted.device for adapted in cell.adapters if adapted.action == interface.name), None)
             watched = None if by is None else watched_stream(cell, cell.device(by))
             yield (
                 ends,
-                frame_label(one),
-                one.unit or "per message type",
+                frame_label(interface),
+                interface.unit or "per message type",
                 "on request",
                 time,
                 qos,
                 watched or "none",
-                failure_label(one),
+                failure_label(interface),
             )
 
 
@@ -139,7 +146,7 @@ def _past_controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 
 def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
-    actions = {one.name: one for one in cell.interfaces}
+    actions = {interface.name: interface for interface in cell.interfaces}
     for manager in cell.managers:
         for controller in manager.controllers:
             if controller.command_interfaces:
@@ -149,7 +156,7 @@ def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
 def _controller(
     cell: Cell, manager: ControllerManager, controller: Controller, action: Interface | None
 ) -> tuple[str, ...]:
-    device = next((one for one in cell.devices if one.name == controller.device), None)
+    device = next((device for device in cell.devices if device.name == controller.device), None)
     hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
     rate = controller.update_rate_hz or manager.update_rate_hz
     behaviour = "" if action is None else f"; {failure_label(action)}"
@@ -183,7 +190,7 @@ def nodes_section(cell: Cell) -> str:
 def interfaces_section(cell: Cell, kind: InterfaceKind) -> str:
     """Write the topics, services or actions, each with both ends."""
     ends = ("publishers", "subscribers") if kind is InterfaceKind.TOPIC else ("server", "clients")
-    rows = (_interface(one) for one in cell.interfaces if one.kind is kind)
+    rows = (_interface(interface) for interface in cell.interfaces if interface.kind is kind)
     return table(("name", "type", *ends, "contract"), rows)
 
 
@@ -231,10 +238,13 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
             owner = cell.owners.responsibilities.vendor_safety
             yield code(host_program.name), program, device.host or "not stated", owner, _code(host_program.arguments)
     for manager in cell.managers:
-        for one in manager.controllers:
+        for controller in manager.controllers:
             owner = cell.owners.approvals.controller
-            name, host = f"`{manager.namespace}/{one.name}`", f"{manager.host or 'not stated'}{_alone(one.targets)}"
-            yield name, one.plugin, host, owner, _code(one.told("real"))
+            name, host = (
+                f"`{manager.namespace}/{controller.name}`",
+                f"{manager.host or 'not stated'}{_alone(controller.targets)}",
+            )
+            yield name, controller.plugin, host, owner, _code(controller.told("real"))
 
 
 def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
@@ -257,9 +267,9 @@ def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
         for name, type_ in device.topics.items():
             if name not in named:
                 yield code(name), "topic", type_, device.name
-        for one in device.offers:
-            if one.kind is InterfaceKind.SERVICE:
-                yield code(one.name), "service", one.type, device.name
+        for offer in device.offers:
+            if offer.kind is InterfaceKind.SERVICE:
+                yield code(offer.name), "service", offer.type, device.name
 
 
 def _interface(interface: Interface) -> tuple[str, ...]:

@@ -1,7 +1,7 @@
 """``contract.json``: what the cell's artifacts promise, for the mock, for tools and for people.
 
 Format 2, ``cellc.contract.contract``: full ROS names, SI and radians, every default resolved. Read by ``cellc.mock``,
-which knows nothing of the spec. Left out: whatever stands in the URDF, poses most of all, in the controllers'
+which knows nothing of the spec. Left out: whatever is in the URDF, poses most of all, in the controllers'
 parameters and in the SRDF, because the mock reads those; and costs of planning, which are the planner's own.
 """
 

@@ -140,7 +140,7 @@ def _used_stream(cell: Cell, device: Device, types: tuple[str, ...]) -> Interfac
         and any(source.node == device.name for source in interface.sources)
     ]
     detecting = {frame.authority for frame in cell.frames if frame.kind is FrameKind.DYNAMIC}
-    looked_at = (one for one in used if detecting & {sink.node for sink in one.sinks})
+    looked_at = (interface for interface in used if detecting & {sink.node for sink in interface.sinks})
     return next(looked_at, next(iter(used), None))
 
 
@@ -181,9 +181,9 @@ def simulated_joints(cell: Cell) -> dict[str, ContractSimulatedJoint]:
 
 def _simulated(stated: Sequence[SimulatedJoint]) -> ContractSimulatedJoint:
     return ContractSimulatedJoint(
-        lag_s=_first(one.lag_s for one in stated) or 0.0,
-        noise=_first(None if one.noise is None else one.noise.value for one in stated) or 0.0,
-        max_velocity=_first(None if one.velocity is None else one.velocity.value for one in stated),
+        lag_s=_first(joint.lag_s for joint in stated) or 0.0,
+        noise=_first(None if joint.noise is None else joint.noise.value for joint in stated) or 0.0,
+        max_velocity=_first(None if joint.velocity is None else joint.velocity.value for joint in stated),
     )
 
 

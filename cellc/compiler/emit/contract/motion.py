@@ -109,7 +109,7 @@ def joint_limits(cell: Cell) -> dict[str, ContractJointLimits]:
     """Return the limits of every joint that moves on its own and whose limits are all stated.
 
     A figure past what any machine has, such as the 1e16 that exporters write, is no limit. A joint with a speed of 0
-    stands still, and whoever commands it is told so by a rule.
+    is at standstill, and whoever commands it is told so by a rule.
     """
     limits: dict[str, ContractJointLimits] = {}
     for joint in (joint for device in cell.devices for joint in device.joints if joint.mimics is None):

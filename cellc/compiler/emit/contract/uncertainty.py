@@ -1,7 +1,7 @@
 """``config/uncertainty.json``: what a sweep draws, each number with unit, distribution and the statement it rests on.
 
 Format 1, ``cellc.contract.uncertainty``. Read by ``cellc mock --sweep``. A residual is taken for the root of the mean
-square of the distance by which a frame stands elsewhere, the same along each axis: an axis has a third of its square. A
+square of the distance by which a frame is elsewhere, the same along each axis: an axis has a third of its square. A
 bound of a clock says no more than that: every offset within it is as likely. Pose repeatability is the mean distance
 from the middle of all arrivals and three standard deviations of it (ISO 9283:1998, 7.2.2); of errors that are normal
 and alike along three axes that is 3.616 of their deviation. Left out: what is below a nanometer, nanoradian or
@@ -42,12 +42,12 @@ def uncertainty(cell: Cell, stated: Stated, clocks: dict[str, ContractClock]) ->
     drawn = (*_calibrations(cell, stated), *_arms(cell, stated), *_regions(cell, stated), *_clocks(cell, clocks))
     return Uncertainty(
         format=1,
-        quantities=tuple(_told_apart([one for one in drawn if one.quantity.spread >= SMALLEST])),
+        quantities=tuple(_told_apart([item for item in drawn if item.quantity.spread >= SMALLEST])),
         tolerances=dict(stated.tolerances_m),
         expected={
-            one.name: ExpectedSuccess(success=one.success, confidence=one.confidence)
-            for one in cell.rehearsals
-            if one.success is not None
+            rehearsal.name: ExpectedSuccess(success=rehearsal.success, confidence=rehearsal.confidence)
+            for rehearsal in cell.rehearsals
+            if rehearsal.success is not None
         },
     )
 
@@ -55,12 +55,12 @@ def uncertainty(cell: Cell, stated: Stated, clocks: dict[str, ContractClock]) ->
 def _told_apart(drawn: Iterable[_Drawn]) -> Iterator[UncertainQuantity]:
     """Yield quantities under names of their own: a short one that two things would have is neither's."""
     drawn = tuple(drawn)
-    known = Counter(one.quantity.name for one in drawn)
-    alike = {one.full_name for one in drawn if known[one.quantity.name] > 1}
-    for one in drawn:
-        axis = "" if one.quantity.kind == "clock" else f" {one.quantity.axis}"
-        name = f"{one.full_name}{axis}" if one.full_name in alike else one.quantity.name
-        yield one.quantity.model_copy(update={"name": name})
+    known = Counter(item.quantity.name for item in drawn)
+    alike = {item.full_name for item in drawn if known[item.quantity.name] > 1}
+    for item in drawn:
+        axis = "" if item.quantity.kind == "clock" else f" {item.quantity.axis}"
+        name = f"{item.full_name}{axis}" if item.full_name in alike else item.quantity.name
+        yield item.quantity.model_copy(update={"name": name})
 
 
 def _calibrations(cell: Cell, stated: Stated) -> Iterator[_Drawn]:

@@ -84,7 +84,7 @@ def ends_launch(cell: Cell) -> dict[str, str]:
 
 
 def _description_parameter(file: str) -> Element:
-    """Return the parameter that holds a description of the package, its type stated so that nobody parses it."""
+    """Return the parameter that holds a description of the package, its type stated so that no parser reads it."""
     return element("param", {"name": "robot_description", "value": expanded(file), "type": "str"})
 
 
@@ -222,7 +222,7 @@ def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
 
     One process for all: several of them race for a controller that the manager has found in its file (Humble 2.54).
     """
-    for one in spawnings(manager):
+    for spawning in spawnings(manager):
         yield element(
             "node",
             {
@@ -230,10 +230,10 @@ def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
                 "exec": "spawner",
                 **_place(manager),
                 "args": launch_words(
-                    *one.controllers, "-c", manager.node, "--inactive", *_controller_arguments(cell, manager)
+                    *spawning.controllers, "-c", manager.node, "--inactive", *_controller_arguments(cell, manager)
                 ),
                 "output": "both",
                 **enclave(spawner_enclave(cell, manager)),
-                **only_on(one.only),
+                **only_on(spawning.only),
             },
         )

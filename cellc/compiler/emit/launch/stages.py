@@ -1,6 +1,6 @@
 """The stages of bring-up as actions of a launch file, and the program and plan with which their steps are taken.
 
-The processes are started at once and prove nothing by that. ``lib/<package>/bring_up`` takes the steps of
+The processes are started together and prove nothing by that. ``lib/<package>/bring_up`` takes the steps of
 ``config/bring_up.json`` one after the other, each with its proof, its deadline and a last word. One process lives
 through them: each call of a command-line tool is a new participant of the network that must be discovered first. None
 of its steps enables a drive or asks for motion.
@@ -52,7 +52,7 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
     if spawned := [*_spawners(cell, host)]:
         yield comment("configure: load and configure every controller, activate none")
         yield from spawned
-    if mock := [one for one in phases(plan.bring_up, "mock", host) if one is not BringUpPhase.MOVE]:
+    if mock := [phase for phase in phases(plan.bring_up, "mock", host) if phase is not BringUpPhase.MOVE]:
         yield comment("configure and observe; on the mock also claim")
         yield bring_up(cell, "mock", mock, host)
     if BringUpPhase.START in phases(plan.bring_up, "real", host):

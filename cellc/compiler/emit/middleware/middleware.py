@@ -2,7 +2,7 @@
 
 ``<host>.sh`` is sourced before anything of the cell is started. Fast DDS, Cyclone DDS and Zenoh each get the file that
 they read; only that of the pinned implementation is written. Left out: QoS of topics, which belongs to the endpoints,
-and tuning of buffers, which nobody can state without measuring. ``<host>.discovery_server_N`` starts a discovery server
+and tuning of buffers, which cannot be stated without measuring. ``<host>.discovery_server_N`` starts a discovery server
 of Fast DDS (``fastdds discovery`` of 2.6 to 3.6, tools/fds) where the spec has one there.
 """
 
@@ -73,7 +73,7 @@ def _discovery_server(header: Header, binding: Binding, number: int) -> Artifact
 
 
 def environment(cell: Cell, header: Header, binding: Binding, profiles: tuple[str, ...]) -> str:
-    """Return a shell file that sets the variables; no secret stands in it."""
+    """Return a shell file that sets the variables; no secret is in it."""
     lines = [f'export {name}="{value}"' for name, value in _variables(cell, binding, profiles)]
     share = f'_cell_share="$(ros2 pkg prefix --share {cell.name})"'
     origin = f"# {', '.join(origins(binding))}"

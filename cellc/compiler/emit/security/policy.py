@@ -67,8 +67,8 @@ def _enclaves(cell: Cell, plan: Deployment) -> Iterator[Element]:
 
 def _spawners(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     # The spawner names itself after its first controller.
-    for one in spawnings(manager):
-        yield manager_client(cell, manager, f"spawner_{one.controllers[0]}")
+    for spawning in spawnings(manager):
+        yield manager_client(cell, manager, f"spawner_{spawning.controllers[0]}")
 
 
 def _enclave(path: str, profiles: Iterator[Profile] | list[Profile]) -> Element:

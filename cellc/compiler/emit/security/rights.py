@@ -57,7 +57,7 @@ class Profile:
 
 
 def profile_element(profile: Profile) -> Element:
-    """Return ``<profile>`` with one list a right; a name stands once in each, in alphabetical order."""
+    """Return ``<profile>`` with one list a right; a name is once in each, in alphabetical order."""
     return element("profile", {"ns": profile.namespace or "/", "node": profile.node}, _lists(profile))
 
 
@@ -85,7 +85,7 @@ def node_profiles(cell: Cell, node: Node) -> Iterator[Profile]:
     else:
         granted = _silenced(node, granted)
         yield _with(granted, implied.transforms) if _hears_transforms(node, granted) else granted
-    yield from (_inner(cell, one.full_name, one) for one in node.inside)
+    yield from (_inner(cell, item.full_name, item) for item in node.inside)
 
 
 def _offered(cell: Cell, node: Node) -> NodeEndpoints:
@@ -93,7 +93,7 @@ def _offered(cell: Cell, node: Node) -> NodeEndpoints:
     device = cell.device(node.device or "")
 
     def own(kind: InterfaceKind) -> tuple[str, ...]:
-        return tuple(one.name for one in device.offers if one.kind is kind and one.node == node.full_name)
+        return tuple(offer.name for offer in device.offers if offer.kind is kind and offer.node == node.full_name)
 
     return NodeEndpoints(
         publishes=own(InterfaceKind.TOPIC), serves=own(InterfaceKind.SERVICE), executes=own(InterfaceKind.ACTION)
@@ -106,7 +106,7 @@ def _renamed(node: Node, own: NodeEndpoints) -> NodeEndpoints:
     def told(names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(node.remaps.get(name, name) for name in names)
 
-    return NodeEndpoints(**{one.name: told(getattr(own, one.name)) for one in fields(NodeEndpoints)})
+    return NodeEndpoints(**{field.name: told(getattr(own, field.name)) for field in fields(NodeEndpoints)})
 
 
 def _with(granted: Profile, own: NodeEndpoints) -> Profile:
@@ -139,9 +139,9 @@ def _inner(cell: Cell, full_name: str, one: InnerNode) -> Profile:
 
 def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     """Yield the rights of the manager, its controllers and the nodes of its hardware."""
-    (node,) = (one for one in cell.nodes if one.full_name == manager.node)
+    (node,) = (node for node in cell.nodes if node.full_name == manager.node)
     yield _with(_granted(cell, manager.node), _renamed(node, node.endpoints))
-    yield from (_inner(cell, one.full_name, one) for one in node.inside)
+    yield from (_inner(cell, item.full_name, item) for item in node.inside)
     for controller in manager.controllers:
         yield _controller(cell, controller)
     for device in (cell.device(name) for name in manager.devices):
@@ -150,10 +150,10 @@ def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]
         if Feature.HARDWARE_NODES in features(cell.distro):
             name = device.hardware.name.lower().replace("/", "_")
             yield _granted(cell, f"{manager.namespace}/{name}", cell.implied.component)
-        for one in device.hardware.nodes:
+        for item in device.hardware.nodes:
             # The namespace of the process is that of every node in it.
-            bare = one.full_name.rpartition("/")[2]
-            yield _inner(cell, f"{manager.namespace}/{bare}" if manager.namespace else one.full_name, one)
+            bare = item.full_name.rpartition("/")[2]
+            yield _inner(cell, f"{manager.namespace}/{bare}" if manager.namespace else item.full_name, item)
 
 
 def _controller(cell: Cell, controller: Controller) -> Profile:
@@ -163,10 +163,12 @@ def _controller(cell: Cell, controller: Controller) -> Profile:
     """
     granted = _granted(cell, controller.full_name, cell.implied.controller)
     kind = controller.declared
-    topics = () if kind is None else tuple(one for one in kind.topics if not one.only or cell.distro in one.only)
-    said = tuple(_own(controller, one.name) for one in topics if one.direction == "publish")
-    heard = tuple(_own(controller, one.name) for one in topics if one.direction == "subscribe")
-    served = () if kind is None else tuple(_own(controller, one.name) for one in kind.services)
+    topics = (
+        () if kind is None else tuple(topic for topic in kind.topics if not topic.only or cell.distro in topic.only)
+    )
+    said = tuple(_own(controller, topic.name) for topic in topics if topic.direction == "publish")
+    heard = tuple(_own(controller, topic.name) for topic in topics if topic.direction == "subscribe")
+    served = () if kind is None else tuple(_own(controller, service.name) for service in kind.services)
     return replace(
         granted,
         publish=(*granted.publish, _CONTROLLER_STATE, *said),
@@ -188,7 +190,7 @@ def manager_client(cell: Cell, manager: ControllerManager, node: str) -> Profile
 
 
 def _granted(cell: Cell, full_name: str, *kinds: NodeEndpoints) -> Profile:
-    """Return what a node has by what it is, and by the interfaces at which it stands."""
+    """Return what a node has by what it is, and by the interfaces at which it is."""
 
     def names(kind: InterfaceKind, side: str) -> tuple[str, ...]:
         return tuple(_names(cell, full_name, kind, side))
@@ -208,20 +210,20 @@ def _granted(cell: Cell, full_name: str, *kinds: NodeEndpoints) -> Profile:
 
 
 def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterator[str]:
-    """Yield the interfaces of one kind at whose side a node stands."""
+    """Yield the interfaces of one kind at whose side a node is."""
     serves = side == "sources"
     ends = cell.ends_of.get(full_name, ())
-    yield from dict.fromkeys(one.interface.name for one in ends if one.interface.kind is kind and one.serves == serves)
+    yield from dict.fromkeys(end.interface.name for end in ends if end.interface.kind is kind and end.serves == serves)
 
 
 def bring_up_process(cell: Cell, plan: BringUp) -> Iterator[Profile]:
     """Yield the rights of the program that takes the steps of the bring-up, under each name that it gives its node."""
-    managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _OF_MANAGED)
+    managed = (f"{node.full_name}/{text}" for node in cell.nodes if node.lifecycle for text in _OF_MANAGED)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
-    managers = (f"{one.node}/{name}" for one in cell.managers for name in _OF_MANAGER)
+    managers = (f"{manager.node}/{name}" for manager in cell.managers for name in _OF_MANAGER)
     proofs = [proof for target in TARGETS for step in plan.steps(target) for proof in step.proof]
-    watched = (one.while_holds for one in plan.watches)
-    heard = (one.topic for one in (*proofs, *watched) if isinstance(one, TopicProof))
+    watched = (watch.while_holds for watch in plan.watches)
+    heard = (proof.topic for proof in (*proofs, *watched) if isinstance(proof, TopicProof))
     asks = NodeEndpoints(subscribes=(*heard, "/tf", "/tf_static"), requests=(*managed, *managers, *described))
     for node in bring_up_nodes(plan):
         yield _with(_granted(cell, f"/{node}"), asks)
@@ -237,11 +239,11 @@ def people(cell: Cell) -> Iterator[Profile]:
 
     Nobody publishes, calls an action or switches a controller from a shell.
     """
-    topics = (one.name for one in cell.interfaces if one.kind is InterfaceKind.TOPIC)
-    actions = (one.name for one in cell.interfaces if one.kind is InterfaceKind.ACTION)
+    topics = (interface.name for interface in cell.interfaces if interface.kind is InterfaceKind.TOPIC)
+    actions = (interface.name for interface in cell.interfaces if interface.kind is InterfaceKind.ACTION)
     hidden = (f"{name}/_action/{part}" for name in actions for part in ("feedback", "status"))
-    managers = (f"{one.node}/{name}" for one in cell.managers for name in _LISTED)
-    managed = (f"{node.full_name}/{one}" for node in cell.nodes if node.lifecycle for one in _LOOKED_AT)
+    managers = (f"{manager.node}/{name}" for manager in cell.managers for name in _LISTED)
+    managed = (f"{node.full_name}/{text}" for node in cell.nodes if node.lifecycle for text in _LOOKED_AT)
     moving = (f"{node.full_name}/change_state" for node in motion_clients(cell) if node.lifecycle)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
     asks = NodeEndpoints(
@@ -251,7 +253,7 @@ def people(cell: Cell) -> Iterator[Profile]:
     recorder = NodeEndpoints(
         publishes=("/events/write_split",),
         subscribes=tuple(recorded_topics(cell)),
-        serves=tuple(f"~/{one}" for one in _OF_RECORDER),
+        serves=tuple(f"~/{text}" for text in _OF_RECORDER),
     )
     for name in _TYPED:
         profile = _granted(cell, f"/{name}")
@@ -261,11 +263,11 @@ def people(cell: Cell) -> Iterator[Profile]:
 
 
 def _shown(cell: Cell) -> NodeEndpoints:
-    """Return what RViz has for the displays of ``config/cell.rviz``, and its service that begins its views anew."""
+    """Return what RViz has for the displays of ``config/cell.rviz``, and its service that begins its views again."""
     place = next((node.namespace for node in cell.planners), "")
     planned = ("monitored_planning_scene", "display_planned_path", "robot_description_semantic")
     return NodeEndpoints(
-        subscribes=("/robot_description", *(f"{place}/{one}" for one in planned if plans(cell))),
+        subscribes=("/robot_description", *(f"{place}/{text}" for text in planned if plans(cell))),
         requests=(f"{place}/get_planning_scene",) if plans(cell) else (),
         serves=("~/reset_time",),
     )
@@ -276,9 +278,13 @@ def commissioning(cell: Cell) -> Iterator[Profile]:
 
     And to call what a vendor's procedure names. A goal is sent by none of it but where that procedure says so.
     """
-    actions = (one.name for one in cell.interfaces if one.kind is InterfaceKind.ACTION and "real" in one.targets)
-    managers = tuple(f"{one.node}/{name}" for one in cell.managers for name in _ACTED_ON)
-    named = [one for device in cell.devices for one in _in_procedures(cell, device)]
+    actions = (
+        interface.name
+        for interface in cell.interfaces
+        if interface.kind is InterfaceKind.ACTION and "real" in interface.targets
+    )
+    managers = tuple(f"{manager.node}/{name}" for manager in cell.managers for name in _ACTED_ON)
+    named = [procedure for device in cell.devices for procedure in _in_procedures(cell, device)]
     requests = (
         *(f"{name}/_action/cancel_goal" for name in actions),
         *managers,
@@ -303,10 +309,10 @@ def _in_procedures(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, 
 
 
 def _served(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
-    yield from ((one.kind, one.name) for one in device.offers if one.kind is not InterfaceKind.TOPIC)
+    yield from ((offer.kind, offer.name) for offer in device.offers if offer.kind is not InterfaceKind.TOPIC)
     nodes = [(node.full_name, node.endpoints) for node in cell.nodes_of.get(device.name, ())]
     if device.hardware is not None:
-        nodes += [(one.full_name, one.endpoints) for one in device.hardware.nodes]
+        nodes += [(node.full_name, node.endpoints) for node in device.hardware.nodes]
     for node, own in nodes:
         yield from ((InterfaceKind.SERVICE, name.replace("~", node, 1)) for name in own.serves)
         yield from ((InterfaceKind.ACTION, name.replace("~", node, 1)) for name in own.executes)

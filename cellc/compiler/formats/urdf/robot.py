@@ -1,6 +1,6 @@
 """The whole ``<robot>``: the world, devices at their mounts, fixed frames and the scene, one tree.
 
-Every static frame stands in it, so that robot_state_publisher is the one authority for all of them. Dynamic frames and
+Every static frame is in it, so that robot_state_publisher is the one authority for all of them. Dynamic frames and
 what hangs on them stay out: their publisher is their authority.
 """
 

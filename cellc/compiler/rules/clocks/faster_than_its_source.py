@@ -35,14 +35,16 @@ _ROUNDING = 1.001
 def check(graph: CellGraph) -> Findings:
     """Yield topics of a node in a frame of a camera that are faster than all that it hears from this camera."""
     frames = {device.name: set(device.frames.values()) for device in graph.cell.devices if device.camera is not None}
-    topics = [one for one in graph.cell.interfaces if one.kind is InterfaceKind.TOPIC and one.rate_hz]
+    topics = [
+        interface for interface in graph.cell.interfaces if interface.kind is InterfaceKind.TOPIC and interface.rate_hz
+    ]
     heard_by: dict[str, list[Interface]] = {}
     for topic in topics:
         for node in dict.fromkeys(sink.node for sink in topic.sinks):
             heard_by.setdefault(node, []).append(topic)
     for topic in topics:
         for source in topic.sources:
-            heard = [one for one in heard_by.get(source.node, ()) if _seen_by(one, topic, frames)]
+            heard = [interface for interface in heard_by.get(source.node, ()) if _seen_by(interface, topic, frames)]
             fastest = max(heard, key=lambda one: one.rate_hz or 0.0, default=None)
             if fastest is not None and (topic.rate_hz or 0.0) > (fastest.rate_hz or 0.0) * _ROUNDING:
                 message = f"`{topic.name}` must be at most as fast as `{fastest.name}`, {fastest.rate_hz:g} Hz,"

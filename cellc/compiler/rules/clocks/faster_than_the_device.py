@@ -51,7 +51,7 @@ def _sources(graph: CellGraph) -> dict[str, list[tuple[str, float]]]:
     found: dict[str, list[tuple[str, float]]] = {}
     for device in graph.cell.devices:
         streams = () if device.camera is None else device.camera.streams
-        found.setdefault(device.name, []).extend((one.topic, one.rate_hz) for one in streams)
+        found.setdefault(device.name, []).extend((stream.topic, stream.rate_hz) for stream in streams)
     for manager in graph.cell.managers:
         for controller in manager.controllers:
             found.setdefault(controller.name, []).append(("", controller.update_rate_hz or manager.update_rate_hz))

@@ -53,15 +53,15 @@ class _Crossing:
 def check(graph: CellGraph) -> Findings:
     """Yield, for each host, the tightest age limit that its clock alone or with the other one breaks."""
     reported: set[str] = set()
-    for one in sorted(_crossings(graph), key=lambda one: one.max_age_s):
-        if one.offset_s < one.max_age_s or one.worse.name in reported:
+    for crossing in sorted(_crossings(graph), key=lambda one: one.max_age_s):
+        if crossing.offset_s < crossing.max_age_s or crossing.worse.name in reported:
             continue
-        reported.add(one.worse.name)
-        age = f"{one.max_age_s * 1e3:g} ms, the `max_age` of `{one.interface.name}`"
-        message = f"the clocks of `{one.worse.name}` and `{one.better.name}` must be nearer than {age},"
-        message += f" got {one.offset_s * 1e3:g} ms"
-        related = (Related("the age is limited here", graph.cell.locate(*one.interface.path, "max_age")),)
-        yield found(graph, (*one.worse.path, "clock", "max_offset"), message, related=related)
+        reported.add(crossing.worse.name)
+        age = f"{crossing.max_age_s * 1e3:g} ms, the `max_age` of `{crossing.interface.name}`"
+        message = f"the clocks of `{crossing.worse.name}` and `{crossing.better.name}` must be nearer than {age},"
+        message += f" got {crossing.offset_s * 1e3:g} ms"
+        related = (Related("the age is limited here", graph.cell.locate(*crossing.interface.path, "max_age")),)
+        yield found(graph, (*crossing.worse.path, "clock", "max_offset"), message, related=related)
 
 
 def _crossings(graph: CellGraph) -> Iterator[_Crossing]:

@@ -40,7 +40,9 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 @rule(Severity.BLOCKER)
 def check(graph: CellGraph) -> Findings:
     """Yield devices with joints that a controller names, and neither a plugin nor a driver on the real target."""
-    named = {joint for manager in graph.cell.managers for one in manager.controllers for joint in one.joints}
+    named = {
+        joint for manager in graph.cell.managers for controller in manager.controllers for joint in controller.joints
+    }
     for device in graph.cell.devices:
         hardware = device.hardware
         if hardware is None or "real" in hardware.targets or device.driver is not None:

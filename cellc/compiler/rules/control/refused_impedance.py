@@ -52,7 +52,7 @@ def check(graph: CellGraph) -> Findings:
             message = f"the joint impedance of `{device.name}` must be {joints} figures, got {len(stated.joint)}"
             yield found(graph, (*path, "joint"), message)
         for keys, figures, (least, most), unit in _figures(stated, takes):
-            refused = [one for one in figures if not least <= one <= most]
+            refused = [figure for figure in figures if not least <= figure <= most]
             if refused:
                 message = f"`{keys[-1]}` of `{device.name}` must be {least:g} to {most:g} {unit}, got {refused[0]:g}"
                 yield found(graph, (*path, *keys), message)

@@ -42,7 +42,7 @@ def check(graph: CellGraph) -> Findings:
             yield found(graph, path, f"`{device.name}` has no tool connector that its driver sets")
             continue
         if stated.voltage_v not in has.voltages_v:
-            given = _listed(f"{one:g} V" for one in has.voltages_v)
+            given = _listed(f"{value:g} V" for value in has.voltages_v)
             message = f"the tool connector of `{device.name}` must give {given}, got {stated.voltage_v:g} V"
             yield found(graph, (*path, "voltage"), message)
         if stated.serial is not None and not has.has_serial:

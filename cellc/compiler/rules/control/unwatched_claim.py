@@ -47,13 +47,17 @@ def check(graph: CellGraph) -> Findings:
             for controller in manager.controllers
             if "real" in controller.targets
         ]
-        telling = {(one.kind, one.device) for one in manager.controllers if one.active and "real" in one.targets}
+        telling = {
+            (controller.kind, controller.device)
+            for controller in manager.controllers
+            if controller.active and "real" in controller.targets
+        }
         for name in manager.devices:
             device = graph.cell.device(name)
             hardware = device.hardware
             if hardware is None or "real" not in hardware.targets or not hardware.kept_by_a_claim:
                 continue
-            kinds = [one.controller_kind for one in hardware.heard_before_a_claim]
+            kinds = [item.controller_kind for item in hardware.heard_before_a_claim]
             if any((kind, name) in telling for kind in kinds):
                 continue
             joints = {joint.name for joint in device.joints}

@@ -47,10 +47,10 @@ def check(graph: CellGraph) -> Findings:
         ):
             continue
         message = f"`{written.name}` of `{written.controller.name}` must be of type {expected}, got `{_shown(value)}`"
-        yield found(graph, written.path, message, f"write {_mended(value, expected)}")
+        yield found(graph, written.path, message, f"write {_corrected(value, expected)}")
 
 
-def _mended(value: ParameterValue, expected: str) -> str:
+def _corrected(value: ParameterValue, expected: str) -> str:
     items = value if isinstance(value, tuple) else (value,)
     if expected.startswith("double") and all(type(item) is int for item in items):
         doubles = tuple(float(item) for item in items)

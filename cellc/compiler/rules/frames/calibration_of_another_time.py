@@ -35,8 +35,8 @@ _APART = datetime.timedelta(days=366)
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield calibrations more than a year before or after the largest group of those that lie nearer together."""
-    dated = [one for one in graph.cell.calibrations.values() if one.measured_on is not None]
-    common = _common([one.measured_on for one in dated if one.measured_on is not None])
+    dated = [calibration for calibration in graph.cell.calibrations.values() if calibration.measured_on is not None]
+    common = _common([calibration.measured_on for calibration in dated if calibration.measured_on is not None])
     for calibration in dated:
         if calibration.measured_on is None or calibration.measured_on in common:
             continue

@@ -51,8 +51,8 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _millimeters(position: Vector3) -> str:
-    return " ".join(f"{round(one * 1e3, 3) + 0.0:g}" for one in position)
+    return " ".join(f"{round(value * 1e3, 3) + 0.0:g}" for value in position)
 
 
 def _degrees(angles: Vector3) -> str:
-    return " ".join(f"{round(math.degrees(one), 3) + 0.0:g}" for one in angles)
+    return " ".join(f"{round(math.degrees(angle), 3) + 0.0:g}" for angle in angles)

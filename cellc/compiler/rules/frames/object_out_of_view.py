@@ -41,7 +41,7 @@ def check(graph: CellGraph) -> Findings:
     frames = {frame.name: frame for frame in graph.cell.frames}
     reported: set[str] = set()
     for view in motion_answer(graph).views:
-        camera = next(one for one in graph.cell.devices if view.camera_frame in one.frames.values())
+        camera = next(device for device in graph.cell.devices if view.camera_frame in device.frames.values())
         wrong = _wrong(view, _field(camera, view.camera_frame))
         if wrong and view.name not in reported:
             reported.add(view.name)

@@ -50,7 +50,9 @@ def check(graph: CellGraph) -> Findings:
         if heard and own not in heard:
             other, interface = next(iter(heard.items()))
             message = f"`{frame.name}` hangs on `{own}`, but its publisher `{frame.authority}` hears `{other}` alone"
-            missed = (one for one in graph.cell.interfaces if own in {source.node for source in one.sources})
-            readers = [(interface, "its images"), *((one, f"the images of `{own}`") for one in missed)]
+            missed = (
+                interface for interface in graph.cell.interfaces if own in {source.node for source in interface.sources}
+            )
+            readers = [(interface, "its images"), *((interface, f"the images of `{own}`") for interface in missed)]
             related = tuple(Related(label, graph.cell.locate(*one.path, "to")) for one, label in readers)
             yield found(graph, (*frame.path, "parent"), message, related=related)

@@ -48,7 +48,7 @@ def check(graph: CellGraph) -> Findings:
     """
     for group in graph.cell.groups:
         tip = graph.frames.get(group.tip_frame)
-        arm = next((one for one in graph.cell.devices if group.base_link in _links(one)), None)
+        arm = next((device for device in graph.cell.devices if group.base_link in _links(device)), None)
         if tip is None or arm is None or arm.tool_frame is None:
             continue
         pose = graph.frames.pose_in(tip.name, arm.tool_frame)

@@ -39,15 +39,19 @@ _POSES = frozenset(
 @rule(Severity.WARNING, assumes=("camera-data-in-body-frame", "object-under-another-camera"))
 def check(graph: CellGraph) -> Findings:
     """Yield the poses of a node that publishes frames, where all are said in frames that none of those is in."""
-    topics = [one for one in graph.cell.interfaces if one.type in _POSES and not one.derived and one.frame is not None]
+    topics = [
+        interface
+        for interface in graph.cell.interfaces
+        if interface.type in _POSES and not interface.derived and interface.frame is not None
+    ]
     published_by: dict[str, set[str | None]] = {}
     for interface in topics:
         for name in _names(interface):
             published_by.setdefault(name, set()).add(interface.frame)
-    dynamic = [one for one in graph.cell.frames if one.kind is FrameKind.DYNAMIC]
+    dynamic = [frame for frame in graph.cell.frames if frame.kind is FrameKind.DYNAMIC]
     for interface in topics:
         names = _names(interface)
-        own = [one for one in dynamic if one.authority in names]
+        own = [item for item in dynamic if item.authority in names]
         published = set[str | None]().union(*(published_by[name] for name in names))
         if own and published.isdisjoint({name for frame in own for name in (frame.name, frame.parent)}):
             message = f"`{interface.name}` must be in `{own[0].parent}`, in which its node has `{own[0].name}`,"

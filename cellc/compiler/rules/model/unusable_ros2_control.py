@@ -95,7 +95,7 @@ def _of_interfaces(part: HardwarePart) -> Told:
     for kind, interfaces in (("command", part.command_interfaces), ("state", part.state_interfaces)):
         names = Counter(interface.name for interface in interfaces)
         for interface in interfaces:
-            near = next((one for one in _STANDARD if is_slip(interface.name, one)), None)
+            near = next((text for text in _STANDARD if is_slip(interface.name, text)), None)
             if near is not None and interface.name not in _STANDARD:
                 yield f"`{part.name}` has the {kind} interface `{interface.name}`, which is not `{near}`", part.span
             for wrong in _wrong_bounds(interface):

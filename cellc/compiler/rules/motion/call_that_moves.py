@@ -57,9 +57,9 @@ def check(graph: CellGraph) -> Findings:
 def _moving(cell: Cell) -> Iterator[tuple[str, str]]:
     """Yield the names that drivers and controllers offer and that move something, with what a call does."""
     for device in cell.devices:
-        for one in device.offers:
-            if one.effect is not None and one.effect.motion not in _HARMLESS:
-                yield one.name, one.effect.does
+        for offer in device.offers:
+            if offer.effect is not None and offer.effect.motion not in _HARMLESS:
+                yield offer.name, offer.effect.does
     for controller in cell.controllers:
         for service in () if controller.declared is None else controller.declared.services:
             if service.effect is not None and service.effect.motion not in _HARMLESS:

@@ -44,7 +44,7 @@ def check(graph: CellGraph) -> Findings:
         for number, step in enumerate(rehearsal.steps):
             if step.kind != "grip" or step.command != "close" or step.path in reported:
                 continue
-            before = [one.name for one in rehearsal.steps[:number] if one.kind == "move"]
+            before = [step.name for step in rehearsal.steps[:number] if step.kind == "move"]
             ahead = _goals_until_open(rehearsal.steps[number + 1 :], goals)
             if (not before or before[-1] not in goals) and len(ahead) >= _GOALS_WITH_A_PART:
                 reported.add(step.path)

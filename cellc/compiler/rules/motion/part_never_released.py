@@ -38,11 +38,11 @@ def check(graph: CellGraph) -> Findings:
         for number, step in enumerate(rehearsal.steps):
             if step.kind != "grip" or step.command != "close" or step.path in reported:
                 continue
-            before = [one.name for one in rehearsal.steps[:number] if one.kind == "move"][-1:]
+            before = [step.name for step in rehearsal.steps[:number] if step.kind == "move"][-1:]
             after = rehearsal.steps[number + 1 :]
-            opened = any(one.kind == "grip" and one.name == step.name for one in after)
-            moves = [one for one in after if one.kind == "move"]
-            left = next((one for one in moves[:-1] if one.name in goals and [one.name] != before), None)
+            opened = any(item.kind == "grip" and item.name == step.name for item in after)
+            moves = [step for step in after if step.kind == "move"]
+            left = next((move for move in moves[:-1] if move.name in goals and [move.name] != before), None)
             if not opened and left is not None:
                 reported.add(step.path)
                 message = f"`{step.name}` must open at `{left.name}` or after it, and stays closed to the end"

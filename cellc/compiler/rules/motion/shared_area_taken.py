@@ -65,9 +65,9 @@ def check(graph: CellGraph) -> Findings:
     answers = motion_answer(graph).areas
     for area in graph.cell.areas:
         inside = {
-            one.posture: frozenset(arms[link] for link in one.links if link in arms)
-            for one in answers
-            if one.area == area.name
+            answer.posture: frozenset(arms[link] for link in answer.links if link in arms)
+            for answer in answers
+            if answer.area == area.name
         }
         if not area.released:
             yield from _taken(graph, area, inside, arms)
@@ -108,9 +108,9 @@ def _standing(
 def _moved(graph: CellGraph, target: str, arms: Mapping[str, str]) -> set[str]:
     """Return the arms that a pose or a goal moves."""
     cell = graph.cell
-    groups = {one.group for one in cell.poses if one.name == target}
-    groups |= {one.group for one in cell.goals if one.name == target}
-    return {arms[one.base_link] for one in cell.groups if one.name in groups and one.base_link in arms}
+    groups = {pose.group for pose in cell.poses if pose.name == target}
+    groups |= {goal.group for goal in cell.goals if goal.name == target}
+    return {arms[group.base_link] for group in cell.groups if group.name in groups and group.base_link in arms}
 
 
 def _arms(graph: CellGraph) -> dict[str, str]:

@@ -72,7 +72,7 @@ def _figures(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
 def _of_one_joint(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
     first = cell.bringup.first_motion
     if first is not None:
-        joints = {f"{one.name}/{joint.local_name}": joint.name for one in cell.devices for joint in one.joints}
+        joints = {f"{device.name}/{joint.local_name}": joint.name for device in cell.devices for joint in device.joints}
         name = joints.get(first.joint, "")
         for key, figure in (("max_delta", first.max_delta), ("velocity", first.velocity)):
             yield ("bringup", "first_motion", key), name, figure.linear

@@ -63,9 +63,9 @@ def _crossings(graph: CellGraph) -> Iterator[tuple[Nic, Interface, float]]:
     recorders = {nic.host for nic in graph.network.nics if "bag" in nic.carries}
     cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
     for interface in graph.cell.interfaces:
-        camera = next((cameras[one.node] for one in interface.sources if one.node in cameras), None)
+        camera = next((cameras[source.node] for source in interface.sources if source.node in cameras), None)
         streams = () if camera is None or camera.camera is None else camera.camera.streams
-        image = next((one for one in streams if one.topic == interface.name and one.image_bytes), None)
+        image = next((stream for stream in streams if stream.topic == interface.name and stream.image_bytes), None)
         if camera is None or image is None or image.image_bytes is None:
             continue
         rate_bps = image.image_bytes * 8.0 * min(interface.rate_hz or image.rate_hz, image.rate_hz)

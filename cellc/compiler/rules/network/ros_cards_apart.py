@@ -39,7 +39,7 @@ def check(graph: CellGraph) -> Findings:
             cards.setdefault(nic.host, []).append(nic)
     seen: list[Nic] = []
     for host, own in cards.items():
-        if seen and not any(_meet(one, other) for one in own for other in seen):
+        if seen and not any(_meet(nic, other) for nic in own for other in seen):
             other = seen[0]
             message = f"`{own[0].full_name}` must share a subnet with `{other.full_name}`, `{other.text}`,"
             message += f" got `{own[0].text}`"

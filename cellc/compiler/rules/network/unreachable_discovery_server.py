@@ -62,5 +62,5 @@ def _out_of_reach(graph: CellGraph, server: DiscoveryServer) -> list[str]:
         for host, cards in others.items()
         if subnet is not None
         and cards
-        and not any(one.interface is not None and one.interface.network.overlaps(subnet) for one in cards)
+        and not any(nic.interface is not None and nic.interface.network.overlaps(subnet) for nic in cards)
     ]

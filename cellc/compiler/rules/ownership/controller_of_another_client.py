@@ -36,15 +36,23 @@ _EXECUTING = frozenset({"moveit_msgs/action/MoveGroup", "moveit_msgs/action/Exec
 @rule(Severity.WARNING)
 def check(graph: CellGraph) -> Findings:
     """Yield trajectory controllers whose client has no goals of its own, beside a node that executes motion."""
-    actions = [one for one in graph.cell.interfaces if one.kind is InterfaceKind.ACTION and not one.derived]
-    executing = {end.node: one for one in actions if one.type in _EXECUTING for end in one.sources}
-    declared = {(one.name, end.node) for one in actions for end in one.sinks}
+    actions = [
+        interface
+        for interface in graph.cell.interfaces
+        if interface.kind is InterfaceKind.ACTION and not interface.derived
+    ]
+    executing = {
+        end.node: interface for interface in actions if interface.type in _EXECUTING for end in interface.sources
+    }
+    declared = {(interface.name, end.node) for interface in actions for end in interface.sinks}
     for controller in graph.cell.controllers:
         client = controller.client
         if controller.behaviour not in TRAJECTORIES or client is None or not executing or client in executing:
             continue
         commands = graph.data.path_to_motion(client)[1:2] != (controller.label,)
-        asks = any(sink == client for name, sink in declared if name in {one.name for one in executing.values()})
+        asks = any(
+            sink == client for name, sink in declared if name in {interface.name for interface in executing.values()}
+        )
         if (controller.action or "", client) not in declared and not asks and not commands:
             server, action = next(iter(executing.items()))
             message = (

@@ -43,7 +43,9 @@ def check(graph: CellGraph) -> Findings:
     for owner, path in named:
         if times[owner] > 1 or len(owner) < _SHORTEST:
             continue
-        near = next((one for one in usual if SequenceMatcher(None, owner.lower(), one.lower()).ratio() >= _ALIKE), None)
+        near = next(
+            (text for text in usual if SequenceMatcher(None, owner.lower(), text.lower()).ratio() >= _ALIKE), None
+        )
         if near is not None:
             message = f"owner `{owner}` is named once, and `{near}` {times[near]} times"
             yield found(graph, path, message, f"did you mean `{near}`?")
@@ -57,6 +59,6 @@ def _owners(graph: CellGraph) -> Iterator[tuple[str, YamlPath]]:
     for area, owner in cell.owners.approvals.items():
         yield owner, ("owners", "approvals", area)
     yield from ((node.owner, (*node.path, "owner")) for node in cell.nodes if node.source is NodeSource.SPEC)
-    yield from ((one.owner, (*one.path, "owner")) for one in cell.calibrations.values())
+    yield from ((calibration.owner, (*calibration.path, "owner")) for calibration in cell.calibrations.values())
     yield cell.safety.recovery.owner, ("safety", "recovery", "owner")
     yield cell.safety.recovery.observer, ("safety", "recovery", "observer")

@@ -51,7 +51,7 @@ def check(graph: CellGraph) -> Findings:
             if pair in seen:
                 continue
             seen.add(pair)
-            manager = next(one for one in graph.cell.managers if one.name == state.manager)
+            manager = next(manager for manager in graph.cell.managers if manager.name == state.manager)
             path = (*manager.path, "switches", state.switches[-1]) if state.switches else second.path
             way = " → ".join(f"`{name}`" for name in ("start", *state.switches))
             message = f"after {way} both `{first.name}` and `{second.name}` are active, but `{device}` takes {modes}"
@@ -62,16 +62,20 @@ def check(graph: CellGraph) -> Findings:
 def _refused(cell: Cell, state: ControlState) -> Iterator[tuple[Controller, Controller, str, str]]:
     """Yield pairs of active controllers that no driver runs together, with the device and its two modes."""
     claiming: dict[str, dict[str, Controller]] = {}
-    for one in state.active:
-        for claim in one.claims("real") if "real" in one.targets else ():
-            claiming.setdefault(claim.rpartition("/")[0], {})[one.label] = one
+    for controller in state.active:
+        for claim in controller.claims("real") if "real" in controller.targets else ():
+            claiming.setdefault(claim.rpartition("/")[0], {})[controller.label] = controller
     for device in cell.devices:
         modes = None if device.hardware is None else device.hardware.modes
         if modes is None:
             continue
         joints = {joint.name for joint in device.joints}
         ours = {label for owner in (*joints, *modes.names) for label in claiming.get(owner, ())}
-        taken = [(one, modes.of(one.claims("real"), joints)) for one in state.active if one.label in ours]
+        taken = [
+            (controller, modes.of(controller.claims("real"), joints))
+            for controller in state.active
+            if controller.label in ours
+        ]
         for (first, own), (second, others) in combinations(taken, 2):
             refused = ((a, b) for a in sorted(own) for b in sorted(others) if not modes.allow(a, b))
             if (pair := next(refused, None)) is not None:

@@ -41,10 +41,16 @@ def check(graph: CellGraph) -> Findings:
     """Yield outputs that no controller claims on the real target, and inputs that none reads."""
     devices = graph.cell.devices
     # `missing-real-plugin` reports devices without a real plugin.
-    unnamed = {one.name for one in devices if one.hardware is not None and "real" not in one.hardware.targets}
-    there = [one for one in graph.cell.controllers if "real" in one.targets or one.device in unnamed]
-    claimed = {interface for one in there for interface in one.claims("real")}
-    read = {interface for one in there for interface in one.state_interfaces}
+    unnamed = {
+        device.name for device in devices if device.hardware is not None and "real" not in device.hardware.targets
+    }
+    there = [
+        controller
+        for controller in graph.cell.controllers
+        if "real" in controller.targets or controller.device in unnamed
+    ]
+    claimed = {interface for controller in there for interface in controller.claims("real")}
+    read = {interface for controller in there for interface in controller.state_interfaces}
     for device in devices:
         if device.switched is None:
             continue

@@ -59,9 +59,9 @@ def check(graph: CellGraph) -> Findings:
     if f"{node.package}/{node.executable}" != wanted:
         message = f"`{servo.node}` must run `{wanted}` on {cell.distro}, got `{node.package}/{node.executable}`"
         yield found(graph, (*path, "node"), message)
-    if not any((one.package, one.executable) == ("moveit_ros_move_group", "move_group") for one in cell.nodes):
+    if not any((node.package, node.executable) == ("moveit_ros_move_group", "move_group") for node in cell.nodes):
         yield found(graph, (*path, "node"), f"`{servo.node}` needs a node that runs move_group, whose scene it follows")
-    (controller,) = (one for one in cell.controllers if one.full_name == servo.controller)
+    (controller,) = (controller for controller in cell.controllers if controller.full_name == servo.controller)
     if refused := next(_refused(cell, servo, controller), ""):
         yield found(graph, (*path, "controller"), refused)
 

@@ -61,7 +61,7 @@ def check(graph: CellGraph) -> Findings:
         if topic.derived or not topic.rate_hz:
             continue
         for end in topic.sinks:
-            passed = [one for one in passed_on.get(topic.name, ()) if _publishes(end, one[0])]
+            passed = [pair for pair in passed_on.get(topic.name, ()) if _publishes(end, pair[0])]
             bounds = (topic, *(last for _, last in passed))
             stated = [(other.max_age_s, other) for other in bounds if other.max_age_s is not None]
             if not stated or end.qos.history == "keep_all" or end.qos.depth == 1 or _is_a_backlog(topic, end):

@@ -93,10 +93,10 @@ def _path(path: YamlPath, written: bool, name: str) -> YamlPath:
 def _places(value: ParameterValue) -> Iterator[str]:
     """Yield every address, file and name that a value may stand for, each in its usual spelling."""
     if isinstance(value, tuple):
-        for one in value:
-            yield from _places(one)
+        for item in value:
+            yield from _places(item)
         if len(value) == 4:
-            yield from _addresses(".".join(str(one) for one in value))
+            yield from _addresses(".".join(str(item) for item in value))
     elif isinstance(value, str):
         for number in _NUMBERS.findall(value):
             yield from _addresses(number)

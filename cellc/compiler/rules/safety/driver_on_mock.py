@@ -81,4 +81,6 @@ def _real_programs(cell: Cell) -> frozenset[str]:
 
 def _real_plugins(cell: Cell) -> frozenset[str]:
     components = (device.hardware for device in cell.devices)
-    return frozenset(one.plugins["real"] for one in components if one is not None and "real" in one.plugins)
+    return frozenset(
+        component.plugins["real"] for component in components if component is not None and "real" in component.plugins
+    )

@@ -33,7 +33,9 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield programs that are started by what is no person, and not the driver that owns them."""
     cell = graph.cell
-    software = {node.name for node in cell.nodes} | {one.name for one in cell.controllers} | set(cell.hosts)
+    software = (
+        {node.name for node in cell.nodes} | {controller.name for controller in cell.controllers} | set(cell.hosts)
+    )
     for device in cell.devices:
         if device.program is not None and device.program.played_by in software:
             played_by = device.program.played_by

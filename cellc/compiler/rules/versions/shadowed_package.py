@@ -46,7 +46,7 @@ def _packages(graph: CellGraph) -> Iterator[tuple[str | None, YamlPath]]:
     """Yield the packages that a cell names, and its devices."""
     cell = graph.cell
     yield from ((node.package, node.path) for node in cell.nodes)
-    yield from ((one.package, one.path) for one in cell.controllers)
+    yield from ((controller.package, controller.path) for controller in cell.controllers)
     yield from ((group.solver.package, group.path) for group in cell.groups)
     yield from ((pipeline.package, ("motion", "pipelines")) for pipeline in cell.pipelines)
     for device in cell.devices:

@@ -10,7 +10,7 @@ from typing import Protocol
 from cellc.contract.adapter.device import DeviceAdapter, JointCommand, Phase
 
 STANDSTILL = 1e-3
-"""rad/s or m/s below which a joint stands still."""
+"""rad/s or m/s below which a joint is at standstill."""
 
 
 class Rig(Protocol):
@@ -64,7 +64,7 @@ def stream(rig: Rig, adapter: DeviceAdapter, periods: int) -> tuple[float, ...]:
 
 
 def require_standstill(rig: Rig, adapter: DeviceAdapter) -> None:
-    """Require that every joint stands still, and stays where it is."""
+    """Require that every joint is at standstill, and stays where it is."""
     before = adapter.read()
     require(all(abs(speed) < STANDSTILL for speed in before.velocities), f"it still moves: {before.velocities}")
     rig.wait(0.1)

@@ -1,1 +1,1 @@
-"""The controllers, each by the behaviour that its plugin type stands for."""
+"""The controllers, each by the behavior that its plugin type represents."""

@@ -84,7 +84,7 @@ class Controller(Protocol):
 
     The manager runs it either cycle by cycle (`update`) or in blocks: `preview` writes the commands of coming cycles
     as they will be if nothing happens, `regular` tells how many of them nothing happened in, `commit` adopts those.
-    Both ways must agree bit by bit, so `preview` and `update` share their arithmetic.
+    Both methods must agree bit by bit, so `preview` and `update` share their arithmetic.
     """
 
     @property
@@ -135,7 +135,7 @@ class Controller(Protocol):
         """The time at which it has to tell the outside something, None for never."""
 
     def monitor(self, now_ns: int) -> None:
-        """Tell the outside what is due."""
+        """Tell the outside what is pending."""
 
     def parameter_changed(self, name: str, value: ParameterValue) -> None:
         """React to a parameter that was set at run time."""
@@ -209,7 +209,7 @@ class QuietController:
         return None
 
     def monitor(self, now_ns: int) -> None:
-        """Nothing is due."""
+        """Nothing is pending."""
 
     def parameter_changed(self, name: str, value: ParameterValue) -> None:
         """No parameter is looked at again."""

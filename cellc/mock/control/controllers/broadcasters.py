@@ -149,7 +149,7 @@ class JointStateBroadcaster(QuietController):
         return tuple(f"{joint}/{kind}" for joint in joints for kind in kinds)
 
     def state_interfaces(self) -> tuple[str, ...]:
-        """The interfaces that are asked for; none stands for all that exist."""
+        """The interfaces that are asked for; none represents all that exist."""
         return self._asked_for()
 
     def _kinds(self) -> dict[str, str]:

@@ -1,7 +1,7 @@
 """Gripper action controllers: parallel_gripper_action_controller and the older gripper_controllers.
 
 Success and stall are looked at in each update before the command is written. A goal that is replaced ends as canceled
-at once; a goal that runs while the controller is deactivated never gets a result.
+immediately; a goal that runs while the controller is deactivated never gets a result.
 """
 
 from __future__ import annotations
@@ -124,7 +124,7 @@ class GripperController(QuietController):
         return ""
 
     def accept(self, goal_id: int, goal: GripperGoal, now_ns: int) -> None:
-        """Make a goal the running one; one that runs ends canceled at once."""
+        """Make a goal the running one; one that runs ends canceled immediately."""
         if self._goal is not None:
             self.context.events.append(self._ended(self._goal.goal_id, now_ns, now_ns, GoalStatus.CANCELED))
         self._position = goal.position[0]
@@ -232,7 +232,7 @@ class GripperController(QuietController):
             self._moved_ns = int(self._moved_before(block)[-1])
 
     def next_monitor_ns(self) -> int | None:
-        """The next tick on which a result is due."""
+        """The next tick on which a result is pending."""
         due = [time for monitor in self._waiting if (time := monitor.next_ns()) is not None]
         return min(due, default=None)
 

@@ -1,6 +1,6 @@
-"""Plugin types of controllers and the behaviours that they stand for.
+"""Plugin types of controllers and the behaviors that they stand for.
 
-The types of ros2_controllers are known here; those of vendors are told by the caller as `plugin_behaviours`.
+The types of ros2_controllers are known here; those of vendors are reported by the caller as `plugin_behaviours`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _FACTORIES: Mapping[Behaviour, Callable[[Context], Controller]] = {
 
 _ALL = tuple(Distro)
 _SINCE_JAZZY = (Distro.JAZZY, Distro.KILTED, Distro.LYRICAL)
-# Behaviour and distributions of each type.
+# Behavior and distributions of each type.
 _TYPES: Mapping[str, tuple[Behaviour, tuple[Distro, ...]]] = {
     "joint_trajectory_controller/JointTrajectoryController": (Behaviour.JOINT_TRAJECTORY, _ALL),
     "joint_state_broadcaster/JointStateBroadcaster": (Behaviour.JOINT_STATE_BROADCASTER, _ALL),
@@ -68,7 +68,7 @@ def controller_factory(
     Args:
         plugin_type: the type as the parameter file tells it.
         distro: ROS distribution.
-        behaviours: behaviours of further types.
+        behaviours: behaviors of further types.
 
     Returns:
         The factory, None where no package offers the type.

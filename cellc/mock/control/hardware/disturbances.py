@@ -14,12 +14,12 @@ from cellc.mock.control.interfaces import Array
 
 @dataclass(frozen=True, slots=True)
 class JointFault:
-    """How a joint differs from one that follows its command at once.
+    """How a joint differs from one that follows its command immediately.
 
     Attributes:
         stuck: the joint does not move at all.
         max_velocity: rad/s or m/s that the joint cannot exceed.
-        time_constant_s: of a first-order lag behind the command; 0 is none.
+        time_constant_s: of a first-order lag behind the command; 0 for none.
         offset: rad or m added to the position.
         lower: the joint is blocked below this position.
         upper: the joint is blocked above this position, as a gripper is by the object.
@@ -118,15 +118,15 @@ class Disturbances:
 
     @property
     def disturbs_joints(self) -> bool:
-        """Whether any joint differs from one that follows its command at once."""
+        """Whether any joint differs from one that follows its command immediately."""
         return bool(self._joints or self._nature)
 
     def fault_of(self, joint: str) -> JointFault | None:
-        """How a joint differs from one that follows its command at once, None where it does not."""
+        """How a joint differs from one that follows its command immediately, None where it does not."""
         return self._joints.get(joint) or self._nature.get(joint)
 
     def noise_of(self, joint: str) -> Noise | None:
-        """The noise of a joint's measured position, None where there is none."""
+        """The noise of a joint's measured position, or None."""
         return self._noise.get(joint)
 
     @property
@@ -141,7 +141,7 @@ class Disturbances:
         if noise is not None:
             self._noise[joint] = noise
 
-    def is_deaf(self, component: str) -> bool:
+    def ignores_commands(self, component: str) -> bool:
         """Whether a component ignores its commands."""
         return component in self._deaf
 
@@ -202,7 +202,7 @@ class Disturbances:
         self._changed()
         self._deaf.add(component)
 
-    def heed_commands(self, component: str) -> None:
+    def accept_commands(self, component: str) -> None:
         """Let a component follow its commands again."""
         self._changed()
         self._deaf.discard(component)

@@ -155,7 +155,7 @@ class GenericSystem:
         """
         self._motion = None
         self._first_cycle = self._read_cycles
-        if self.commands_disabled or self._disturbances.is_deaf(self.info.name):
+        if self.commands_disabled or self._disturbances.ignores_commands(self.info.name):
             return len(command)
         cycles = self._computable(command)
         if cycles == 0:

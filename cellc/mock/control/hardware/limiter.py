@@ -42,7 +42,7 @@ class CommandLimiter:
         limits: limits by joint.
         table: the interfaces.
         period_ns: period of the manager, which is the time that limits are scaled by.
-        log: where limited commands are told, throttled.
+        log: receives throttled warnings on limited commands.
     """
 
     def __init__(self, limits: Mapping[str, JointLimits], table: InterfaceTable, period_ns: int, log: Log) -> None:

@@ -29,7 +29,7 @@ class NodeOptions:
     Attributes:
         namespace: namespace of the manager and its controllers.
         distro: ROS distribution.
-        behaviours: behaviours of further controller types.
+        behaviours: behaviors of further controller types.
         start_ns: simulated time of the first cycle.
         declared: interfaces of controllers that only the cell tells, by name.
     """
@@ -93,7 +93,7 @@ def _load_hardware(
     log: Log,
     events: list[ControlEvent],
 ) -> tuple[RobotDescription, HardwareSet | None, str]:
-    """Read the description; where it is refused, no hardware comes up and the reason is returned."""
+    """Read the description; where it is refused, no hardware starts and the reason is returned."""
     try:
         description = take_description(source)
     except DescriptionError as error:

@@ -44,7 +44,7 @@ class ControllerManager:
         parameters: text of the parameter file (controllers.yaml); empty for none.
         namespace: namespace of the manager and its controllers.
         distro: ROS distribution.
-        plugin_behaviours: behaviour of further controller plugin types.
+        plugin_behaviours: behavior of further controller plugin types.
         start_ns: simulated time of the first update cycle.
         declared: interfaces of controllers that only the cell tells, by name.
 
@@ -80,7 +80,7 @@ class ControllerManager:
     # -- services ----------------------------------------------------------------------------------------------------
 
     def spawn(self, names: Sequence[str], inactive: bool = False, parameters: str | None = None) -> SpawnResponse:
-        """Bring controllers up as one call of the spawner does; switches act at once.
+        """Bring controllers up as one call of the spawner does; switches act immediately.
 
         Args:
             names: controllers in order; the first failure stops the rest.
@@ -89,7 +89,7 @@ class ControllerManager:
         """
         self._touch()
         if self._cycles is None:
-            # Without a robot description the services are not offered and the spawner waits in vain.
+            # Without a robot description the services are not offered and the spawner waits without an answer.
             return SpawnResponse(False, "", self.description_error, tuple(names))
         file = None if parameters is None else ParameterFile(parameters)
         return self._spawner.spawn(names, inactive, file)
@@ -171,7 +171,7 @@ class ControllerManager:
         """Run update cycles and action monitors up to a time.
 
         Args:
-            until_ns: the time to reach; a cycle that is due exactly then is run.
+            until_ns: the time to reach; a cycle scheduled exactly then is run.
 
         Returns:
             The time that was reached: earlier than asked for where something happened that the outside must see,

@@ -113,7 +113,7 @@ class CycleRunner:
 
     def _compute_ahead(self, wanted: int) -> None:
         """Compute a block of the cycles that are wanted and those after, not much longer than until a controller
-        expects to decide something; none where one of them decides at once.
+        expects to decide something; none where one of them decides immediately.
         """
         active = [loaded for loaded in self._registry.in_update_order() if loaded.state == "active"]
         if any(loaded.last_update_ns is None or loaded.controller.decides_next for loaded in active):

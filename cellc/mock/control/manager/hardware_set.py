@@ -50,7 +50,7 @@ class HardwareSet:
         events: where changes are told.
 
     Raises:
-        DescriptionError: a component cannot be loaded or initialised.
+        DescriptionError: a component cannot be loaded or initialized.
     """
 
     def __init__(
@@ -73,12 +73,12 @@ class HardwareSet:
                     f"Hardware name {info.name} is duplicated. Please provide a unique 'name' in the URDF."
                 )
             _check_plugin(info.type, info.plugin)
-            self.components[info.name] = Component(self._initialise(info.name, description), "active")
+            self.components[info.name] = Component(self._initialize(info.name, description), "active")
         for component in self.components.values():
             for name in (*component.system.command_names, *component.system.state_names):
                 self._owners.setdefault(name, component)
 
-    def _initialise(self, name: str, description: RobotDescription) -> GenericSystem:
+    def _initialize(self, name: str, description: RobotDescription) -> GenericSystem:
         info = next(info for info in description.components if info.name == name)
         try:
             return GenericSystem(info, description.joints, self._table, self._disturbances)

@@ -1,4 +1,4 @@
-"""Cycles that are computed ahead at once, and adopted piece by piece as time advances.
+"""Cycles that are computed ahead in one step, and adopted piece by piece as time advances.
 
 A block is computed in three steps. Controllers write the commands of coming cycles as if nothing happened; limits and
 hardware turn them into states; controllers tell up to which cycle really nothing happened. The cycles up to there may
@@ -113,7 +113,7 @@ class Lookahead:
             self._block = block.cut(cycles)
 
     def _part(self, loaded: LoadedController, block: Block) -> _Part | None:
-        """The updates of a controller, None where there is none in the block."""
+        """The updates of a controller, or None outside the block."""
         columns = loaded.columns.tolist()
         divisor = loaded.divisor(self._rate, self._period_ns)
         if divisor == 1:

@@ -81,7 +81,7 @@ class ControllerRegistry:
         file: parameters of the manager's process.
         namespace: namespace of the manager.
         distro: ROS distribution.
-        behaviours: behaviours of further plugin types.
+        behaviours: behaviors of further plugin types.
         log: the log.
         events: where changes are told.
         declared: interfaces of controllers that only the cell tells, by name.

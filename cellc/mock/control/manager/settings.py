@@ -17,7 +17,7 @@ _KEPT = 8
 
 @dataclass(frozen=True, slots=True)
 class ManagerSettings:
-    """What the manager is told by its parameters."""
+    """What the manager gets by its parameters."""
 
     update_rate: int
     enforce_command_limits: bool

@@ -38,7 +38,7 @@ def scalar(text: str, quoted: bool) -> bool | int | float | str:
 
     Args:
         text: the scalar as written.
-        quoted: whether it stood in quotes, which makes it a string.
+        quoted: whether it was in quotes, which makes it a string.
 
     Returns:
         The value.

@@ -123,7 +123,7 @@ def _matches(pattern: str, full_name: str) -> bool:
 
 
 def _token_matches(token: str, name: str) -> bool:
-    """Match one token, in which a star stands for one character or more: each part is taken where it comes first."""
+    """Match one token, in which a star represents one character or more: each part is taken where it comes first."""
     first, *rest = token.split("*")
     if not rest:
         return token == name

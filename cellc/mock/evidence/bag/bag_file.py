@@ -1,7 +1,7 @@
 """An MCAP bag as rosbag2 writes it: channels with definitions and offered QoS, messages in order of time.
 
 The definitions in `msg/` hold the fields of common_interfaces, geometry2 and control_msgs without their comments. Where
-a distribution has another definition of a type, it stands under `msg/<distribution>/`.
+a distribution has another definition of a type, it is under `msg/<distribution>/`.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ class Bag:
         return self._channels[topic]
 
     def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
-        """Add a message that was published at a time and has arrived, at the same instant where no other is told."""
+        """Add a message that was published at a time and has arrived, at the same instant where no other is given."""
         self._sequences[channel] += 1
         log_ns = publish_ns if log_ns is None else log_ns
         self._pending.append(_Message(channel, self._sequences[channel], log_ns, publish_ns, data))

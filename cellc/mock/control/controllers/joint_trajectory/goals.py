@@ -53,7 +53,7 @@ class GoalBook:
         return 0 if self._active is None else self._active.goal_id
 
     def accept(self, goal_id: int, goal: TrajectoryGoal, now_ns: int, listened: bool) -> None:
-        """Make a goal the running one; a goal that runs is aborted at once."""
+        """Make a goal the running one; a goal that runs is aborted immediately."""
         if self._active is not None:
             known = features(self._context.distro)
             verb = "preempted by" if Feature.PREEMPTED_GOALS in known else "cancelled due to"
@@ -97,7 +97,7 @@ class GoalBook:
         return any(monitor.goal_id == goal_id for monitor in self._waiting)
 
     def next_monitor_ns(self) -> int | None:
-        """The next time at which a result or feedback is due."""
+        """The next time at which a result or feedback is pending."""
         if self.idle:
             return None
         monitors = [*self._waiting, *([self._active] if self._active else [])]
@@ -110,7 +110,7 @@ class GoalBook:
         return self._active is None and not self._waiting
 
     def deliver(self, now_ns: int, last: LastUpdate, motion: Motion | None, interfaces: JointInterfaces) -> None:
-        """Deliver what is due now."""
+        """Deliver what is pending now."""
         for monitor in [m for m in self._waiting if m.next_ns() == now_ns]:
             event = monitor.tick(now_ns)
             self._waiting.remove(monitor)

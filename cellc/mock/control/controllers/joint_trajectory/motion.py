@@ -99,7 +99,7 @@ class Motion:
         """Sample the trajectory at evenly spaced trajectory times."""
         spline, count = self.spline, len(times_ns)
         if count == 1 or int(times_ns[1] - times_ns[0]) == self._ahead_ns:
-            # What is one period ahead now is due in the next update: sample it once.
+            # What is one period ahead now is pending in the next update: sample it once.
             longer = np.empty(count + 1, dtype=np.int64)
             longer[:-1], longer[-1] = times_ns, times_ns[-1] + self._ahead_ns
             reached, into = spline.locate(longer)

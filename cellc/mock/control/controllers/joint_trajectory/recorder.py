@@ -1,4 +1,4 @@
-"""Records the state of the controller, thinned to a told rate, for plots and bags."""
+"""Records the state of the controller, thinned to a given rate, for plots and bags."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sampling of a trajectory at many times at once.
+"""Sampling of a trajectory at many times together.
 
 The kind of a segment follows from what both of its ends give: positions alone are joined by lines, with velocities by
 cubics, with accelerations too by quintics. Accelerations without velocities give zero throughout: a defect of the real
@@ -204,7 +204,7 @@ class Spline:
         return value
 
     def last_point(self) -> TrajectoryPoint:
-        """The last point, due at once, with its velocity and acceleration."""
+        """The last point, due immediately, with its velocity and acceleration."""
         position, velocity, half = (self._table[power][-1].tolist() for power in range(3))
         return TrajectoryPoint(tuple(position), tuple(velocity), tuple(2.0 * value for value in half))
 
