@@ -169,7 +169,7 @@ def test_a_calibration_of_another_name_is_told_in_a_few_lines(repository: Reposi
 
 
 @pytest.mark.parametrize(
-    ("metres", "told"),
+    ("meters", "told"),
     [(0.001, "1 mm"), (0.12345, "123 mm"), (0.9999999, "1 m"), (1.0, "1 m"), (12.345, "12.3 m"), (1234.5, "1230 m")],
 )
 def test_how_far_a_frame_moved_is_told_without_a_power_of_ten(meters: float, told: str) -> None:

@@ -76,7 +76,7 @@ def test_difference(before: Leaf | None, after: Leaf | None, unit: str, text: st
 
 
 @pytest.mark.parametrize(
-    ("metres", "degrees", "text"),
+    ("meters", "degrees", "text"),
     [
         (0.0, 0.0, ""),
         (5e-10, 5e-6, ""),  # less than a nanometer and 0.1 urad
