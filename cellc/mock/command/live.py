@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import foxglove
 import foxglove.channels
 import foxglove.messages
-import yaml
 from mcap.reader import make_reader
 
 from cellc.contract.printing import Stream, show
@@ -29,6 +28,7 @@ from cellc.mock.errors import MockError
 from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.evidence.topics import LOG
 from cellc.mock.result import RehearsalResult
+from cellc.robot.description.yaml_values import load_values
 
 if TYPE_CHECKING:
     from mcap.records import Channel as BagChannel
@@ -186,7 +186,7 @@ def _told(entry: RehearsalEntry, result: RehearsalResult) -> list[tuple[int, str
 
 
 def _is_latched(metadata: Mapping[str, str]) -> bool:
-    profiles = yaml.safe_load(metadata["offered_qos_profiles"])
+    profiles = load_values(metadata["offered_qos_profiles"])
     return any(profile["durability"] == _TRANSIENT_LOCAL for profile in profiles)
 
 

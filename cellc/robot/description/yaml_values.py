@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any, TypeAlias
 
 import yaml
@@ -19,31 +20,48 @@ class TooManyValuesError(CellcError, ValueError):
     """A document has more values than may be read; the text says so."""
 
 
-def load_values(text: str, loader: Loader = FAST, limit: str = "xacro-items") -> Any:
+_SEXAGESIMAL = re.compile(r"[-+0-9_:.]+")
+_LONGEST_NUMBER = 400
+"""Characters of a number of YAML 1.1, whose value to base 60 takes time by the square of its length."""
+
+
+def load_values(text: str, loader: Loader = FAST, limit: str = "xacro-items", *, aliases: bool = True) -> Any:
     """Return what a YAML document holds; it must be made with a safe loader.
 
     Args:
         limit: the row of the limits that bounds its values.
+        aliases: whether it may have some.
 
     Raises:
         TooManyValuesError: it has more values than may be once its aliases are written out.
         yaml.YAMLError, ValueError, RecursionError: it cannot be read.
     """
-    _refuse_depth(text, loader)
+    _refuse_events(text, loader, aliases)
     root = yaml.compose(text, Loader=loader)
     most = in_table(limit)
     if _written_out(root) > most:
         raise TooManyValuesError(f"has more than {most} values where its aliases are written out; {option(limit)}")
-    return yaml.load(text, Loader=loader)
+    try:
+        return yaml.load(text, Loader=loader)
+    except (ArithmeticError, LookupError, AttributeError, TypeError) as error:  # `!!bool x`, `!!int ''`, `1:1:…:1.5`
+        raise ValueError("a value is not of the type of its tag or its form") from error
 
 
-def _refuse_depth(text: str, loader: Loader) -> None:
+def _refuse_events(text: str, loader: Loader, aliases: bool) -> None:
     """The parser in C goes down one call of the machine for each level, and nothing stops it."""
     depth = 0
     for event in yaml.parse(text, Loader=loader):
+        if isinstance(event, yaml.AliasEvent) and not aliases:
+            raise ValueError("it has an alias")
+        if isinstance(event, yaml.ScalarEvent) and _is_long_number(event.value):
+            raise ValueError(f"a number has more than {_LONGEST_NUMBER} characters")
         depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
         if depth > limits().spec_depth:
             raise ValueError(f"values are nested deeper than {limits().spec_depth} levels")
+
+
+def _is_long_number(text: str) -> bool:
+    return len(text) > _LONGEST_NUMBER and _SEXAGESIMAL.fullmatch(text) is not None
 
 
 def _written_out(root: yaml.Node | None) -> float:

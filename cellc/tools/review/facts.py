@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -17,7 +17,6 @@ from cellc.contract.bring_up import TARGETS, BringUp, BringUpStep
 from cellc.contract.contract import Contract, ContractInterface
 from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.errors import CellcError
-from cellc.contract.limits import limits
 from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import Rehearsals
@@ -25,6 +24,7 @@ from cellc.contract.transforms import Pose, identity
 from cellc.robot.description.model import Box, Collision, Cylinder, Description, Joint, Sphere
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xml_tree import read_xml
+from cellc.robot.description.yaml_values import load_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.tools.review.units import shown
 
@@ -159,21 +159,14 @@ def _described(files: Mapping[str, str], path: str) -> Description:
 
 
 def _loaded(path: str, text: str) -> Json:
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        _refuse_aliases_and_depth(path, yaml.parse(text, Loader=loader))
-        return _plain(yaml.load(text, Loader=loader))
-    except (yaml.YAMLError, ValueError, RecursionError):
-        raise FactsError(f"{path}: is not YAML") from None
+        return _plain(load_values(text, limit="folder-values", aliases=False))
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        raise FactsError(f"{path}: is not YAML that cellc writes: {_first_line(error)}") from None
 
 
-def _refuse_aliases_and_depth(path: str, events: Iterable[yaml.Event]) -> None:
-    """Refuse what the compiler never writes, and what makes much of little or exhausts the stack."""
-    depth = 0
-    for event in events:
-        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-        if isinstance(event, yaml.AliasEvent) or depth > limits().folder_depth:
-            raise FactsError(f"{path}: holds an alias, or is nested deeper than {limits().folder_depth} levels")
+def _first_line(error: Exception) -> str:
+    return str(error).partition("\n")[0]
 
 
 def _plain(value: object) -> Json:
