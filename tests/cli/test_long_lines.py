@@ -54,3 +54,23 @@ def test_a_line_of_hashes_is_one_comment_to_the_formatter(cell: Path) -> None:
     make(cell, {"cell.yaml": SPEC + "#" * _LONG + "\n"})
     assert run("format", "cell.yaml").code == 0
     assert (cell / "cell.yaml").read_text().count("#" * _LONG) == 1
+
+
+_DECLARING = f"""\
+controllers:
+  lamp:
+    behaviour: broadcaster
+    source: made up
+    plugins: {{jazzy: {{type: stage/Lamp, package: stage}}}}
+    parameters:
+      "<a>{"x<b>" * 20}y": {{type: bool, default: false}}
+"""
+
+
+def test_a_parameter_is_compared_with_its_declaration_in_one_pass(cell: Path) -> None:
+    # Of a pattern with 20 gaps, each place of each gap would be tried.
+    facts = (cell / "stage/device.yaml").read_text(encoding="utf-8")
+    given = f"lamp: {{type: lamp, device: stage, parameters: {{{'x' * 100}: true}}}}\n    joint_states:"
+    make(cell, {"stage/device.yaml": facts + _DECLARING, "cell.yaml": SPEC.replace("joint_states:", given)})
+    ran = run("check", "cell.yaml")
+    assert (ran.code, "error[unknown-controller-parameter]" in ran.out) == (1, True), ran.out

@@ -167,5 +167,15 @@ class ControllerKind(CatalogModel):
 
 def is_named(declared: str, name: str) -> bool:
     """Whether a written name is that of a declared parameter; ``<joint>`` is any name, which may itself hold dots."""
-    parts = (re.escape(part) for part in re.split(r"<[a-z_]+>", declared))
-    return re.fullmatch(".+".join(parts), name) is not None
+    first, *others = re.split(r"<[a-z_]+>", declared)
+    if not others:
+        return name == first
+    *inner, last = others
+    at = len(first)
+    # Each part at its first place: of a search that tries them all, the time grows with the power of their number.
+    for part in inner:
+        found = name.find(part, at + 1)
+        if found < 0:
+            return False
+        at = found + len(part)
+    return name.startswith(first) and name.endswith(last) and len(name) - len(last) > at
