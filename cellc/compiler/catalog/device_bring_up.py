@@ -101,7 +101,8 @@ class SafetyFacts(CatalogModel):
         recovery: Recovery from the states that stop the device.
         ending: What people do at the device when nothing is claimed any more, before its driver ends.
         ended: What people do at the device after its driver has ended.
-        watchdog: What the device does when commands stop, and after how long, such as ``20 lost packets stop the arm``.
+        watchdog: What the device does when commands stop, and after how long, such as ``20 lost packets in a row stop
+            the motion``.
         source: Documents with their versions from which these facts were read.
     """
 

@@ -99,7 +99,7 @@ class ServiceFacts(CatalogModel):
     Attributes:
         name: Full name of the service; placeholders are filled.
         type: Service type, such as ``std_srvs/srv/Trigger``.
-        server: Node that answers, one of ``nodes``.
+        server: Node that has the service server, one of ``nodes``.
         effect: What a call does in the world, if it does anything there.
     """
 
@@ -115,7 +115,7 @@ class ActionFacts(CatalogModel):
     Attributes:
         name: Full name of the action; placeholders are filled.
         type: Action type, such as ``control_msgs/action/GripperCommand``.
-        server: Node that executes the action, one of ``nodes``.
+        server: Node that has the action server, one of ``nodes``.
         only: Distributions that have the action; empty for all.
         effect: What a goal does in the world, if it acts past every controller.
     """

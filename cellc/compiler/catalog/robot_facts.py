@@ -49,8 +49,8 @@ class MountFacts(CatalogModel):
     Attributes:
         on: Model of the arm in the catalog.
         frame: Frame of the arm, by its own name.
-        xyz: Position of the base of the device in that frame, such as ``0 0 10 mm``; zero if absent.
-        rpy: Roll, pitch and yaw of the base of the device in that frame, such as ``0 0 -45 deg``; zero if absent.
+        xyz: Position of the base of the device in that frame, such as ``0 0 10 mm``; origin of that frame if absent.
+        rpy: Fixed-axis roll, pitch and yaw of the base in that frame, such as ``0 0 -45 deg``; no rotation if absent.
         source: Package or drawing with its version.
     """
 
@@ -76,7 +76,7 @@ class CenterFacts(CatalogModel):
 
 
 class IdleFacts(CatalogModel):
-    """A silence that marks the end of a serial message, in characters.
+    """A silence on a serial line, in the time that one character takes.
 
     Attributes:
         least: Shortest silence that can be set, in characters.
@@ -112,8 +112,8 @@ class ToolSerialFacts(CatalogModel):
         baud_rates: Baud rates that can be set, in bit/s.
         parities: Parities that can be set, each with the plugin's word for it.
         stop_bits: Numbers of stop bits that can be set.
-        rx_idle_chars: Silence after which a received message is complete.
-        tx_idle_chars: Silence after a message before the next one is sent.
+        rx_idle_chars: Silence after which the tool takes a received message as complete and sends it to the host.
+        tx_idle_chars: Silence since the last activity on the line before the tool starts to transmit.
         tcp_port: TCP port of the robot that carries the line, if the spec says nothing.
         parameters: ``<param>`` values of the real plugin that set the line up.
         forward: Program that makes a device node of the line.
@@ -192,7 +192,8 @@ class ImpedanceFacts(CatalogModel):
         joint: Stiffness of a joint, in N m/rad.
         translation: Stiffness along an axis of the tool, in N/m.
         rotation: Stiffness about an axis of the tool, in N m/rad.
-        acts_on: Command interfaces in which the robot's own controller is active, such as ``[position, velocity]``.
+        acts_on: Command interfaces whose set points the robot's own controller follows with this impedance, such as
+            ``[position, velocity]``; commands by any other, such as ``effort``, bypass it.
         source: Document or line of code from which this was read.
     """
 

@@ -113,7 +113,9 @@ class GoalSpec(SpecModel):
     group: Name | None = Field(None, description="Group that moves; the only one if absent.", examples=["manipulator"])
     frame: FrameReference = Field(..., description="Frame that the goal is given in.", examples=["object"])
     rpy: RollPitchYaw | None = Field(None, description="Tip orientation in the frame.", examples=["180 0 0 deg"])
-    xyz: Position | None = Field(None, description="Tip position in the frame; zero if absent.", examples=["0 0 20 mm"])
+    xyz: Position | None = Field(
+        None, description="Tip position in the frame; its origin if absent.", examples=["0 0 20 mm"]
+    )
     approach: Position | None = Field(
         None,
         description="Offset in the tip's own axes of the pose before; the last part is a straight line.",

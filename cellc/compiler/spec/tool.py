@@ -26,14 +26,14 @@ class ToolSerialSpec(SpecModel):
     stop_bits: StopBits = Field(1, description="Stop bits.", examples=[1])
     rx_idle_chars: float | None = Field(
         None,
-        description="Silence after a received message, in characters; the robot's usual one if absent.",
+        description="Silence that ends a received message, in characters; the robot's usual one if absent.",
         examples=[1.5],
         ge=0.0,
         le=1000.0,
     )
     tx_idle_chars: float | None = Field(
         None,
-        description="Silence before a message is sent, in characters; the robot's usual one if absent.",
+        description="Silence on the line before the tool transmits, in characters; the robot's usual one if absent.",
         examples=[3.5],
         ge=0.0,
         le=1000.0,
