@@ -6,12 +6,19 @@ import datetime
 import re
 
 _NUMBER = re.compile(r"\d+(?:\.\d+)*")
+_PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _COMMIT = re.compile(r"(?=.*[a-f])[0-9a-f]{7,40}|[0-9a-f]{40}")
 
 
 def last_word(text: str) -> str:
     """Return the version of a pin as it is written; empty where nothing is."""
     return text.split()[-1] if text.split() else ""
+
+
+def pinned_package(text: str) -> str:
+    """Return the package of a pin that is a package and its version; empty for a pin of another form."""
+    words = text.split()
+    return words[0] if len(words) == 2 and _PACKAGE.fullmatch(words[0]) else ""
 
 
 def is_commit(version: str) -> bool:

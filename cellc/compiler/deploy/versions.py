@@ -14,7 +14,7 @@ from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.graph.versions import compatibility
-from cellc.contract.pins import is_commit, last_word
+from cellc.contract.pins import is_commit, last_word, pinned_package
 
 _OF_SYSTEM = {"os": "lsb_release -ds", "kernel": "uname -r", "ros": "printenv ROS_DISTRO"}
 _PACKAGES = {"ros2_control": "controller_manager", "moveit": "moveit_ros_move_group"}
@@ -57,15 +57,15 @@ def installed_parts(cell: Cell) -> Iterator[Installed]:
     }
     for name, text in version_tuple(cell).items():
         holder, _, part = name.rpartition(".")
-        words = text.split()
+        package = pinned_package(text)
         if text == UNKNOWN:
             continue
         if part in _OF_SYSTEM and not holder:
             yield Installed(name, text)
         elif part in _PACKAGES and not holder:
             yield Installed(name, text, _PACKAGES[part])
-        elif part in _INSTALLED and len(words) == 2:
-            yield Installed(name, text, words[0], sources.get((holder or cell.name, part), ""))
+        elif part in _INSTALLED and package:
+            yield Installed(name, text, package, sources.get((holder or cell.name, part), ""))
 
 
 def compared_on(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:

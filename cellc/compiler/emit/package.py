@@ -61,7 +61,7 @@ def _package(cell: Cell) -> Element:
         [
             element("name", text=cell.name),
             element("version", text="1.0.0"),
-            element("description", text=cell.summary.strip() or f"Robot cell {cell.name}."),
+            element("description", text=cell.summary if cell.summary.strip() else f"Robot cell {cell.name}."),
             comment("owners.approvals.graph; the spec has no mail address, so this one is a placeholder"),
             element("maintainer", {"email": _EMAIL}, text=cell.owners.approvals.graph),
             element("license", text="Apache-2.0"),
