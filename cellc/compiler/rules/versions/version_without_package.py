@@ -21,7 +21,7 @@ Fix: write the package and its version, such as `package 1.2.3`.
 
 Source:
 
-- https://github.com/ros-infrastructure/rep/blob/master/rep-0144.rst (as of 2026-11-23): what the name of a package consists of
+- https://github.com/ros-infrastructure/rep/blob/master/rep-0144.rst (as of 2026-11-23): names of packages
 - docs/principles.md#pinned-versions
 """
 
