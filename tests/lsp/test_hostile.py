@@ -8,6 +8,8 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
 from typing import IO, Any
 
 import pytest
@@ -25,7 +27,9 @@ class _Server:
         assert process.stdin is not None
         assert process.stdout is not None
         self.into: IO[bytes] = process.stdin
-        self._out: IO[bytes] = process.stdout
+        self._messages: SimpleQueue[dict[str, Any] | None] = SimpleQueue()
+        # All that the server says is read, as an editor does: it stops where nobody does.
+        Thread(target=self._read, args=(process.stdout,), daemon=True).start()
         self._number = 0
         self.ask("initialize", {"processId": None, "rootUri": None, "capabilities": {}})
 
@@ -59,12 +63,19 @@ class _Server:
         return "" if told is None else str(told["contents"]["value"])
 
     def _next(self) -> dict[str, Any]:
-        length = 0
-        while line := self._out.readline().strip():
-            name, _, value = line.partition(b":")
-            length = int(value) if name == b"Content-Length" else length
-        told: dict[str, Any] = json.loads(self._out.read(length))
-        return told
+        message = self._messages.get(timeout=120)
+        assert message is not None, "the server ended"
+        return message
+
+    def _read(self, out: IO[bytes]) -> None:
+        while header := out.readline():
+            length = 0
+            while header.strip():
+                name, _, value = header.partition(b":")
+                length = int(value) if name == b"Content-Length" else length
+                header = out.readline()
+            self._messages.put(json.loads(out.read(length)))
+        self._messages.put(None)
 
 
 @pytest.fixture(name="options")
