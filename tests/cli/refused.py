@@ -10,11 +10,14 @@ from pathlib import Path
 from tests.cells import ROOT
 from tests.cli.run import Ran
 
+UNWRITABLE = (70,)
+"""The exit code where the system refuses to write a file."""
 
-def assert_refused(ran: Ran, words: str) -> None:
+
+def assert_refused(ran: Ran, words: str, codes: tuple[int, ...] = (1, 2)) -> None:
     """Hold that a command ended with a diagnostic that holds the words, and not with a traceback."""
     told = ran.out + ran.err
-    assert ran.code in (1, 2), told
+    assert ran.code in codes, told
     assert words in told
     assert "Traceback" not in told
 

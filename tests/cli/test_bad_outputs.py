@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.cells import CORPUS, ROOT
-from tests.cli.refused import assert_refused, everything_below
+from tests.cli.refused import UNWRITABLE, assert_refused, everything_below
 from tests.cli.run import MINIMAL, PICK, Ran, run
 
 INIT = ("init", "bench", "ur5e", "-o")
@@ -160,9 +160,9 @@ def test_full_disk_leaves_the_folder_of_the_last_build(tmp_path: Path) -> None:
 
 def test_full_disk_leaves_no_half_spec_or_schema(tmp_path: Path) -> None:
     init = _with_small_disk(*INIT, (tmp_path / "cell.yaml").as_posix(), limit_bytes=100)
-    assert_refused(init, f"{tmp_path.as_posix()}/cell.yaml: file too large")
+    assert_refused(init, f"{tmp_path.as_posix()}/cell.yaml: file too large", UNWRITABLE)
     schema = _with_small_disk("schema", "-o", (tmp_path / "schemas").as_posix(), limit_bytes=100)
-    assert_refused(schema, ".schema.json: file too large")
+    assert_refused(schema, ".schema.json: file too large", UNWRITABLE)
     assert everything_below(tmp_path) in ([], ["schemas"])
 
 
@@ -171,7 +171,7 @@ def test_read_only_output_is_refused(tmp_path: Path) -> None:
     tmp_path.chmod(0o555)
     try:
         assert_refused(run("build", MINIMAL, "-o", tmp_path.as_posix()), "output-unwritable")
-        assert_refused(run(*INIT, (tmp_path / "cell.yaml").as_posix()), "permission denied")
+        assert_refused(run(*INIT, (tmp_path / "cell.yaml").as_posix()), "permission denied", UNWRITABLE)
     finally:
         tmp_path.chmod(0o755)
     assert everything_below(tmp_path) == []
@@ -180,7 +180,7 @@ def test_read_only_output_is_refused(tmp_path: Path) -> None:
 def test_file_in_the_way_of_init_and_schema_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     inside = (tmp_path / "file/cell.yaml").as_posix()
-    assert_refused(run(*INIT, inside), inside)
+    assert_refused(run(*INIT, inside), inside, UNWRITABLE)
     assert_refused(run("schema", "-o", (tmp_path / "file").as_posix()), (tmp_path / "file").as_posix())
     assert everything_below(tmp_path) == ["file"]
 

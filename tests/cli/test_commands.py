@@ -118,7 +118,7 @@ def test_document_of_all_codes_is_replaced_as_a_whole_or_not_at_all(
     document.write_text("# Every code of cellc\n\nthe old one")
     monkeypatch.setattr("cellc.contract.store.swap.os.replace", full)
     ran = run("explain", "--all", "-o", tmp_path.as_posix())
-    assert (ran.code, ran.err) == (1, f"error: {document.as_posix()}: no space left on device\n")
+    assert (ran.code, ran.err) == (70, f"error: {document.as_posix()}: no space left on device\n")
     assert [(file.name, file.read_text()) for file in tmp_path.iterdir()] == [
         ("README.md", "# Every code of cellc\n\nthe old one")
     ]

@@ -8,10 +8,10 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parents[2] / "cellc"
 READING = re.compile(r"\b(fromstring|parseString|iterparse|XMLParser|ParserCreate)\(|\b(minidom|ElementTree)\.parse\(")
 READERS = {
-    "description/meshes.py",  # takes meshes out of a text that the reader has accepted
-    "description/xacro_confinement.py",
-    "description/xml_tree.py",
-    "verify/read_back.py",
+    "robot/description/meshes.py",  # takes meshes out of a text that the reader has accepted
+    "robot/description/xacro_confinement.py",
+    "robot/description/xml_tree.py",
+    "compiler/verify/read_back.py",
 }
 
 

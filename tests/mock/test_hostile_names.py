@@ -186,7 +186,8 @@ def test_no_name_in_a_folder_leads_a_command_to_write_elsewhere(
 
 
 def _is_output(path: Path, folders: tuple[Path, ...], work: Path) -> bool:
-    if str(path) == "/dev/null" or any(folder in path.parents for folder in folders):
+    # A temporary file without a name is opened by its folder: open(2), O_TMPFILE.
+    if str(path) == "/dev/null" or any(folder in (path, *path.parents) for folder in folders):
         return ".." not in path.parts
     return (work / path).parent == work and path.name.startswith(("minimal.html", ".minimal.html.tmp-"))
 

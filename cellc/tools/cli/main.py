@@ -65,7 +65,7 @@ class _LazyGroup(click.Group):
 def cellc(context: click.Context) -> None:
     """Compile a declarative robot cell: check it, write its ROS 2 package, rehearse it on a mock.
 
-    Exit codes: 0 good, 1 findings, 2 usage, 70 cellc itself failed, 128 + N ended by signal N. cellc never
+    Exit codes: 0 good, 1 findings, 2 usage, 70 cellc or a disk under it failed, 128 + N ended by signal N. cellc never
     enables real motion.
     """
     command = context.invoked_subcommand
