@@ -47,6 +47,25 @@ def test_only_declared_clients_may_call_an_action() -> None:
     assert _holders(policy, "actions", "call", "/gripper_action/gripper_cmd") == {"task"}
 
 
+def test_a_person_may_call_what_the_vendor_has_people_call_and_nothing_else() -> None:
+    """A UR without remote control is unlocked at its pendant; an FR3 recovers by the action of its driver."""
+    of_people = _commissioning("ur5e_pick")
+    assert not {name for name in _named(of_people, "services", "request") if name.startswith("/arm_dashboard_client/")}
+    of_people = _commissioning("fr3_hand")
+    recovery = {name for name in _named(of_people, "actions", "call") if name.endswith("/action_server/error_recovery")}
+    assert len(recovery) == 1
+    assert not {name for name in _named(of_people, "services", "request") if "/service_server/" in name}
+
+
+def _commissioning(cell: str) -> ElementTree.Element:
+    (enclave,) = (each for each in _policy(cell).iter("enclave") if each.attrib["path"] == f"/{cell}/commissioning")
+    return enclave
+
+
+def _named(enclave: ElementTree.Element, plural: str, right: str) -> set[str]:
+    return {entry.text or "" for entries in enclave.iter(plural) if right in entries.attrib for entry in entries}
+
+
 def test_only_declared_sources_may_publish() -> None:
     policy = _policy("ur5e_pick")
     assert _holders(policy, "topics", "publish", "/object_pose") == {"perception"}

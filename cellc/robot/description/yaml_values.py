@@ -21,8 +21,9 @@ class TooManyValuesError(CellcError, ValueError):
 
 
 _SEXAGESIMAL = re.compile(r"[-+0-9_:.]+")
-_LONGEST_NUMBER = 400
-"""Characters of a number of YAML 1.1, whose value to base 60 takes time by the square of its length."""
+_LONGEST_NUMBER = 4300
+"""Characters of a number, as many as Python reads of an integer (sys.int_info.default_max_str_digits): the value of one
+to base 60, as YAML 1.1 has them, takes time by the square of its length."""
 
 
 def load_values(text: str, loader: Loader = FAST, limit: str = "xacro-items", *, aliases: bool = True) -> Any:
