@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import pytest
 
@@ -28,10 +29,10 @@ def _graph() -> CellGraph:
     return graph_of(COMPLETE)
 
 
-def _question(**changes: object) -> MotionQuestion:
+def _question(**changes: Any) -> MotionQuestion:
     """Ask about the cell with another arm."""
     cell = _graph().cell
-    devices = tuple(replace(one, **changes) if one.name == "arm" else one for one in cell.devices)  # type: ignore[arg-type]
+    devices = tuple(replace(one, **changes) if one.name == "arm" else one for one in cell.devices)
     return motion_question(build_graph(replace(cell, devices=devices)))
 
 

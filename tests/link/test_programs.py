@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import pytest
 
@@ -19,9 +20,9 @@ def _nodes() -> dict[str, Node]:
     return {node.name: node for node in linked(COMPLETE).nodes}
 
 
-def _bare(name: str, **changes: object) -> Node:
+def _bare(name: str, **changes: Any) -> Node:
     node = replace(_nodes()[name], endpoints=NodeEndpoints(), inside=())
-    return replace(node, **changes)  # type: ignore[arg-type]
+    return replace(node, **changes)
 
 
 @pytest.mark.parametrize(
