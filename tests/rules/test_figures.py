@@ -57,10 +57,37 @@ def test_joint_alone_takes(way: float, velocity: float, acceleration: float | No
     assert _alone_s(way, velocity, acceleration) == pytest.approx(expected_s)
 
 
-def test_a_wrong_velocity_limit_is_shown_where_the_description_has_it() -> None:
-    checked = check(CORPUS / "invalid/missing-velocity-limit-zero.yaml")
-    (finding,) = (one for one in checked if one.code == "missing-velocity-limit")
-    (described,) = finding.related
-    file = Path(described.span.file)
-    assert file.suffix in (".urdf", ".xacro")
-    assert "<joint" in (ROOT / file).read_text(encoding="utf-8").splitlines()[described.span.line - 1]
+IN_A_DESCRIPTION = {
+    "assumed-joint-limit": "<joint ",
+    "circular-mimic": "<joint ",
+    "mimic-of-fixed-joint": "<joint ",
+    "missing-velocity-limit": "<joint ",
+    "path-tolerance-without-effect": "<joint ",
+    "pose-outside-limits": "<joint ",
+    "several-root-links": "<link ",
+    "speed-of-some-positions": "<joint ",
+    "unplannable-joint": "<joint ",
+}
+
+
+@pytest.mark.parametrize(("code", "element"), IN_A_DESCRIPTION.items())
+def test_what_a_rule_says_of_an_element_is_shown_where_the_description_has_it(
+    code: str, element: str, folder: Path
+) -> None:
+    (rule,) = (one for one in ALL_RULES if one.code == code)
+    cases = sorted((CORPUS / "invalid").glob(f"{code}-*.yaml"))
+    told = [one for case in cases for one in check(case)]
+    told += diagnose_example(examples(rule)[0], folder)
+    places = [related.span for one in told if one.code == code for related in one.related]
+    assert places
+    for span in places:
+        assert Path(span.file).suffix in (".urdf", ".xacro")
+        assert element in (ROOT / span.file).read_text(encoding="utf-8").splitlines()[span.line - 1]
+
+
+def test_a_joint_of_the_catalog_is_not_shown_there(tmp_path: Path) -> None:
+    spec = (ROOT / "cells/ur5e_pick/cell.yaml").read_text(encoding="utf-8")
+    file = tmp_path / "cell.yaml"
+    file.write_text(spec.replace("0 -90 90 -90 -90 0 deg", "0 -90 190 -90 -90 0 deg"), encoding="utf-8")
+    (finding,) = (one for one in check(file) if one.code == "pose-outside-limits")
+    assert finding.related == ()

@@ -27,6 +27,7 @@ Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): lower, upper, ve
 from __future__ import annotations
 
 from cellc.compiler.cell.device import Device
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -38,7 +39,9 @@ def check(graph: CellGraph) -> Findings:
         if assumed:
             named = ", ".join(f"`{key}` of {_shown(joints)}" for key, joints in assumed.items())
             message = f"limits of `{device.name}` are assumed: {named}"
-            yield found(graph, (*device.path, "model"), message)
+            first = [joints[0] for joints in assumed.values()]
+            places = described(graph, [f"{device.prefix}{name}" for name in first])
+            yield found(graph, (*device.path, "model"), message, related=places)
 
 
 def _assumed(device: Device) -> dict[str, list[str]]:

@@ -24,9 +24,9 @@ Source: https://wiki.ros.org/urdf/XML/joint (as of 2026-11-22): velocity is a re
 
 from __future__ import annotations
 
-from cellc.compiler.cell.device import Device
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.excuses import spared
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _CODE = "missing-velocity-limit"
 
@@ -39,10 +39,4 @@ def check(graph: CellGraph) -> Findings:
             if (joint.velocity is None or joint.velocity <= 0.0) and not spared(graph, device, joint.name, _CODE):
                 stated = "no velocity limit" if joint.velocity is None else f"a velocity limit of {joint.velocity:g}"
                 message = f"joint `{joint.name}` has {stated}"
-                yield found(graph, (*device.path, "model"), message, related=_described(device, joint.name))
-
-
-def _described(device: Device, name: str) -> tuple[Related, ...]:
-    """Return where the description has a joint."""
-    spans = (joint.span for joint in device.description.joints if joint.name == name)
-    return tuple(Related("the joint is described here", span) for span in spans if span is not None)
+                yield found(graph, (*device.path, "model"), message, related=described(graph, [joint.name]))

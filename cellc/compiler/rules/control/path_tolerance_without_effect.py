@@ -35,6 +35,7 @@ from collections.abc import Mapping
 
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import DeviceJoint
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.contract.vocabulary import TRAJECTORIES
 
@@ -57,7 +58,7 @@ def check(graph: CellGraph) -> Findings:
             written = graph.cell.text(*path) or f"{controller.path_tolerance[joint].value:g}"
             message = f"`path_tolerance` of `{controller.name}` must be at most {widest:.3g} rad or m, half of"
             message += f" what `{joint}` moves or 1 rad, got {written}"
-            yield found(graph, path, message)
+            yield found(graph, path, message, related=described(graph, [joint]))
 
 
 def _bounds(joints: Mapping[str, DeviceJoint], controller: Controller) -> dict[str, float]:

@@ -26,6 +26,7 @@ Source: docs/principles.md#facts-of-the-catalog
 
 from __future__ import annotations
 
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 _ROUNDING = 1.001
@@ -50,4 +51,4 @@ def check(graph: CellGraph) -> Findings:
             message += f" got {joint.velocity:.3g} rad/s"
             written = device.limit_shares.velocity
             advice = f"write at most {written / most * 100:.0f} %"
-            yield found(graph, path, message, advice)
+            yield found(graph, path, message, advice, described(graph, [joint.name]))

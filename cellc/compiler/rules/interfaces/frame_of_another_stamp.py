@@ -36,10 +36,12 @@ Source: docs/principles.md#command-contracts
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+
+_Stamp = tuple[str, str, YamlPath]
 
 
 @rule(Severity.ERROR, assumes=("camera-data-in-body-frame",))
@@ -58,14 +60,28 @@ def check(graph: CellGraph) -> Findings:
                 break
 
 
-def _stamps(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str, YamlPath]]:
+def _stamps(graph: CellGraph, interface: Interface) -> Iterator[_Stamp]:
     """Yield the frame of each publisher that has one, with the name of the publisher and where it says so."""
     for source in interface.sources:
-        for device in graph.cell.devices:
-            for stream in device.camera.streams if device.name == source.node and device.camera is not None else ():
-                if interface.name in (stream.topic, stream.info_topic):
-                    yield stream.frame, device.name, device.path
-        for controller in graph.cell.controllers:
-            frame = controller.parameters.get("frame_id")
-            if controller.label == source.node and isinstance(frame, str) and frame:
-                yield frame, controller.name, (*controller.path, "parameters", "frame_id")
+        yield from graph.once(_of_cameras).get((source.node, interface.name), ())
+        yield from graph.once(_of_controllers).get(source.node, ())
+
+
+def _of_cameras(graph: CellGraph) -> Mapping[tuple[str, str], list[_Stamp]]:
+    """Return what each device with a camera stamps, by its name and the topic."""
+    stamps: dict[tuple[str, str], list[_Stamp]] = {}
+    for device in graph.cell.devices:
+        for stream in device.camera.streams if device.camera is not None else ():
+            for topic in dict.fromkeys((stream.topic, stream.info_topic)):
+                stamps.setdefault((device.name, topic), []).append((stream.frame, device.name, device.path))
+    return stamps
+
+
+def _of_controllers(graph: CellGraph) -> Mapping[str, list[_Stamp]]:
+    stamps: dict[str, list[_Stamp]] = {}
+    for controller in graph.cell.controllers:
+        frame = controller.parameters.get("frame_id")
+        if isinstance(frame, str) and frame:
+            path = (*controller.path, "parameters", "frame_id")
+            stamps.setdefault(controller.label, []).append((frame, controller.name, path))
+    return stamps

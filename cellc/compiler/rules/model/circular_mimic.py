@@ -33,6 +33,7 @@ Source:
 
 from __future__ import annotations
 
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, rule
 from cellc.robot.description.model import Description, Joint
 
@@ -45,7 +46,8 @@ def check(graph: CellGraph) -> Findings:
         if part.joint.name in followed:
             chain = " → ".join(f"`{name}`" for name in (part.joint.name, *followed))
             message = f"joint `{part.joint.name}` mimics itself: {chain}"
-            yield Finding(message, part.span, part.path)
+            others = [name for name in followed if name != part.joint.name]
+            yield Finding(message, part.span, part.path, related=described(graph, others))
 
 
 def _leaders(description: Description, joint: Joint) -> list[str]:

@@ -34,6 +34,7 @@ Source:
 
 from __future__ import annotations
 
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, did_you_mean, rule
 
 
@@ -46,4 +47,5 @@ def check(graph: CellGraph) -> Findings:
         if leader is not None and not leader.movable:
             message = f"joint `{part.joint.name}` mimics `{leader.name}`, which is {leader.type}"
             movable = (joint.name for joint in part.device.description.joints if joint.movable)
-            yield Finding(message, part.span, part.path, did_you_mean(leader.name, movable, "moving joints"))
+            advice = did_you_mean(leader.name, movable, "moving joints")
+            yield Finding(message, part.span, part.path, advice, described(graph, [leader.name]))

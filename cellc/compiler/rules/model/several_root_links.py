@@ -23,7 +23,7 @@ Source: https://wiki.ros.org/urdf/XML/robot (as of 2026-11-22): a robot is a tre
 
 from __future__ import annotations
 
-from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, rule
+from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
 
 
 @rule(Severity.ERROR, assumes=("joint-of-unknown-link",))
@@ -33,4 +33,6 @@ def check(graph: CellGraph) -> Findings:
         root = part.device.root_link
         if part.link.name != root and part.link.name in part.device.description.roots():
             message = f"link `{part.link.name}` hangs on nothing; the root of `{part.device.name}` is `{root}`"
-            yield Finding(message, part.span, part.path)
+            mounted = part.device.description.link(root)
+            related = (Related("the root", mounted.span),) if mounted is not None and mounted.span is not None else ()
+            yield Finding(message, part.span, part.path, related=related)

@@ -24,6 +24,7 @@ Source: docs/principles.md#how-geometry-is-checked
 
 from __future__ import annotations
 
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -41,4 +42,4 @@ def check(graph: CellGraph) -> Findings:
             if not joint.lower <= position <= joint.upper:
                 allowed = f"between {joint.lower:.4g} and {joint.upper:.4g}"
                 message = f"`{name}` must be {allowed} in pose `{pose.name}`, got {position:.4g}"
-                yield found(graph, pose.path, message)
+                yield found(graph, pose.path, message, related=described(graph, [name]))

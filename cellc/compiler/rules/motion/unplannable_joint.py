@@ -38,6 +38,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.cell.device import DeviceJoint
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -48,7 +49,8 @@ def check(graph: CellGraph) -> Findings:
     for group in graph.cell.groups:
         for joint in (joints[name] for name in group.joints if name in joints):
             if lacks := " and no ".join(_lacking(joint)):
-                yield found(graph, group.path, f"joint `{joint.name}` of group `{group.name}` has no {lacks}")
+                message = f"joint `{joint.name}` of group `{group.name}` has no {lacks}"
+                yield found(graph, group.path, message, related=described(graph, [joint.name]))
 
 
 def _lacking(joint: DeviceJoint) -> Iterator[str]:

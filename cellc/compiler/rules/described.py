@@ -1,0 +1,21 @@
+"""Where descriptions have the joints that a finding speaks of: the second place to look at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from cellc.compiler.rules.kit import CellGraph, Related
+
+
+def described(graph: CellGraph, joints: Iterable[str]) -> tuple[Related, ...]:
+    """Return the places of joints in the folders of the cell; nobody mends the catalog for one cell."""
+    places = graph.once(_places)
+    return tuple(places[name] for name in joints if name in places)
+
+
+def _places(graph: CellGraph) -> Mapping[str, Related]:
+    return {
+        part.joint.name: Related(f"joint `{part.joint.name}` is described here", part.joint.span)
+        for part in graph.model.joints()
+        if part.joint.span is not None and "/" in graph.cell.text(*part.path)
+    }
