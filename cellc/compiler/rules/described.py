@@ -8,7 +8,7 @@ from cellc.compiler.rules.kit import CellGraph, Related
 
 
 def described(graph: CellGraph, joints: Iterable[str]) -> tuple[Related, ...]:
-    """Return the places of joints in the folders of the cell; nobody mends the catalog for one cell."""
+    """Return the places of joints in the folders of the cell; a catalog entry is not changed for one cell."""
     places = graph.once(_places)
     return tuple(places[name] for name in joints if name in places)
 
