@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager
-from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.device import Device, Stamp
 from cellc.compiler.cell.entity import Places
 from cellc.compiler.cell.frame import Frame, SceneBox, SharedArea
 from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface, InterfaceKind, Node, NodeSource
@@ -201,6 +201,10 @@ class Cell:
             KeyError: the name is unknown.
         """
         return self._devices[name]
+
+    def stamp_of(self, name: str) -> Stamp | None:
+        """Return what a device stamps; None of a node, which is no device."""
+        return self._devices[name].stamp if name in self._devices else None
 
     @cached_property
     def _devices(self) -> Mapping[str, Device]:

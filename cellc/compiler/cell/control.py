@@ -143,6 +143,13 @@ class ControllerManager(Entity):
         """Fully qualified name of its node, with a leading slash."""
         return f"{self.namespace}/controller_manager"
 
+    def by_kind(self) -> Mapping[tuple[str, str | None], list[Controller]]:
+        """Return the controllers of each kind and device."""
+        found: dict[tuple[str, str | None], list[Controller]] = {}
+        for controller in self.controllers:
+            found.setdefault((controller.kind, controller.device), []).append(controller)
+        return found
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AdaptedDevice:

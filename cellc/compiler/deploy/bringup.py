@@ -297,13 +297,13 @@ def _activated_later(cell: Cell, manager: ControllerManager, target: Target) -> 
 
 def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device, TopicProof]]:
     """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
+    telling = manager.by_kind()
     for device in _components(cell, manager, "real"):
         for told in () if device.hardware is None else device.hardware.heard_before_a_claim:
-            for controller in manager.controllers:
-                if (controller.kind, controller.device) == (told.controller_kind, device.name):
-                    topic = f"{controller.full_name}/{told.topic}"
-                    proof = TopicProof(kind="topic", topic=topic, type=told.type, field=told.field, value=told.value)
-                    yield device, proof
+            for controller in telling.get((told.controller_kind, device.name), ()):
+                topic = f"{controller.full_name}/{told.topic}"
+                proof = TopicProof(kind="topic", topic=topic, type=told.type, field=told.field, value=told.value)
+                yield device, proof
 
 
 def _heard(cell: Cell, manager: ControllerManager) -> Iterator[Proof]:

@@ -6,11 +6,12 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface, InterfaceKind
 from cellc.compiler.cell.site import UNKNOWN
-from cellc.compiler.deploy.bringup import watches
 from cellc.compiler.deploy.configuration import version_tuple
+from cellc.compiler.deploy.ends import ends_on_real
 from cellc.compiler.deploy.files import is_servo
 from cellc.compiler.deploy.gate_motion import (
     Values,
@@ -35,7 +36,6 @@ from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import positive_zero, shortest
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
-from cellc.contract.bring_up import CLAIM_WATCH
 from cellc.contract.pins import is_commit, last_word
 from cellc.contract.vocabulary import BringUpPhase, Feature, GateCode, features
 
@@ -165,16 +165,18 @@ def _tool_centers(graph: CellGraph) -> Iterator[Values]:
             xyz = _figures((1000.0 * value for value in pose.position), 2)
             turn = _figures(pose.rotation_vector(), 4)
             rpy = _figures(map(math.degrees, pose.rpy()), 2)
-            yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph.cell, device)
+            yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph, device)
 
 
 def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
+    tools: dict[str, list[str]] = {}
+    for tool in graph.cell.devices:
+        if tool.connection is not None and tool.connection.through is not None:
+            tools.setdefault(tool.connection.through, []).append(tool.name)
     for device in graph.cell.devices:
         if device.tool_connector is not None:
             voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
-            links = ((device.name, device.connection) for device in graph.cell.devices)
-            tools = (name for name, link in links if link is not None and link.through == device.name)
-            yield device.name, voltage, ", ".join(tools) or "every connected tool"
+            yield device.name, voltage, ", ".join(tools.get(device.name, ())) or "every connected tool"
 
 
 def _servo(graph: CellGraph) -> Iterator[Values]:
@@ -193,16 +195,16 @@ def _figures(values: Iterable[float], digits: int) -> str:
     return " ".join(f"{positive_zero(round(value, digits)):.{digits}f}" for value in values)
 
 
-def _shows_center(cell: Cell, device: Device) -> str:
+def _shows_center(graph: CellGraph, device: Device) -> str:
     """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
-    kind = device.robot.tcp_kind
-    telling = (
-        controller
-        for controller in cell.controllers
-        if (controller.kind, controller.device) == (kind, device.name) and controller.active
-    )
-    one = next(telling, None)
+    one = graph.once(_active_by_kind).get((device.robot.tcp_kind, device.name))
     return "" if one is None else f"timeout 10 ros2 topic echo --once {one.full_name}/{device.robot.tcp_topic}"
+
+
+def _active_by_kind(graph: CellGraph) -> Mapping[tuple[str | None, str | None], Controller]:
+    """Return the first active controller of each kind and device."""
+    active = (controller for controller in reversed(graph.cell.controllers) if controller.active)
+    return {(controller.kind, controller.device): controller for controller in active}
 
 
 def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) -> Iterator[Values]:
@@ -271,35 +273,9 @@ def _devices(graph: CellGraph) -> Iterator[Values]:
 
 def _interfaces(graph: CellGraph) -> Iterator[Values]:
     for interface in _on_real(graph):
-        starts, ends = _ends_on_real(graph.cell, interface)
+        starts, ends = ends_on_real(graph, interface)
         command = endpoint_command(graph.cell, interface.kind, interface.name)
         yield interface.name, ", ".join(starts) or "none", ", ".join(ends) or "none", command
-
-
-def _ends_on_real(cell: Cell, interface: Interface) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the full names of publishers or servers, and of subscribers or clients, on the real target.
-
-    A driver's node listens to the controllers of its robot, the stopper of claims to what it watches, and a planner has
-    a client of each action that it executes on. A person who compares the graph with the page finds them all.
-    """
-
-    def named(ends: tuple[Endpoint, ...]) -> Iterator[str]:
-        for end in ends:
-            if "real" in end.targets:
-                yield end.full_name + (" (from G7 on)" if end.full_name in cell.started_late else "")
-
-    sinks = dict.fromkeys((*named(interface.sinks), *_beside(cell, interface)))
-    return tuple(dict.fromkeys(named(interface.sources))), tuple(sinks)
-
-
-def _beside(cell: Cell, interface: Interface) -> Iterator[str]:
-    """Yield subscribers and clients that the spec does not name."""
-    for node in cell.nodes if interface.kind is not InterfaceKind.ACTION else ():
-        asked = node.endpoints.requests if interface.kind is InterfaceKind.SERVICE else node.endpoints.subscribes
-        if interface.name in {node.remaps.get(text, text) for text in asked}:
-            yield node.full_name
-    if any(watch.while_holds.topic == interface.name for watch in watches(cell)):
-        yield CLAIM_WATCH
 
 
 def _streams(graph: CellGraph) -> Iterator[Values]:

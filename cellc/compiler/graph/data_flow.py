@@ -205,8 +205,7 @@ def _share(cell: Cell, topic: Interface) -> AgeShare:
 
 
 def _exposure_s(cell: Cell, topic: Interface) -> float:
-    stamps = {device.name: device.stamp for device in cell.devices}
-    found = (stamps.get(source.node) for source in topic.sources)
+    found = (cell.stamp_of(source.node) for source in topic.sources)
     return max((stamp.exposure_s for stamp in found if stamp is not None and stamp.exposure_s is not None), default=0.0)
 
 

@@ -13,6 +13,7 @@ from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind, Node, ParameterValue
 from cellc.compiler.link.controller import ControlContext, ControllerPlace, link_controller
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
+from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import home_host, unknown_name
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
@@ -52,7 +53,7 @@ def _manager(
     if written.host is not None and written.host not in context.spec.hosts:
         at = (*path, "host")
         problems.append(unknown_name("unknown-host", written.host, "host", context.spec.hosts, document, at))
-    for key, entry in written.controllers.items():
+    for key, entry in until_hopeless(written.controllers.items(), problems):
         label = f"{written.namespace}/{key}" if key in shared else key
         place = ControllerPlace(key, label, name, written.namespace, (*path, "controllers", key))
         bound = link_controller(place, entry, context)

@@ -16,6 +16,7 @@ from cellc.compiler.cell.frame import WORLD
 from cellc.compiler.cell.kinematics import Kinematics
 from cellc.compiler.link.device_facts import limit_shares, with_catalog, with_statements
 from cellc.compiler.link.hardware import device_driver, hardware_component
+from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.kinematics import link_kinematics, with_kinematics
 from cellc.compiler.link.names import Placeholders, home_host, placeholders, port_of, unknown_name
 from cellc.compiler.link.ports import port_shifts
@@ -56,7 +57,7 @@ def link_devices(
     kinematics: dict[str, Kinematics | None] = {}
     problems: list[Diagnostic] = []
     budget = Budget(limits().xacro_seconds_together, children_seconds)
-    for name, written in spec.devices.items():
+    for name, written in until_hopeless(spec.devices.items(), problems):
         entry = _catalog_entry(name, written, document, budget, packages)
         problems += entry.diagnostics
         if entry.value is not None:
@@ -70,7 +71,7 @@ def link_devices(
     devices: list[BoundDevice] = []
     shifts = port_shifts({name: (spec.devices[name], entry.model) for name, entry in entries.items()})
     frames, carried = _mount_frames(spec, entries), _carried(spec)
-    for name, written in spec.devices.items():
+    for name, written in until_hopeless(spec.devices.items(), problems):
         parent = _parent_frame(name, written, document, frames)
         problems += parent.diagnostics
         # Mounted somewhere even so: what refers to its frames, its node and its joints is right.
@@ -86,7 +87,7 @@ def link_devices(
         bound = replace(bound, device=with_kinematics(shaped, kinematics[name], bound.facts))
         problems += _unknown_simulated_joints(bound.device, document)
         devices.append(bound)
-    return Outcome(tuple(devices), tuple(problems))
+    return Outcome(tuple(devices) if len(devices) == len(entries) else None, tuple(problems))
 
 
 def _unknown_simulated_joints(device: Device, document: SourceDocument) -> list[Diagnostic]:

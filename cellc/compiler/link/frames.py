@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SceneBox, SharedArea, SimulatedPose
+from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import pose, si, vector
 from cellc.compiler.source.document import SourceDocument
@@ -58,15 +59,16 @@ def link_frames(
     """
     frames = [_world(document), *_device_frames(spec, document, devices)]
     problems: list[Diagnostic] = []
-    for name, written in spec.frames.items():
+    for name, written in until_hopeless(spec.frames.items(), problems):
         bound = _spec_frame(name, written, document, names, measured.get(name))
         problems += [*bound.diagnostics, *_unknown_calibration(spec, document, ("frames", name), written.calibration)]
         problems += _unknown_publisher(spec, document, name, written)
         if bound.value is not None:
             frames.append(bound.value)
-    for device, mounted in ((name, entry.mount) for name, entry in spec.devices.items()):
-        if mounted is not None:
-            problems += _unknown_calibration(spec, document, ("devices", device, "mount"), mounted.calibration)
+    for device, entry in spec.devices.items():
+        if entry.mount is not None:
+            at = ("devices", device, "mount")
+            problems += _unknown_calibration(spec, document, at, entry.mount.calibration)
     return Outcome(tuple(frames), tuple(problems))
 
 
@@ -74,7 +76,7 @@ def link_scene(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
     """Bind the solid things of the cell."""
     boxes: list[SceneBox] = []
     problems: list[Diagnostic] = []
-    for name, written in spec.scene.items():
+    for name, written in until_hopeless(spec.scene.items(), problems):
         path = ("scene", name)
         parent = names.bind(written.parent, (*path, "parent"))
         problems += parent.diagnostics
@@ -97,7 +99,7 @@ def link_areas(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
     """Bind the volumes that several arms share."""
     areas: list[SharedArea] = []
     problems: list[Diagnostic] = []
-    for name, written in spec.areas.items():
+    for name, written in until_hopeless(spec.areas.items(), problems):
         path = ("areas", name)
         parent = names.bind(written.parent, (*path, "parent"))
         problems += parent.diagnostics

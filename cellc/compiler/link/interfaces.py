@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind, SimulatedNetwork
 from cellc.compiler.link.endpoints import EndName, EndpointNames, with_changes
 from cellc.compiler.link.frames import FrameNames
+from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import si
 from cellc.compiler.source.document import SourceDocument
@@ -29,7 +30,7 @@ def link_interfaces(
     """Bind every interface that the user wrote."""
     interfaces: list[Interface] = []
     problems: list[Diagnostic] = []
-    for name, written in spec.interfaces.items():
+    for name, written in until_hopeless(spec.interfaces.items(), problems):
         bound = _interface(name, written, document, ends, frames)
         problems += bound.diagnostics
         if bound.value is not None:
@@ -134,7 +135,7 @@ def _endpoints(
 ) -> Outcome[tuple[Endpoint, ...]]:
     endpoints: list[Endpoint] = []
     problems: list[Diagnostic] = []
-    for node, qos, at in _written_endpoints(written, path):
+    for node, qos, at in until_hopeless(_written_endpoints(written, path), problems):
         bound = _end_name(node, document, at, ends)
         problems += bound.diagnostics
         if bound.value is not None:

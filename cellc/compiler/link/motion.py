@@ -10,6 +10,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Frame
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, PlanningGroup
 from cellc.compiler.link.frames import FrameNames
+from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.planners import link_solver
 from cellc.compiler.link.quantities import pose, vector
@@ -45,7 +46,7 @@ def link_groups(
         joint.child: joint for device in machine.devices for joint in device.description.joints if joint.movable
     }
     parents = {frame.name: frame.parent for frame in frames}
-    for name, written in spec.motion.groups.items():
+    for name, written in until_hopeless(spec.motion.groups.items(), problems):
         path = ("motion", "groups", name)
         base, tip = names.bind(written.base, (*path, "base")), names.bind(written.tip, (*path, "tip"))
         solver = link_solver(name, written, document, distro)
@@ -82,7 +83,7 @@ def link_poses(
     poses: list[NamedPose] = []
     problems: list[Diagnostic] = []
     joints = {group.name: group.joints for group in groups}
-    for name, by_group in spec.motion.poses.items():
+    for name, by_group in until_hopeless(spec.motion.poses.items(), problems):
         for group, positions in by_group.items():
             path = ("motion", "poses", name, group)
             if group not in spec.motion.groups:
@@ -108,7 +109,7 @@ def link_goals(
     """Bind goals to their frame and group; the only group of a cell is the default."""
     goals: list[CartesianGoal] = []
     problems: list[Diagnostic] = []
-    for name, written in spec.motion.goals.items():
+    for name, written in until_hopeless(spec.motion.goals.items(), problems):
         path = ("motion", "goals", name)
         frame = names.bind(written.frame, (*path, "frame"))
         problems += frame.diagnostics

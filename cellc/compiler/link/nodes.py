@@ -13,6 +13,7 @@ from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.compiler.link.hardware import JOINT_STATES, camera_parameters, driver_remaps, run_nodes
+from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import home_host, unknown_name
 from cellc.compiler.link.programs import endpoints
 from cellc.compiler.link.robot import node_parameters
@@ -31,7 +32,7 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDev
     """Bind the nodes of the spec to their hosts, and add the drivers that the catalog names."""
     nodes: list[Node] = []
     problems = [_not_a_run(run, document, path) for run, path in _runs(spec) if not _RUN.fullmatch(run)]
-    for name, written in spec.nodes.items():
+    for name, written in until_hopeless(spec.nodes.items(), problems):
         path = ("nodes", name)
         package, _, executable = written.run.partition("/")
         if written.host is not None and written.host not in spec.hosts:

@@ -13,6 +13,7 @@ from cellc.compiler.cell.motion import Fault, Rehearsal, Step
 from cellc.compiler.cell.switched import Switched
 from cellc.compiler.link.faults import Target, fault_targets, link_fault
 from cellc.compiler.link.frames import FrameNames
+from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import si
 from cellc.compiler.source.document import SourceDocument
@@ -69,7 +70,7 @@ def link_rehearsals(
     )
     rehearsals: list[Rehearsal] = []
     problems: list[Diagnostic] = []
-    for name, written in spec.rehearsals.items():
+    for name, written in until_hopeless(spec.rehearsals.items(), problems):
         bound = _rehearsal(name, written, spec, document, names)
         problems += bound.diagnostics
         if bound.value is not None:

@@ -27,7 +27,7 @@ Source: docs/principles.md#clocks-and-age
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
@@ -53,10 +53,13 @@ def check(graph: CellGraph) -> Findings:
 
 def _clocks(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str]]:
     """Yield each publisher with its clock: what a sensor states, what a node runs on, or that of all targets."""
-    stamps = {device.name: device.stamp for device in graph.cell.devices}
-    clocks = {node.name: node.clock for node in graph.cell.nodes}
+    clocks = graph.once(_node_clocks)
     targets = {target.clock for target in graph.cell.targets.values()}
     common = targets.pop() if len(targets) == 1 else "ros"
     for source in interface.sources:
-        stamp = stamps.get(source.node)
+        stamp = graph.cell.stamp_of(source.node)
         yield source.node, clocks.get(source.node) or common if stamp is None else stamp.source
+
+
+def _node_clocks(graph: CellGraph) -> Mapping[str, str | None]:
+    return {node.name: node.clock for node in graph.cell.nodes}
