@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FrameType
+from typing import TYPE_CHECKING
 
+import pytest
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.gate_subjects import ROWS
+from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.pipeline import check, emit_cell
+from cellc.compiler.rules.run import ALL_RULES
+
+if TYPE_CHECKING:
+    from _typeshed import TraceFunction
 
 _FIRST, _MANY, _MOST = 14, 250, 2.15
 
@@ -81,3 +91,48 @@ def test_a_check_of_many_devices_grows_with_their_number(tmp_path: Path) -> None
     # Few calls for each device, and many devices: what looks at all of them for each one is most of the work.
     once, twice = (_calls(_stands(size), tmp_path, lambda file: check(file).graph) for size in (_MANY, 2 * _MANY))
     assert twice <= _MOST * once, f"{once} and {twice} calls"
+
+
+def _steps(work: Callable[[CellGraph], Iterator[object]], cell: Cell) -> int:
+    """Count the steps of the interpreter within cellc, once what is kept of the graph is there."""
+    graph, counted = build_graph(cell), 0
+    list(work(graph))
+
+    def within(_: FrameType, event: str, __: object) -> TraceFunction:
+        nonlocal counted
+        counted += event == "opcode"
+        return within
+
+    def enter(frame: FrameType, _: str, __: object) -> TraceFunction | None:
+        frame.f_trace_opcodes, frame.f_trace_lines = True, False
+        return within if "/cellc/" in frame.f_code.co_filename.replace("\\", "/") else None
+
+    before = sys.gettrace()
+    sys.settrace(enter)
+    try:
+        list(work(graph))
+    finally:
+        sys.settrace(before)
+    return counted
+
+
+LISTED = {"real_activation", "real_claim"}
+"""Each step of the bring-up lists all managed nodes: the file itself has the square of them."""
+WORK = {rule.code: rule.check for rule in ALL_RULES} | {name: rows for name, rows in ROWS.items() if name not in LISTED}
+_TWICE = 2.3
+
+
+@pytest.mark.parametrize("spec", [_cell, _stands])
+def test_no_rule_and_no_line_of_a_gate_searches_the_cell_for_each_of_its_things(
+    spec: Callable[[int], str], tmp_path: Path
+) -> None:
+    cells = []
+    for size in (15, 30, 60):
+        (tmp_path / "cell.yaml").write_text(spec(size), encoding="utf-8")
+        graph = check(tmp_path / "cell.yaml").graph
+        assert graph is not None
+        cells.append(graph.cell)
+    # Of three sizes the constant part drops out: twice the things that are added are twice the steps, or four times.
+    steps = {name: [_steps(work, cell) for cell in cells] for name, work in WORK.items()}
+    grown = {name: (twice - once, fourfold - twice) for name, (once, twice, fourfold) in steps.items()}
+    assert {name: added for name, added in grown.items() if added[1] > _TWICE * added[0] + 100} == {}

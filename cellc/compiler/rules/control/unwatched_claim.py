@@ -35,6 +35,9 @@ Source: https://github.com/UniversalRobots/Universal_Robots_ROS2_Driver/issues/1
 
 from __future__ import annotations
 
+from operator import itemgetter
+
+from cellc.compiler.cell.control import Controller
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -42,11 +45,10 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 def check(graph: CellGraph) -> Findings:
     """Yield controllers whose claims a real robot keeps over a stop of its program, where no topic reports the stop."""
     for manager in graph.cell.managers:
-        claims = [
-            (controller, {interface.rpartition("/")[0] for interface in controller.command_interfaces})
-            for controller in manager.controllers
-            if "real" in controller.targets
-        ]
+        claiming: dict[str, dict[int, Controller]] = {}
+        for number, controller in enumerate(manager.controllers):
+            for interface in controller.command_interfaces if "real" in controller.targets else ():
+                claiming.setdefault(interface.rpartition("/")[0], {})[number] = controller
         telling = {
             (controller.kind, controller.device)
             for controller in manager.controllers
@@ -60,13 +62,12 @@ def check(graph: CellGraph) -> Findings:
             kinds = [item.controller_kind for item in hardware.heard_before_a_claim]
             if any((kind, name) in telling for kind in kinds):
                 continue
-            joints = {joint.name for joint in device.joints}
+            owners = {number: one for joint in device.joints for number, one in claiming.get(joint.name, {}).items()}
             advice = (
                 f"add a controller of `type: {kinds[0]}` with `device: {name}`"
                 if kinds
                 else f"say under `told` of the `device.yaml` of `{name}` which topic reports whether its program runs"
             )
-            for one, claimed in claims:
-                if claimed & joints:
-                    message = f"`{name}` keeps the set points of `{one.name}` over a stop of its program, unheard"
-                    yield found(graph, one.path, message, advice)
+            for _, one in sorted(owners.items(), key=itemgetter(0)):
+                message = f"`{name}` keeps the set points of `{one.name}` over a stop of its program, unheard"
+                yield found(graph, one.path, message, advice)

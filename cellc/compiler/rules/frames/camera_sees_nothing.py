@@ -44,6 +44,8 @@ def check(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         streams = () if device.camera is None else device.camera.streams
         eyes = [(stream, graph.frames.in_world(stream.frame)) for stream in streams]
+        if not eyes:
+            continue
         things = list(_places(graph, _PLACED)) + [corner for box in graph.cell.scene for corner in _corners(graph, box)]
         seen = [*things, *_places(graph, (FrameKind.MOUNT,), device.name)]
         known = [(stream, eye) for stream, eye in eyes if eye is not None]

@@ -27,6 +27,8 @@ Source: docs/principles.md#network-in-layers
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -42,7 +44,13 @@ def check(graph: CellGraph) -> Findings:
 
 
 def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
-    device = next((device for device in graph.cell.devices if device.name == node), None)
-    if device is not None:
-        return device.topics.get(name)
-    return next((c.action_type for c in graph.cell.controllers if c.label == node and c.action == name), None)
+    topics = graph.once(_topics)
+    return topics[node].get(name) if node in topics else graph.once(_actions).get((node, name))
+
+
+def _topics(graph: CellGraph) -> Mapping[str, Mapping[str, str]]:
+    return {device.name: device.topics for device in graph.cell.devices}
+
+
+def _actions(graph: CellGraph) -> Mapping[tuple[str, str | None], str | None]:
+    return {(one.label, one.action): one.action_type for one in reversed(graph.cell.controllers)}

@@ -65,17 +65,15 @@ def _refused(cell: Cell, state: ControlState) -> Iterator[tuple[Controller, Cont
     for controller in state.active:
         for claim in controller.claims("real") if "real" in controller.targets else ():
             claiming.setdefault(claim.rpartition("/")[0], {})[controller.label] = controller
+    order = {controller.label: number for number, controller in enumerate(state.active)}
     for device in cell.devices:
         modes = None if device.hardware is None else device.hardware.modes
         if modes is None:
             continue
         joints = {joint.name for joint in device.joints}
         ours = {label for owner in (*joints, *modes.names) for label in claiming.get(owner, ())}
-        taken = [
-            (controller, modes.of(controller.claims("real"), joints))
-            for controller in state.active
-            if controller.label in ours
-        ]
+        active = [state.active[number] for number in sorted(order[label] for label in ours)]
+        taken = [(controller, modes.of(controller.claims("real"), joints)) for controller in active]
         for (first, own), (second, others) in combinations(taken, 2):
             refused = ((a, b) for a in sorted(own) for b in sorted(others) if not modes.allow(a, b))
             if (pair := next(refused, None)) is not None:
