@@ -53,4 +53,6 @@ def _topics(graph: CellGraph) -> Mapping[str, Mapping[str, str]]:
 
 
 def _actions(graph: CellGraph) -> Mapping[tuple[str, str | None], str | None]:
-    return {(one.label, one.action): one.action_type for one in reversed(graph.cell.controllers)}
+    return {
+        (controller.label, controller.action): controller.action_type for controller in reversed(graph.cell.controllers)
+    }
