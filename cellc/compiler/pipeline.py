@@ -7,7 +7,6 @@ on an error, so that one mistake does not cascade; rules all run.
 from __future__ import annotations
 
 import os
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -23,7 +22,7 @@ from cellc.compiler.rules.ignores import apply_ignores, ignore_comments, misused
 from cellc.compiler.rules.run import ALL_RULES, run_rules
 from cellc.compiler.source import read
 from cellc.compiler.source.codes import finding
-from cellc.compiler.source.document import MAX_FINDINGS, SourceDocument
+from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.text import with_shown_texts
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
@@ -214,26 +213,7 @@ def _beyond_limits(graph: CellGraph) -> tuple[Diagnostic, ...]:
 def _checked(
     file: str, texts: Mapping[str, str], found: tuple[Diagnostic, ...], graph: CellGraph | None = None
 ) -> Checked:
-    shown = _first_of_each_code(found)
-    return Checked(Findings(file, with_shown_texts(texts, shown, Path(file).parent), shown), graph)
-
-
-def _first_of_each_code(found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
-    """Return as many findings of each code as a person reads; the last of a code says how many more there are.
-
-    They are counted after comments have excused theirs: what is left out is never what would have stayed.
-    """
-    number: Counter[str] = Counter()
-    kept: list[Diagnostic] = []
-    many = Counter(diagnostic.code for diagnostic in found)
-    for diagnostic in found:
-        number[diagnostic.code] += 1
-        if number[diagnostic.code] == MAX_FINDINGS < many[diagnostic.code]:
-            left = f"not shown: {many[diagnostic.code] - MAX_FINDINGS} more `{diagnostic.code}`"
-            diagnostic = replace(diagnostic, help="; ".join(filter(None, (diagnostic.help, left))))
-        if number[diagnostic.code] <= MAX_FINDINGS:
-            kept.append(diagnostic)
-    return tuple(kept)
+    return Checked(Findings(file, with_shown_texts(texts, found, Path(file).parent), found), graph)
 
 
 def _excused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:

@@ -51,22 +51,3 @@ def test_binding_stops_and_says_what_it_left(sections: dict[str, object], tmp_pa
     left = int(last.help.rpartition("findings: ")[2].split()[0])
     assert len(checked.diagnostics) == _MOST
     assert left == _MANY - _MOST
-
-
-def _topics(comments: int) -> str:
-    """Return a spec in which no topic says what its reader wants; the first ones have a comment that excuses it."""
-    lines = ["format: 1", "cell: large", "versions: {ros: jazzy}", "nodes: {n: {run: tasks/node, owner: team}}"]
-    lines += [f"devices: {{d: {json.dumps(_STAGE)}}}", "interfaces:"]
-    for number in range(_MANY):
-        excuse = "  # cellc: ignore unstated-need -- the reader is not ours" if number < comments else ""
-        lines.append(f"  /t{number}: {{topic: std_msgs/msg/Empty, rate: 10 Hz, from: n, to: n}}{excuse}")
-    return "\n".join(lines)
-
-
-@pytest.mark.parametrize("excused", [0, 150])
-def test_findings_of_one_code_are_cut_after_comments_have_excused_theirs(excused: int, tmp_path: Path) -> None:
-    (tmp_path / "cell.yaml").write_text(_topics(excused), encoding="utf-8")
-    found = [finding for finding in check(tmp_path / "cell.yaml") if finding.code == "unstated-need"]
-    assert len(found) == _MOST
-    assert found[0].span.line == 7 + excused
-    assert found[-1].help.endswith(f"; not shown: {_MANY - excused - _MOST} more `unstated-need`")

@@ -66,6 +66,18 @@ def test_findings_stand_in_the_order_of_the_file() -> None:
     assert shown == _shown([earlier, later], {}, color=False)
 
 
+def test_findings_of_one_code_are_cut_and_the_last_says_how_many_more_there_are() -> None:
+    many = [finding(Span(FILE, line, 1, line, 2), f"number {line},", advice="swap them") for line in range(1, 251)]
+    other = replace(many[0], code="other", span=Span(FILE, 300, 1, 300, 2))
+    shown = _shown([*many, other], {}, color=False)
+    assert shown.count("[reversed-limits]") == 100
+    assert "number 100," in shown
+    assert "number 101," not in shown
+    assert "\nhelp: swap them; not shown: 150 more `reversed-limits`\n" in shown
+    assert "[other]" in shown
+    assert "not shown" not in _shown(many[:100], {}, color=False)
+
+
 def test_nothing_found_is_no_text() -> None:
     assert _shown([], {}, color=True) == ""
 

@@ -22,7 +22,7 @@ from cellc.compiler.link.devices import BoundDevice, link_devices
 from cellc.compiler.link.endpoints import QosResolver, name_endpoints
 from cellc.compiler.link.frames import FrameNames, link_areas, link_frames, link_scene, name_frames, scene_frames
 from cellc.compiler.link.hand_eye import Measured, link_hand_eye, with_mounts
-from cellc.compiler.link.hopeless import is_hopeless
+from cellc.compiler.link.hopeless import to_first_hopeless
 from cellc.compiler.link.interfaces import link_interfaces
 from cellc.compiler.link.motion import Machine, link_goals, link_groups, link_poses
 from cellc.compiler.link.moveit import link_octomap, link_servo, with_octomap
@@ -131,8 +131,6 @@ def _link_with_devices(
 ) -> Outcome[Cell]:
     placed = _placed(spec, document, linked_devices.value or ())
     assert placed.value is not None  # what cannot be placed is reported and left out
-    if is_hopeless(placed.diagnostics):
-        return Outcome(None, (*linked_devices.diagnostics, *placed.diagnostics))
     bound, names, all_frames = placed.value.bound, placed.value.names, placed.value.frames
     devices = tuple(device.device for device in bound)
     centers = link_centers(spec, devices, names)
@@ -146,9 +144,6 @@ def _link_with_devices(
     resolver = _qos_resolver(spec)
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
-    bases = (linked_devices, placed, centers, nodes, managers, interfaces)
-    if any(is_hopeless(part.diagnostics) for part in bases):
-        return Outcome(None, tuple(problem for part in bases for problem in part.diagnostics))
     written = interfaces.value or ()
     machine = Machine(devices, controllers, all_frames, names, placed=linked_devices.ok and placed.ok)
     planned = _planned(spec, document, distro, machine)
@@ -171,9 +166,9 @@ def _link_with_devices(
         uncertainty=uncertainty.value,
         behaviours={controller.plugin: controller.behaviour for controller in controllers},
     )
-    parts = (*bases, planned, rehearsals, uncertainty)
+    parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals, uncertainty)
     linked = as_driven(_with_plans(cell, planned.value))
-    return Outcome(linked, tuple(problem for part in parts for problem in part.diagnostics))
+    return Outcome(linked, tuple(to_first_hopeless(part.diagnostics for part in parts)))
 
 
 @dataclass(frozen=True, slots=True)

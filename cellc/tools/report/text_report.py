@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from cellc.tools.diagnose.diagnose import Cause, Suspicion
     from cellc.tools.diagnose.symptoms import LayerKnowledge
 
+_SHOWN = 100
+"""Findings of one code; `--format json` has all."""
 SEVERITY_STYLES: Mapping[Severity, Style] = {
     Severity.ERROR: Style.RED,
     Severity.BLOCKER: Style.MAGENTA,
@@ -33,9 +36,23 @@ def render_text(diagnostics: Iterable[Diagnostic], texts: Mapping[str, str]) -> 
     """
     lines: Texts = {file: text.split("\n") for file, text in texts.items()}
     shown: list[Line] = []
-    for diagnostic in sorted(diagnostics, key=_worst_first):
+    for diagnostic in _first_of_each_code(sorted(diagnostics, key=_worst_first)):
         shown += ["", *_render(diagnostic, lines)]
     return shown[1:]
+
+
+def _first_of_each_code(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield as many findings of each code as a person reads; the last of a code says how many more there are."""
+    left = Counter(diagnostic.code for diagnostic in diagnostics)
+    number: Counter[str] = Counter()
+    for diagnostic in diagnostics:
+        number[diagnostic.code] += 1
+        left[diagnostic.code] -= 1
+        if number[diagnostic.code] == _SHOWN and left[diagnostic.code]:
+            more = f"not shown: {left[diagnostic.code]} more `{diagnostic.code}`"
+            yield replace(diagnostic, help="; ".join(filter(None, (diagnostic.help, more))))
+        elif number[diagnostic.code] <= _SHOWN:
+            yield diagnostic
 
 
 def _worst_first(diagnostic: Diagnostic) -> tuple[int, tuple[Span, str, str]]:
