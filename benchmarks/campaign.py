@@ -34,7 +34,7 @@ def timed(folder: str, pairs: int, jobs: int) -> tuple[float, float, float, int,
     Returns:
         Wall and processor time in s, peak memory of the largest process in MB, runs, and those that failed.
     """
-    command = ["-m", "cellc", "mock", folder, "--campaign", "--json", "--pairs", str(pairs), "--jobs", str(jobs)]
+    command = ["-m", "cellc", "campaign", folder, "--json", "--pairs", str(pairs), "--jobs", str(jobs)]
     with tempfile.TemporaryFile() as output:
         begin = time.perf_counter()
         pid = os.posix_spawn(

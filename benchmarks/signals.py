@@ -76,7 +76,7 @@ def _commands(folder: Path) -> list[tuple[str, ...]]:
         ("-m", "cellc", "check", *many),
         mock,
         (*mock, "--evidence", str(folder / "evidence")),
-        (*mock, "--campaign", "--jobs", "2"),
+        ("-m", "cellc", "campaign", mock[-1], "--jobs", "2"),
     ]
 
 

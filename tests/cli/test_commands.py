@@ -189,3 +189,18 @@ def test_help_shows_a_call_that_the_command_takes(name: str) -> None:
 )
 def test_progress_of_many_runs_has_their_rate_and_what_is_left(done: int, seconds: float, told: str) -> None:
     assert pace(f"{done} of 200", 200, done, 1, seconds) == told
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("--live --evidence x", "--live does not go with --evidence."),
+        ("--speed 2", "--speed needs --live."),
+        ("--listen 127.0.0.1:1", "--listen needs --live."),
+        ("--live --speed 0", "--speed must be greater than 0, got 0.0."),
+        ("--live --speed nan", "--speed must be greater than 0, got nan."),
+    ],
+)
+def test_options_of_a_view_that_do_not_go_together_are_told(options: str, said: str) -> None:
+    ran = run("mock", "nowhere", *options.split())
+    assert (ran.code, said in ran.err) == (2, True), ran.err

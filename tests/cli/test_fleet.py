@@ -179,18 +179,32 @@ def test_a_folder_that_cannot_be_executed_is_a_row_and_the_worst_code_counts(bui
     assert "holds no contract.json" in _rows(ran)[1]["problem"]
 
 
-def test_the_mock_builds_cells_with_a_matrix_for_the_time_of_the_call(cells: Path) -> None:
+@pytest.mark.parametrize(("command", "told"), [("mock", ["1", "of", "1"]), ("sweep", [])])
+def test_the_mock_builds_cells_with_a_matrix_for_the_time_of_the_call(
+    command: str, told: list[str], cells: Path
+) -> None:
     before = sorted(cells.rglob("*"))
-    ran = run("mock", (cells / "*").as_posix(), "--matrix", "ros=jazzy", "--jobs", "1", "--sweep", "1")
+    ran = run(command, (cells / "*").as_posix(), "--matrix", "ros=jazzy", "--jobs", "1")
     assert ran.code == 1
-    assert _words(ran, "first") == ["passed", "first", "jazzy", "0", "9", "1", "1", "of", "1"]
+    assert _words(ran, "first") == ["passed", "first", "jazzy", "0", "9", "1", *told]
     assert "there is no kind of controller `no_such_kind`" in ran.out
     assert sorted(cells.rglob("*")) == before
 
 
-@pytest.mark.parametrize("option", ["--campaign", "--gates", "--evidence=x", "--rehearsal=close"])
-def test_what_is_about_one_folder_is_refused_for_many(option: str, built: Path) -> None:
-    ran = run("mock", built.as_posix(), option)
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [
+        ("mock", "--live"),
+        ("mock", "--records=x"),
+        ("mock", "--evidence=x"),
+        ("mock", "--rehearsal=close"),
+        ("sweep", "--evidence=x"),
+        ("sweep", "--journal=x"),
+        ("sweep", "--rehearsal=close"),
+    ],
+)
+def test_what_is_about_one_folder_is_refused_for_many(command: str, option: str, built: Path) -> None:
+    ran = run(command, built.as_posix(), option)
     assert ran.code == 2
     assert f"{option.partition('=')[0]} is about one folder" in ran.err
 

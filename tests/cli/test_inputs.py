@@ -41,6 +41,26 @@ NOTHING = "there is no file or folder `{}`"
 XML = "not well-formed XML"
 NO_SOURCE = "refused: `{}` is not a file, a folder or an installed package"
 
+NOTHING_DRAWN = "the folder has no `config/uncertainty.json`"
+
+
+def _of_a_folder(code: int, said: str) -> tuple[tuple[int, str], ...]:
+    """Return what a command of the mock answers, which has this to say of a generated folder."""
+    none = "no such folder; name one that `cellc build` wrote"
+    no_folder = (2, NO_FOLDER)
+    return (
+        (2, NOT_BUILT),
+        (2, none),
+        no_folder,
+        (2, none),
+        no_folder,
+        no_folder,
+        (code, said),
+        no_folder,
+        (2, NOT_BUILT),
+    )
+
+
 _SPEC = ((1, FOLDER), (1, NO_FILE), (1, TEXT), (1, NO_FILE), (1, BYTES), (1, DEVICE), (1, FOLDER), (1, ROBOT))
 ROWS: dict[str, tuple[tuple[int, str], ...]] = {
     "audit {}": (*_SPEC, (1, FOLDER)),
@@ -86,17 +106,11 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
         (0, "wrote made"),
         (1, "refused: `{}` holds no URDF or xacro file"),
     ),
-    "mock {}": (
-        (2, NOT_BUILT),
-        (2, "no such folder; name one that `cellc build` wrote"),
-        (2, NO_FOLDER),
-        (2, "no such folder; name one that `cellc build` wrote"),
-        (2, NO_FOLDER),
-        (2, NO_FOLDER),
-        (0, "passed  ready"),
-        (2, NO_FOLDER),
-        (2, NOT_BUILT),
-    ),
+    "mock {}": _of_a_folder(0, "passed  ready"),
+    "campaign {} --list": _of_a_folder(0, "ready/skip_cycles@1"),
+    "sweep {}": _of_a_folder(2, NOTHING_DRAWN),
+    "replay {} skip_cycles@1": _of_a_folder(0, "passed  ready/skip_cycles@1"),
+    "gates {} --sweep 9": _of_a_folder(2, NOTHING_DRAWN),
     "show {}": (*_SPEC, (1, FOLDER)),
     "upgrade {} --ros jazzy": tuple((2, said) for _, said in (*_SPEC, (1, FOLDER))),
     "view {} -o page.html": (

@@ -59,9 +59,9 @@ GENERATED = {
 OF_A_FOLDER = (
     "mock {} --edited",
     "mock {} --edited --json",
-    "mock {} --edited --campaign --jobs 1 --json",
-    "mock {} --edited --sweep 2 --jobs 1 --json",
-    "mock {} --edited --gates --jobs 1",
+    "campaign {} --edited --jobs 1 --json",
+    "sweep {} --edited --runs 2 --jobs 1 --json",
+    "gates {} --edited --jobs 1",
     "view {} -o page.html",
 )
 

@@ -32,8 +32,12 @@ LONG: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "diff": (("cell.yaml", "minimal"), ("comparing: cell.yaml, linking", "comparing: minimal")),
     "format": (("cell.yaml",), ("format: cell.yaml",)),
     "import": (("lift.urdf",), ("import: reading the robot", "import: copying meshes", "import: rules")),
+    "campaign": (("minimal", "--jobs", "1"), ("campaign: reading minimal", "campaign: run 1 of ")),
+    "gates": (("minimal", "--jobs", "1"), ("gates: reading minimal", "campaign: run 1 of ")),
     "mock": (("minimal",), ("mock: reading minimal", "mock: rehearsal 1 of 1, ready")),
+    "replay": (("minimal", "skip_cycles@1"), ("replay: reading minimal", "campaign: run 1 of 1")),
     "show": (("cell.yaml", "cell"), ("show: linking",)),
+    "sweep": (("drawn", "--runs", "2", "--jobs", "1"), ("sweep: reading drawn", "sweep: run 1 of at most 2")),
     "upgrade": (("cell.yaml", "--ros", "kilted"), ("upgrade: linking", "upgrade: rules")),
     "view": (("minimal",), ("view: reading minimal", "view: rehearsal ready")),
 }
@@ -59,6 +63,7 @@ def told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Told:
     shutil.copy(ROOT / "tests/corpus/valid/parts/lift/lift.urdf", ".")
     shutil.copytree(ROOT / "tests/corpus/invalid/base/demo_arm", "my_robot")
     shutil.copytree(generated("minimal"), "minimal")
+    shutil.copytree(generated("ur5e_pick"), "drawn")
 
     def run(*arguments: str) -> tuple[int, str]:
         seconds, terminal = count(0.0, 3.0), Terminal()

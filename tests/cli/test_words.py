@@ -49,22 +49,22 @@ def test_the_rehearsal_of_a_run_is_completed_first_where_a_campaign_disturbs_sev
     told["rehearsals"].append({**plain, "name": "place"})
     (tmp_path / "rehearsals.json").write_text(json.dumps(told), encoding="utf-8")
     # Of the others each has faults of its own, or the bring-up of the real target.
-    assert _completed(["mock", tmp_path.as_posix(), "--replay"], "") == ["pick_and_place/", "place/"]
+    assert _completed(["replay", tmp_path.as_posix()], "") == ["pick_and_place/", "place/"]
 
 
 def test_runs_of_the_only_rehearsal_are_those_of_the_list() -> None:
     folder = generated("minimal").as_posix()
-    listed = run("mock", folder, "--list").out.split()
-    assert _completed(["mock", folder, "--replay"], "") == listed
+    listed = run("campaign", folder, "--list").out.split()
+    assert _completed(["replay", folder], "") == listed
     some = listed[3][: listed[3].index(":") + 1]
-    assert _completed(["mock", folder, "--replay"], some) == [one for one in listed if one.startswith(some)]
+    assert _completed(["replay", folder], some) == [one for one in listed if one.startswith(some)]
 
 
 def test_runs_of_a_journal_are_completed_and_those_that_failed_come_first(tmp_path: Path) -> None:
     journal = tmp_path / "runs.jsonl"
     runs = ["{}", *(json.dumps({"number": number, "passed": number != 11}) for number in (1, 10, 11))]
     journal.write_text("\n".join(runs), encoding="utf-8")
-    arguments = ["mock", generated("minimal").as_posix(), "--journal", str(journal), "--replay"]
+    arguments = ["replay", generated("minimal").as_posix(), "--journal", str(journal)]
     assert _completed(arguments, "sweep:1") == ["sweep:11", "sweep:1", "sweep:10"]
     journal.write_text("[", encoding="utf-8")
     assert _completed(arguments, "sweep:") == []
@@ -72,8 +72,8 @@ def test_runs_of_a_journal_are_completed_and_those_that_failed_come_first(tmp_pa
 
 # As readline 8.2 of bash 5.2 hands over a word with its breaks, which was looked at in a terminal.
 _READLINE = [
-    ("cellc mock out --replay a/delay:arm@", ["a/delay", ":", "arm", "@"], "a/delay:arm@1", "1"),
-    ("cellc mock 'my out' --replay a/del", ["a/del"], "a/delay:arm@1", "a/delay:arm@1"),
+    ("cellc replay out a/delay:arm@", ["a/delay", ":", "arm", "@"], "a/delay:arm@1", "1"),
+    ("cellc replay 'my out' a/del", ["a/del"], "a/delay:arm@1", "a/delay:arm@1"),
     ("cellc init bench arm=", ["arm", "="], "arm=ur5e", "ur5e"),
     ("cellc check --select missing-unit,un", ["missing-unit,un"], "missing-unit,unread", "missing-unit,unread"),
     ("cellc mock ", [""], "generated", "generated"),

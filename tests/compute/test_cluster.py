@@ -17,13 +17,14 @@ import pytest
 
 from cellc.contract.compute import cluster as of_dask
 from cellc.contract.compute.cluster import cluster
+from cellc.contract.compute.fan import Fan
 from cellc.contract.compute.versions import versions
 from cellc.contract.compute.work import ComputeError, Work, stream
 from cellc.mock import load
 from cellc.mock.campaign.campaign import conduct, make_plan
 from cellc.mock.faults.registry import possible_faults
 from cellc.tools.cli.batch import results
-from cellc.tools.cli.fleet import Fan, Task
+from cellc.tools.cli.fleet import Task
 from tests.cells import ROOT, written
 from tests.cli.refused import process
 from tests.compute.test_work import _deadly, _squares
@@ -170,6 +171,6 @@ def test_what_is_no_scheduler_is_told_in_one_line(monkeypatch: pytest.MonkeyPatc
 
 
 def test_nothing_of_a_wrong_address_is_told_beside_the_one_line() -> None:
-    ran = process("mock", "generated/ur5e_pick", "--sweep", "3", "--cluster", f"tls://{LOOPBACK}:9")
+    ran = process("sweep", "generated/ur5e_pick", "--runs", "3", "--cluster", f"tls://{LOOPBACK}:9")
     assert ran.code == 2
     assert ran.err == f"error: `tls://{LOOPBACK}:9` needs TLS, of which the configuration of Dask says nothing\n"

@@ -89,6 +89,8 @@ def test_the_checklist_of_the_mock_asks_for_the_sweep_of_each_rate_that_is_expec
         cell: (ROOT / "generated" / cell / "gates/promotion.md").read_text(encoding="utf-8").split("## G2 ")[1]
         for cell in ("ur5e_pick", "minimal")
     }
-    asked = "--gates --sweep 10000`. pick_and_place must succeed in at least 0.99 of its runs with confidence"
+    asked = (
+        "generated/ur5e_pick --sweep 10000`. pick_and_place must succeed in at least 0.99 of its runs with confidence"
+    )
     assert asked in sections["ur5e_pick"].split("\n## ")[0]
     assert "--sweep" not in sections["minimal"].split("\n## ")[0]

@@ -18,7 +18,9 @@ from cellc.contract.limits import DEFAULTS, in_force, limits
 from cellc.contract.store.regular_file import NotRegularError, read_regular
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.cell import run_all
-from cellc.mock.command.options import MockOptions, run_mock
+from cellc.mock.command.campaign import run_campaign
+from cellc.mock.command.options import CampaignOptions, RehearsalOptions
+from cellc.mock.command.rehearsals import run_rehearsals
 from cellc.mock.control.controllers.joint_trajectory.motion import stop_points
 from cellc.mock.errors import LimitReachedError
 from cellc.mock.folder import path_tolerances
@@ -193,7 +195,7 @@ def test_damaged_numbers_end_in_a_refusal_or_an_outcome(folder: Path, name: str)
         (folder / name).write_text(json.dumps(_marked(whole, path)).replace(f'"{MARK}"', value))
         out, error = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-            code = run_mock(MockOptions(folder=str(folder), rehearsals=("cancelled",)))
+            code = run_rehearsals(RehearsalOptions(str(folder), rehearsals=("cancelled",)))
         assert code in ((2,) if value in NO_NUMBER else (0, 1, 2)), (path, value)
         assert (code == 2) == (len(error.getvalue().splitlines()) == 1), (path, value, error.getvalue())
 
@@ -229,12 +231,11 @@ def test_initial_value_that_hardware_cannot_have_fails_the_bring_up(folder: Path
     assert load(folder, edited=True).run("pick_and_place").outcome is RunFailure.BRINGUP_FAILURE
 
 
-@pytest.mark.parametrize("options", [{"pairs": 10**9}, {"jobs": 10**9}, {"pairs": 10**400}])
+@pytest.mark.parametrize("pairs", [10**9, 10**400])
 def test_number_of_runs_asked_for_is_bounded(
-    built_folder: Path, options: dict[str, int], capsys: pytest.CaptureFixture[str]
+    built_folder: Path, pairs: int, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    pairs, jobs = options.get("pairs", 0), options.get("jobs")
-    assert run_mock(MockOptions(folder=str(built_folder), campaign=True, pairs=pairs, jobs=jobs)) == 2
+    assert run_campaign(CampaignOptions(str(built_folder), pairs=pairs)) == 2
     assert "at most 10000; `--limit campaign-runs=N` raises it" in capsys.readouterr().err
 
 
@@ -251,7 +252,7 @@ def test_lack_of_memory_is_told_in_one_line(
         raise MemoryError
 
     monkeypatch.setattr("cellc.mock.command.rehearsals.load", out_of_memory)
-    assert run_mock(MockOptions(folder=str(built_folder))) == 2
+    assert run_rehearsals(RehearsalOptions(str(built_folder))) == 2
     assert capsys.readouterr().err.startswith("error: the folder asks for more memory than there is")
 
 

@@ -31,9 +31,9 @@ FILES = ("contract.json", "manifest.json", "rehearsals.json", "config/bring_up.j
 COMMANDS = (
     ("mock", "{folder}", "--edited", "--evidence", "{out}/evidence", "--records", "{out}/records.jsonl"),
     ("view", "{folder}"),
-    ("mock", "{folder}", "--edited", "--campaign", "--list"),
+    ("campaign", "{folder}", "--edited", "--list"),
     ("diff", "{other}", "{folder}"),
-    ("mock", "{folder}", "--edited", "--sweep", "1", "--jobs", "1", "--journal", "{out}/journal.jsonl"),
+    ("sweep", "{folder}", "--edited", "--runs", "1", "--jobs", "1", "--journal", "{out}/journal.jsonl"),
 )
 REHEARSED = ("diff", "{folder}", "{other}", "--rehearse")
 """With names that become paths, which are refused before the mock starts; with others it takes seconds."""

@@ -93,7 +93,7 @@ def test_what_a_sweep_draws_is_refused_with_its_file(here: Path) -> None:
     ends = list[int]()
     for text in islice(_spoilt(file.read_text(encoding="utf-8")), 0, None, 4):
         file.write_text(text, encoding="utf-8")
-        ran = _ran("mock", "folder", "--edited", "--list")
+        ran = _ran("campaign", "folder", "--edited", "--list")
         ends.append(ran.code)
         assert ran.code == 0 or ran.err.startswith(f"error: {UNCERTAINTY}: "), text[:200]
     assert len(ends) > 80

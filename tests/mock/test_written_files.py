@@ -10,7 +10,7 @@ import pytest
 from cellc.contract.limits import limits
 from cellc.contract.store.staging import staging_of
 from cellc.contract.store.swap import write_whole
-from cellc.mock.command.options import write_records
+from cellc.mock.command.records import write_records
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import INDEX, EvidenceFolder
 

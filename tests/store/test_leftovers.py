@@ -15,7 +15,7 @@ from cellc.compiler.output.write import write
 from cellc.contract.store.cache import read_entry, write_entry
 from cellc.contract.store.cache_key import cache_key
 from cellc.contract.store.swap import write_whole
-from cellc.mock.command.options import write_records
+from cellc.mock.command.records import write_records
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
 from tests.output.building import as_contents, build_of, contents, staging_at_work

@@ -56,7 +56,7 @@ class CampaignRun:
 
     @property
     def identifier(self) -> str:
-        """Name that ``--replay`` takes: ``REHEARSAL/KIND:TARGET@STEP``, further faults after a plus sign."""
+        """Name that ``cellc replay`` takes: ``REHEARSAL/KIND:TARGET@STEP``, further faults after a plus sign."""
         return self.entry.name
 
 

@@ -1,1 +1,1 @@
-"""The commands behind `cellc mock`: rehearsals, campaign, gates, and the evidence that each leaves."""
+"""The commands of the mock: rehearsals, campaign, sweep, gates and replay, and the evidence that each leaves."""

@@ -1,4 +1,4 @@
-"""The rehearsals of many generated folders, each in its own process or worker, and their sweeps one after the other."""
+"""The rehearsals of many generated folders, each in its own process or worker; their sweeps one after the other."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from cellc.contract.limits import limits, option
 from cellc.contract.printing import progress, time_left
 from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import cell_of, in_turn, read_to_run
-from cellc.mock.command.options import MockOptions
+from cellc.mock.command.campaign import executor
+from cellc.mock.command.options import RehearsalOptions, SweepOptions
 from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
 from cellc.mock.errors import MockError
 from cellc.mock.folder import GeneratedFolder
@@ -42,9 +43,9 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Rehearsed:
-    """What became of a folder: its rehearsals, its sweeps where any were asked for, and its processor time."""
+    """What became of a folder: its rehearsals or its sweeps, and its processor time."""
 
-    rehearsals: tuple[FleetRehearsal, ...] = ()
+    rehearsals: tuple[FleetRehearsal, ...] | None = None
     sweeps: tuple[FleetSweep, ...] | None = None
     problem: str = ""
     seconds: float = field(default=0.0, compare=False)
@@ -53,7 +54,7 @@ class Rehearsed:
     def passed(self) -> bool:
         """Whether everything ended as it must."""
         swept = all(sweep.verdict in (None, "passed") for sweep in self.sweeps or ())
-        return not self.problem and swept and all(rehearsal.passed for rehearsal in self.rehearsals)
+        return not self.problem and swept and all(rehearsal.passed for rehearsal in self.rehearsals or ())
 
 
 def member_of(name: str, folder: Path, *, edited: bool, spec: Path | None = None) -> Member:
@@ -69,33 +70,34 @@ def member_of(name: str, folder: Path, *, edited: bool, spec: Path | None = None
     return Member(name, read if spec is None else replace(read, mesh_roots=(spec, *read.mesh_roots)))
 
 
-def rehearse_all(members: Sequence[Member], options: MockOptions) -> Iterator[Rehearsed]:
+def rehearse_all(members: Sequence[Member], options: RehearsalOptions) -> Iterator[Rehearsed]:
     """Yield what became of each folder, in their order.
 
     Raises:
         ComputeError: no worker can execute one.
     """
     begun = perf_counter()
+    spent_s = 0.0
     with progress("mock") as update, closing(_rehearsed(members, options)) as ended:
-        found: list[Rehearsed] = []
         for number, member in enumerate(members):
             left = time_left(number, len(members), perf_counter() - begun)
             update(f"{number + 1} of {len(members)}, {member.name}{left}")
             if member.read is None:
-                found.append(Rehearsed(problem=member.problem))
-                continue
-            left_out = sum(ready.seconds for ready in found) > limits().command_seconds
-            found.append(Rehearsed(problem=_TOO_LONG.format(limits().command_seconds)) if left_out else next(ended))
-    for member, one in zip(members, found, strict=True):
-        yield one if not options.sweep or one.problem else _with_sweeps(one, member, options)
+                yield Rehearsed((), problem=member.problem)
+            elif spent_s > limits().command_seconds:
+                yield Rehearsed((), problem=_TOO_LONG.format(limits().command_seconds))
+            else:
+                done = next(ended)
+                spent_s += done.seconds
+                yield done
 
 
-def _rehearsed(members: Sequence[Member], options: MockOptions) -> Generator[Rehearsed, None, None]:
-    factory, _ = options.executor()
+def _rehearsed(members: Sequence[Member], options: RehearsalOptions) -> Generator[Rehearsed, None, None]:
+    factory, _ = executor(options.fan)
     # Another computer may lack meshes; finding that out takes as long as a rehearsal.
     assigned = [
         Assignment.of(cell_of(member.read), options.seed)
-        if options.cluster is not None
+        if options.fan.cluster is not None
         else Assignment(member.read, options.seed, limits(), package_path(), None)
         for member in members
         if member.read is not None
@@ -117,7 +119,7 @@ def _rehearse(assignment: Assignment) -> Rehearsed:
         cell = assignment.cell()
         results = [cell.run(name, seed=assignment.seed) for name in in_turn(cell, cell.rehearsals)]
     except MockError as problem:
-        return Rehearsed(problem=str(problem))
+        return Rehearsed((), problem=str(problem))
     return Rehearsed(
         tuple(
             FleetRehearsal(name=result.name, outcome=result.outcome, expected=result.expected, passed=result.passed)
@@ -127,16 +129,18 @@ def _rehearse(assignment: Assignment) -> Rehearsed:
     )
 
 
-def _with_sweeps(rehearsed: Rehearsed, member: Member, options: MockOptions) -> Rehearsed:
-    """Sweep what the cell expects a rate of success of, or its first rehearsal; nothing where it draws nothing."""
-    if member.read is None or member.read.uncertainty is None:
-        return replace(rehearsed, sweeps=())
-    try:
-        cell = cell_of(member.read)
-        sweeps = tuple(_told(sweep_entry(cell, entry, options)) for entry in entries_to_sweep(cell, options))
-    except MockError as problem:
-        return replace(rehearsed, problem=str(problem))
-    return replace(rehearsed, sweeps=sweeps)
+def sweep_all(members: Sequence[Member], options: SweepOptions) -> Iterator[Rehearsed]:
+    """Yield how often the rehearsals of each folder succeed, in their order; no sweep where a cell draws nothing."""
+    for member in members:
+        if member.read is None or member.read.uncertainty is None:
+            yield Rehearsed(sweeps=(), problem=member.problem)
+            continue
+        try:
+            cell = cell_of(member.read)
+            found = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
+            yield Rehearsed(sweeps=tuple(map(_told, found)))
+        except MockError as problem:
+            yield Rehearsed(sweeps=(), problem=str(problem))
 
 
 def _told(sweep: Sweep) -> FleetSweep:

@@ -1,4 +1,4 @@
-"""The command behind `--gates`: everything that is evidence is run, and each gate is judged by it."""
+"""`cellc gates`: everything that is evidence is run, and each gate is judged by it."""
 
 from __future__ import annotations
 
@@ -7,30 +7,28 @@ import json
 from cellc.contract.diagnostics.unsafe_text import harmless_json
 from cellc.contract.printing import show, show_document
 from cellc.mock.cell import in_turn
-from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_checked, stopped
-from cellc.mock.command.options import MockOptions
+from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_for_campaign
+from cellc.mock.command.ending import refusing
+from cellc.mock.command.options import GatesOptions
 from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
-from cellc.mock.errors import MockError
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
 
 
-def run_gates(options: MockOptions) -> int:
+@refusing
+def run_gates(options: GatesOptions) -> int:
     """Run everything that is evidence, and print each gate with its lines.
 
     Returns:
         0 where no line failed, UNKNOWN ones among them; 1 where one did; 2 where the folder or an option is unusable.
     """
-    try:
-        cell = load_checked(options)
-        results = [cell.run(name, seed=options.seed) for name in in_turn(cell, cell.rehearsals)]
-        campaign = conduct_all(cell, options)
-        swept = entries_to_sweep(cell, options) if options.sweep else ()
-        sweeps = tuple(sweep_entry(cell, entry, options) for entry in swept)
-        keep_evidence_of(cell, campaign, options, sweeps)
-    except MockError as stop:
-        return stopped(stop)
+    cell, wanted = load_for_campaign(options), options.sweep
+    entries = () if wanted is None else entries_to_sweep(cell, wanted)  # or it refuses, before the minutes of the rest
+    results = [cell.run(name, seed=options.seed) for name in in_turn(cell, cell.rehearsals)]
+    campaign = conduct_all(cell, options)
+    sweeps = () if wanted is None else tuple(sweep_entry(cell, entry, wanted) for entry in entries)
+    keep_evidence_of(cell, campaign, options, sweeps)
     runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
     gates = sign_gates(cell.folder, runs, options.seed, sweeps)
     if options.as_json:

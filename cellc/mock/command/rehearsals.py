@@ -1,4 +1,4 @@
-"""The command behind `cellc mock FOLDER`: run rehearsals, print results as lines or JSON, and begin their evidence."""
+"""`cellc mock FOLDER`: run rehearsals, print results as lines or JSON, and begin their evidence."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING
 
 from cellc.contract.diagnostics.unsafe_text import harmless_json
 from cellc.contract.extras import LIVE, gate
-from cellc.contract.printing import progress, refuse, show, show_document
+from cellc.contract.printing import progress, show, show_document
 from cellc.mock.cell import MockCell, in_turn, load
-from cellc.mock.command.options import MockOptions, refuse_foreign, write_records
+from cellc.mock.command.ending import refusing
+from cellc.mock.command.options import FolderOptions, Live, RehearsalOptions
+from cellc.mock.command.records import refuse_foreign, write_records
 from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
 
@@ -74,25 +76,20 @@ def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str
             yield f"        finding: {finding}"
 
 
-def run_rehearsals(options: MockOptions) -> int:
+@refusing
+def run_rehearsals(options: RehearsalOptions) -> int:
     """Run rehearsals of a folder and print the results.
 
     Returns:
         0 where every rehearsal passed, 1 where one did not or there is none, 2 where the folder or a name is unusable.
     """
-    try:
-        if options.seed < 0:
-            raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
-        if options.records is not None:
-            refuse_foreign(Path(options.records))  # before the minutes that a run may take
-        cell = load(Path(options.folder), edited=options.edited)
-        timed = _run(cell, tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals, options)
-        if options.records is not None:
-            records = (record for each in timed for record in each.result.attempts)
-            write_records(Path(options.records), records)
-    except MockError as error:
-        refuse(str(error))
-        return 2
+    if options.records is not None:
+        refuse_foreign(Path(options.records))  # before the minutes that a run may take
+    cell = load_seeded(options)
+    timed = _run(cell, tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals, options)
+    if options.records is not None:
+        records = (record for each in timed for record in each.result.attempts)
+        write_records(Path(options.records), records)
     if options.as_json:
         show_document(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
     else:
@@ -100,9 +97,16 @@ def run_rehearsals(options: MockOptions) -> int:
     return 0 if timed and all(each.result.passed for each in timed) else 1
 
 
-def _run(cell: MockCell, names: Sequence[str], options: MockOptions) -> list[TimedResult]:
-    if options.live:
-        with begin_live(options) as view:
+def load_seeded(options: FolderOptions) -> MockCell:
+    """Load a folder; raise MockError where it or the seed cannot be used."""
+    if options.seed < 0:
+        raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
+    return load(Path(options.folder), edited=options.edited)
+
+
+def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> list[TimedResult]:
+    if options.live is not None:
+        with begin_live(options.live) as view:
             return _timed(cell, names, lambda name: view.run(cell, name, options.seed))
     if options.evidence is None:
         return _timed(cell, names, lambda name: cell.run(name, seed=options.seed))
@@ -123,7 +127,7 @@ def _timed(cell: MockCell, names: Sequence[str], run: Callable[[str], RehearsalR
     return timed
 
 
-def begin_live(options: MockOptions) -> AbstractContextManager[LiveView]:
+def begin_live(live: Live) -> AbstractContextManager[LiveView]:
     """Return what shows rehearsals in Foxglove while it is open.
 
     Raises:
@@ -131,7 +135,7 @@ def begin_live(options: MockOptions) -> AbstractContextManager[LiveView]:
     """
     with gate(LIVE):
         from cellc.mock.command.live import live_view
-    return live_view(options.listen or "127.0.0.1:8765", options.speed or 1.0)
+    return live_view(live.address, live.speed)
 
 
 def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> EvidenceCollector:

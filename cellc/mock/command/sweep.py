@@ -1,29 +1,29 @@
-"""The commands behind `--sweep` and `--replay sweep:RUN`."""
+"""`cellc sweep`, and the runs of it that `cellc replay` makes again."""
 
 from __future__ import annotations
 
-import shlex
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 
 from cellc.contract.compute.work import ComputeError
+from cellc.contract.limits import limits, option
 from cellc.contract.printing import progress, remark, show, show_document
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.cell import MockCell
-from cellc.mock.command.campaign import load_checked, pace, stopped
-from cellc.mock.command.options import MockOptions
-from cellc.mock.command.rehearsals import begin_evidence
+from cellc.mock.command.campaign import executor, pace
+from cellc.mock.command.ending import refusing
+from cellc.mock.command.options import FolderOptions, ReplayOptions, SweepOptions
+from cellc.mock.command.rehearsals import begin_evidence, load_seeded
 from cellc.mock.errors import MockError
 from cellc.mock.sweep.figures import interval
 from cellc.mock.sweep.journal import Journal
+from cellc.mock.sweep.names import SWEPT
 from cellc.mock.sweep.summary import run_lines, sweep_json, sweep_lines
 from cellc.mock.sweep.sweep import (
     MOST_DIGITS,
-    SWEPT,
     USUAL_CONFIDENCE,
     Sweep,
     SweepRun,
@@ -38,40 +38,54 @@ _EVIDENCE = 5
 """Failed runs whose evidence is kept; the others are made again by their number."""
 
 
-def run_sweep(options: MockOptions) -> int:
+@refusing
+def run_sweep(options: SweepOptions) -> int:
     """Sweep rehearsals, and print how often they succeed.
 
     Returns:
         0 where every expected rate holds, 1 where one does not or is not certain, 2 where the folder or an option is
         unusable.
     """
-    try:
-        cell = load_checked(options)
-        sweeps = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
-        if options.evidence is not None:
-            failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
-            _write_evidence(cell, failed, options, sweeps)
-    except MockError as stop:
-        return stopped(stop)
+    cell = load_seeded(options)
+    sweeps = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
+    if options.evidence is not None:
+        failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
+        _write_evidence(cell, failed, options, sweeps)
     if options.as_json:
         show_document(sweep_json(cell.contract, sweeps, cell.notes))
     else:
-        lines = (line for each in sweeps for line in sweep_lines(each, cell.contract, partial(_replay, options, each)))
+        lines = (line for each in sweeps for line in sweep_lines(each, cell.contract, _replay(options, each)))
         show(*(f"note: {note}" for note in cell.notes), *lines)
     return 0 if all(each.verdict or each.expected is None for each in sweeps) else 1
 
 
-def entries_to_sweep(cell: MockCell, options: MockOptions) -> Sequence[RehearsalEntry]:
+def entries_to_sweep(cell: MockCell, options: SweepOptions) -> Sequence[RehearsalEntry]:
+    """Return the rehearsals that are meant; raise MockError where they cannot be swept as the options ask."""
+    most = limits().sweep_runs
+    if not 1 <= options.runs <= most:
+        told = f"the number of runs is {options.runs}; it must be 1 or greater, and at most {most}"
+        raise MockError("", f"{told}; {option('sweep-runs')}")
+    _check_seed(options)
+    entries = _meant(cell, options.rehearsals)
+    if len(entries) > 1 and options.journal is not None:
+        raise MockError("", "a journal is of one rehearsal; name it with --rehearsal")
+    return entries
+
+
+def _check_seed(options: FolderOptions) -> None:
+    if options.seed >= 1 << 64:
+        raise MockError("", f"the seed is {options.seed}; that of a sweep must be below 2^64")
+
+
+def _meant(cell: MockCell, named: Sequence[str]) -> Sequence[RehearsalEntry]:
     """Return the rehearsals that are meant: those named, else those that must succeed often enough, else the first."""
-    names = options.rehearsals or tuple(uncertainty_of(cell).expected) or cell.rehearsals[:1]
+    names = named or tuple(uncertainty_of(cell).expected) or cell.rehearsals[:1]
     if not names:
         raise MockError(cell.contract.files.rehearsals, "has no rehearsal to sweep")
-    if len(names) > 1 and options.journal is not None:
-        raise MockError("", "a journal is of one rehearsal; name it with --rehearsal")
     return [cell.entry(name) for name in dict.fromkeys(names)]
 
 
-def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> Sweep:
+def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) -> Sweep:
     """Sweep one rehearsal, with its progress.
 
     Raises:
@@ -79,7 +93,7 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> 
     """
     begun, done = perf_counter(), 0
     failed = 0
-    factory, who = options.executor()
+    factory, who = executor(options.fan)
     with progress("sweep") as update, ExitStack() as stack:
         journal: Journal | None = None
         if options.journal is not None:
@@ -91,32 +105,31 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: MockOptions) -> 
             failed += not run.passed
             if journal is not None:
                 journal.keep(run)
-            said = f"{done} of at most {options.sweep}"
-            update(pace(said, options.sweep, done, failed, perf_counter() - begun))
+            said = f"{done} of at most {options.runs}"
+            update(pace(said, options.runs, done, failed, perf_counter() - begun))
 
         known = {} if journal is None else journal.runs
         try:
-            found = sweep(cell, entry, seed=options.seed, most=options.sweep, factory=factory, known=known, keep=keep)
+            found = sweep(cell, entry, seed=options.seed, most=options.runs, factory=factory, known=known, keep=keep)
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
     remark(f"{done} runs in {perf_counter() - begun:.1f} s, {who}")
     return found
 
 
-def replay_swept(options: MockOptions) -> int:
+@refusing
+def replay_swept(options: ReplayOptions) -> int:
     """Run some runs of a sweep alone; they end as they did in it, to the last bit."""
-    try:
-        cell = load_checked(options)
-        uncertainty = uncertainty_of(cell)
-        (entry,) = entries_to_sweep(cell, options)[:1]
-        if options.journal is not None:
-            Journal(Path(options.journal), cell.contract, entry.name, options.seed)  # or it refuses
-        numbers = [_number(text) for text in dict.fromkeys(options.replay)]
-        runs = [execute(cell, entry, uncertainty, options.seed, number) for number in numbers]
-        if options.evidence is not None:
-            _write_evidence(cell, [(entry, run) for run in runs], options)
-    except MockError as stop:
-        return stopped(stop)
+    _check_seed(options)
+    cell = load_seeded(options)
+    uncertainty = uncertainty_of(cell)
+    entry = _meant(cell, () if options.rehearsal is None else (options.rehearsal,))[0]
+    if options.journal is not None:
+        Journal(Path(options.journal), cell.contract, entry.name, options.seed)  # or it refuses
+    numbers = [_number(text) for text in dict.fromkeys(options.runs)]
+    runs = [execute(cell, entry, uncertainty, options.seed, number) for number in numbers]
+    if options.evidence is not None:
+        _write_evidence(cell, [(entry, run) for run in runs], options)
     if options.as_json:
         rate = interval(sum(run.passed for run in runs), len(runs), USUAL_CONFIDENCE)
         alone = Sweep(entry.name, options.seed, uncertainty, len(runs), tuple(runs), rate, None, None)
@@ -134,17 +147,14 @@ def _number(text: str) -> int:
     return int(number)
 
 
-def _replay(options: MockOptions, of: Sweep, number: int) -> str:
-    words = [options.program, shlex.quote(options.folder), "--replay", f"{SWEPT}{number}"]
-    words += ["--rehearsal", shlex.quote(of.rehearsal)]
-    words += ["--seed", str(of.seed)] if of.seed else []
-    return " ".join([*words, "--edited"] if options.edited else words)
+def _replay(options: SweepOptions, of: Sweep) -> Callable[[int], str]:
+    return lambda number: options.replayed_by(f"{SWEPT}{number}", of.rehearsal)
 
 
 def _write_evidence(
     cell: MockCell,
     runs: Sequence[tuple[RehearsalEntry, SweepRun]],
-    options: MockOptions,
+    options: FolderOptions,
     sweeps: Sequence[Sweep] = (),
 ) -> None:
     """Run the runs once more as rehearsals of the cell, and write what they leave, with a report over the sweeps."""

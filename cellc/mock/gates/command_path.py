@@ -124,7 +124,7 @@ def _rates(evidence: GateEvidence) -> Iterator[GateCheck]:
     swept = {sweep.rehearsal: sweep for sweep in evidence.sweeps}
     for name, expected in () if drawn is None else drawn.expected.items():
         text = f"{name} succeeds in {expected.success:.6g} of its runs or more, where not everything is known exactly"
-        needed = f"a sweep of {name} that decides it with confidence {expected.confidence:.6g}: --gates --sweep N"
+        needed = f"a sweep of {name} that decides it with confidence {expected.confidence:.6g}: `cellc gates --sweep N`"
         found = swept.get(name)
         if found is None:
             yield unknown(text, needed)
@@ -177,7 +177,7 @@ def _faults(evidence: GateEvidence) -> GateCheck:
     bad = [f"{run.name}: {run.result.outcome}" for run in runs if not run.passed]
     good = [f"{len(runs)} runs of the campaign"] if runs else []
     text = "Every fault at every step ends in a named outcome within its bound"
-    return judged(text, good, bad, "a campaign: `--campaign`")
+    return judged(text, good, bad, "a campaign: `cellc gates`")
 
 
 def _limits(evidence: GateEvidence) -> GateCheck:

@@ -19,9 +19,8 @@ from cellc.mock.reality import Arrival, Reality
 from cellc.mock.result import RunFailure
 from cellc.mock.sweep.draws import LINKS, draw, reality_of
 from cellc.mock.sweep.figures import Interval, confidence_of_look, interval, looks
+from cellc.mock.sweep.names import SWEPT
 
-SWEPT = "sweep:"
-"""Before the number of a run that is named."""
 MOST_DIGITS = 18
 """Of the number of a run: with the seed beside it, it is one of the 2^64 keys of the generator."""
 USUAL_CONFIDENCE = 0.95

@@ -19,13 +19,14 @@ import click
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.catalog.compiled import DEVICE_FILE
 from cellc.compiler.rules.shared_domain import Presence, presence_of, shared_domains
+from cellc.contract.compute.fan import USUAL, Fan
 from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.limits import Limits, children_seconds, limits, use
 from cellc.contract.printing import progress, remark, time_left
 from cellc.contract.signals import within
 from cellc.contract.store.regular_file import open_regular
 from cellc.robot.description.packages import package_path, use_packages
-from cellc.tools.cli.fleet import USUAL, Fan, Task
+from cellc.tools.cli.fleet import Task
 
 if TYPE_CHECKING:
     from cellc.contract.compute.work import ExecutorFactory
@@ -147,7 +148,7 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
 
     Cells of different versions never run beside each other.
     """
-    factory = _executor_factory(fan, kind, len(tasks))
+    factory = fan.factory(number_of_workers(kind, len(tasks)), remark)
     shared = os.getcwd() if fan.cluster is not None else ""
     computed = (compute(kind, task) for task in tasks) if factory is None else in_workers(kind, tasks, factory, shared)
     earlier: dict[str, list[Presence]] = {}
@@ -172,20 +173,6 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
             beside.append(result.cell)
             # An error stops the artifacts.
             yield replace(result, findings=result.findings.with_more(against), artifacts=None) if against else result
-
-
-def _executor_factory(fan: Fan, kind: Kind, tasks: int) -> ExecutorFactory | None:
-    """Return who does so many tasks; None for this process."""
-    if fan.cluster is not None:
-        from cellc.contract.compute.cluster import cluster
-
-        return cluster(fan.cluster, remark)
-    number = number_of_workers(kind, tasks) if fan.jobs is None else fan.jobs
-    if number <= 1:
-        return None
-    from cellc.contract.compute.processes import processes
-
-    return processes(number)
 
 
 def compute(kind: Kind, task: Task) -> CellResult:

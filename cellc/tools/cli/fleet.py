@@ -11,6 +11,8 @@ from typing import Any
 
 import click
 
+from cellc.contract.compute.fan import Fan
+
 Versions = Mapping[str, str]
 """Parts of the version tuple with other texts than a spec has."""
 
@@ -21,22 +23,6 @@ class Task:
 
     file: str
     versions: Versions = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class Fan:
-    """Who does the tasks of a call.
-
-    Attributes:
-        jobs: processes; None for as many as pay.
-        cluster: address of a scheduler of Dask whose workers do it instead.
-    """
-
-    jobs: int | None = None
-    cluster: str | None = None
-
-
-USUAL = Fan()
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,25 +54,38 @@ MATRIX = click.option(
     metavar="PART=TEXT,TEXT",
     help="Try each cell with these in its version tuple, such as ros=humble,jazzy; repeatable. Specs stay.",
 )
-JOBS = click.option("--jobs", type=click.IntRange(1, 1024), metavar="N", help="Processes; as many as pay by default.")
-CLUSTER = click.option("--cluster", metavar="ADDRESS", help="A scheduler of Dask instead, such as tcp://10.0.0.7:8786.")
-JSON = click.option("--json", "as_json", is_flag=True, help="Write the table of cells as JSON, and nothing else.")
+_JOBS = click.option("--jobs", type=click.IntRange(1, 1024), metavar="N", help="Processes; as many as pay by default.")
+_CLUSTER = click.option(
+    "--cluster", metavar="ADDRESS", help="A scheduler of Dask instead, such as tcp://10.0.0.7:8786."
+)
+_TABLE = click.option("--json", "as_json", is_flag=True, help="Write the table of cells as JSON, and nothing else.")
+
+
+def fan_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options that say who does it; they come as one argument, ``fan``."""
+
+    @_JOBS
+    @_CLUSTER
+    @wraps(command)
+    def within(jobs: int | None, cluster: str | None, **others: Any) -> None:
+        if jobs is not None and cluster is not None:
+            raise click.UsageError("--jobs does not go with --cluster, whose workers are all taken.")
+        command(fan=Fan(jobs, cluster), **others)
+
+    return within
 
 
 def fleet_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options of a command for many cells; they come as one argument, ``fleet``."""
 
     @MATRIX
-    @JOBS
-    @CLUSTER
-    @JSON
+    @fan_options
+    @_TABLE
     @wraps(command)
-    def within(matrix: tuple[str, ...], jobs: int | None, cluster: str | None, as_json: bool, **others: Any) -> None:
-        if jobs is not None and cluster is not None:
-            raise click.UsageError("--jobs does not go with --cluster, whose workers are all taken.")
+    def within(matrix: tuple[str, ...], fan: Fan, as_json: bool, **others: Any) -> None:
         if as_json and others.get("output_format", "text") != "text":
             raise click.UsageError("--json does not go with --format.")
-        command(fleet=FleetOptions(read_matrix(matrix), Fan(jobs, cluster), as_json), **others)
+        command(fleet=FleetOptions(read_matrix(matrix), fan, as_json), **others)
 
     return within
 

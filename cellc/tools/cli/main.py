@@ -13,27 +13,31 @@ import click
 from cellc.contract.printing import Stream, progress, run_to_end, show
 from cellc.version import __version__
 
-# Command → module; the function in it has the command's name.
+# Command → module; the function in it has the command's name. In the order in which a cell comes to need them.
 _COMMANDS = {
-    "audit": "Print versions, expectations, command paths and open questions.",
-    "build": "Check cells and write their artifacts.",
+    "init": "Write a new cell from device names.",
+    "import": "Make a device folder of a robot as its vendor ships it.",
     "catalog": "List the devices of the catalog, find some, or show one.",
     "check": "Find what is wrong before anything moves.",
-    "compare": "Put cells beside each other: what motion rests on, who has which duty.",
-    "completion": "Print the completion script of a shell.",
-    "diagnose": "Tell what a symptom may mean, and what to look at.",
-    "diff": "Tell what changed in a cell, and what that means.",
     "explain": "Explain a diagnostic code.",
-    "format": "Put files of cells and devices into their canonical form.",
-    "import": "Make a device folder of a robot as its vendor ships it.",
-    "init": "Write a new cell from device names.",
-    "lsp": "Answer an editor: the language server of cells and devices.",
-    "mock": "Execute the rehearsals of a generated folder.",
-    "schema": "Print or write the JSON schemas.",
     "show": "Show a resolved value and its source.",
-    "upgrade": "Tell what another distribution of ROS 2 would change.",
-    "view": "Write one HTML page of a cell: 3D, rehearsals, findings.",
+    "format": "Put files of cells and devices into their canonical form.",
+    "build": "Check cells and write their artifacts.",
     "watch": "Check cells, and build them, whenever a file is saved.",
+    "mock": "Execute the rehearsals of a generated folder.",
+    "campaign": "Run every fault at every step of them.",
+    "sweep": "Draw what is uncertain, and tell how often they succeed.",
+    "replay": "Make one run of a campaign or a sweep again.",
+    "gates": "Judge the gates that the mock can judge.",
+    "view": "Write one HTML page of a cell: 3D, rehearsals, findings.",
+    "audit": "Print versions, expectations, command paths and open questions.",
+    "diff": "Tell what changed in a cell, and what that means.",
+    "compare": "Put cells beside each other: what motion rests on, who has which duty.",
+    "upgrade": "Tell what another distribution of ROS 2 would change.",
+    "diagnose": "Tell what a symptom may mean, and what to look at.",
+    "lsp": "Answer an editor: the language server of cells and devices.",
+    "schema": "Print or write the JSON schemas.",
+    "completion": "Print the completion script of a shell.",
 }
 
 _WAITING = ("lsp", "watch")
@@ -44,7 +48,7 @@ class _LazyGroup(click.Group):
     """A group that imports a subcommand's module when it is asked for, so that `check` never pays for `mock`."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return sorted(_COMMANDS)
+        return list(_COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in _COMMANDS:
@@ -56,7 +60,7 @@ class _LazyGroup(click.Group):
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
-            formatter.write_dl(sorted(_COMMANDS.items()))
+            formatter.write_dl(list(_COMMANDS.items()))
 
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

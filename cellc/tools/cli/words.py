@@ -64,12 +64,13 @@ def _entries(context: click.Context) -> Sequence[RehearsalEntry]:
 
 
 def _folder(context: click.Context) -> Path:
+    several = context.params.get("folders") or (context.params.get("folder"),)
     # Behind an option without its value click has not distinguished arguments from each other yet.
-    return Path(str(next(iter((*(context.params.get("folders") or ()), *context.args)), "")))
+    return Path(str(next(filter(None, (*several, *context.args)), "")))
 
 
 def complete_run(context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete what `--replay` takes: runs of the campaign, of one rehearsal at a time, and of a journal's sweep.
+    """Complete the runs that are made again: of the campaign, of one rehearsal at a time, and of a journal's sweep.
 
     Which steps a fault can meet is known by a run without it; only the rehearsal that is meant is run.
     """

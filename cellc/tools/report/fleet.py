@@ -25,7 +25,7 @@ def fleet_lines(rows: Sequence[FleetRow]) -> Iterator[Line]:
     kept = [place for place in range(len(table[0])) if any(row[place] != _NONE for row in table[1:])]
     widths = {place: max(len(row[place]) for row in table) for place in kept}
     verdicts = ["", *("passed" if row.passed else "FAILED" for row in rows)]
-    if all(row.rehearsals is None for row in rows):
+    if all(row.rehearsals is None and row.sweeps is None for row in rows):
         yield ""  # findings stand above
     for verdict, texts in zip(verdicts, table, strict=True):
         style = {"passed": Style.GREEN, "FAILED": Style.RED}.get(verdict, Style.BOLD)

@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.extras import MissingExtraError
-from cellc.mock.command.options import MockOptions, run_mock
+from cellc.mock.command.options import RehearsalOptions
+from cellc.mock.command.rehearsals import run_rehearsals
 
 
 def evidence_of(built_folder: Path, tmp_path: Path, *rehearsals: str) -> int:
-    return run_mock(MockOptions(str(built_folder), rehearsals=rehearsals, evidence=str(tmp_path / "out")))
+    return run_rehearsals(RehearsalOptions(str(built_folder), rehearsals=rehearsals, evidence=str(tmp_path / "out")))
 
 
 def test_one_rehearsal_has_its_evidence_and_the_exit_code_of_its_outcome(
@@ -52,8 +53,9 @@ def test_runs_without_evidence_load_nothing_of_it(built_folder: Path) -> None:
     import subprocess
 
     code = (
-        "import sys; from cellc.mock.command.options import MockOptions, run_mock; "
-        f"run_mock(MockOptions({str(built_folder)!r}, rehearsals=('cancelled',)))"
+        "import sys; from cellc.mock.command.options import RehearsalOptions; "
+        "from cellc.mock.command.rehearsals import run_rehearsals; "
+        f"run_rehearsals(RehearsalOptions({str(built_folder)!r}, rehearsals=('cancelled',)))"
     )
     told = "; print([name for name in sys.modules if name.split('.')[0] == 'mcap' or 'report_page' in name])"
     ran = subprocess.run([sys.executable, "-c", code + told], capture_output=True, text=True, check=True)

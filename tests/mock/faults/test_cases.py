@@ -1,6 +1,6 @@
 """Every fault that the cell can meet, at steps of its rehearsal: the named outcome, within the bound.
 
-Each fault is tried at every fourth step, its neighbours at the others; `cellc mock --campaign` tries them all.
+Each fault is tried at every fourth step, its neighbours at the others; `cellc campaign` tries them all.
 """
 
 from __future__ import annotations

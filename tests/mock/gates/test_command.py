@@ -33,13 +33,13 @@ def _few_faults(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_gates_are_printed_and_told_to_programs(folder: str) -> None:
-    told = json.loads(run("mock", folder, "--gates", "--json", "--jobs", "1").out)
+    told = json.loads(run("gates", folder, "--json", "--jobs", "1").out)
     verdicts = {gate["gate"]: gate["verdict"] for gate in told["gates"]}
     assert list(verdicts) == ["S2", "L6", "G1", "G2"]
     assert "failed" not in verdicts.values()
     faults = [check for gate in told["gates"] for check in gate["checks"] if "Every fault" in check["text"]]
     assert [check["verdict"] for check in faults] == ["passed"]
-    ran = run("mock", folder, "--gates", "--jobs", "1")
+    ran = run("gates", folder, "--jobs", "1")
     assert ran.code == 0
     for gate in told["gates"]:
         assert f"{gate['gate']} {gate['title']} ({gate['state']}): {gate['verdict']}" in ran.out
@@ -48,6 +48,6 @@ def test_gates_are_printed_and_told_to_programs(folder: str) -> None:
 
 def test_gate_fails_where_a_watchdog_is_missing(folder: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(TaskContext, "check_cell", lambda self: None)
-    ran = run("mock", folder, "--gates", "--jobs", "1")
+    ran = run("gates", folder, "--jobs", "1")
     assert ran.code == 1
     assert "  FAILED   Every fault at every step ends in a named outcome within its bound" in ran.out

@@ -6,9 +6,8 @@ import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from mcap.reader import make_reader
@@ -16,7 +15,8 @@ from mcap.reader import make_reader
 from cellc.contract.extras import MissingExtraError
 from cellc.contract.printing import Stream
 from cellc.mock import MockCell
-from cellc.mock.command.options import MockOptions, run_mock
+from cellc.mock.command.options import Live, RehearsalOptions
+from cellc.mock.command.rehearsals import run_rehearsals
 from cellc.mock.errors import MockError
 from tests.mock.conftest import Written
 from tests.mock.live.viewer import Viewer
@@ -130,25 +130,9 @@ def test_address_that_is_none_is_told(address: str) -> None:
         pass
 
 
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        ({"live": True, "evidence": "x"}, "--live does not go with --evidence"),
-        ({"live": True, "campaign": True}, "--live does not go with --campaign"),
-        ({"speed": 2.0}, "--speed needs --live"),
-        ({"listen": "127.0.0.1:1"}, "--listen needs --live"),
-        ({"live": True, "speed": 0.0}, "--speed must be greater than 0, got 0.0"),
-        ({"live": True, "speed": float("nan")}, "--speed must be greater than 0, got nan"),
-        ({"live": True, "speed": 0.5, "listen": "[::1]:0"}, ""),
-    ],
-)
-def test_options_that_do_not_go_together_are_told(options: dict[str, Any], said: str) -> None:
-    assert replace(MockOptions("x"), **options).contradiction() == said
-
-
 def test_missing_sdk_is_told_with_what_to_install(built_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(sys.modules, "cellc.mock.command.live", raising=False)
     monkeypatch.setitem(sys.modules, "foxglove", None)
     told = re.escape("-m pip install 'foxglove-sdk>=0.30' 'mcap>=1.1'`")
     with pytest.raises(MissingExtraError, match=told):
-        run_mock(MockOptions(str(built_folder), rehearsals=("cancelled",), live=True))
+        run_rehearsals(RehearsalOptions(str(built_folder), rehearsals=("cancelled",), live=Live("127.0.0.1:0", 1.0)))

@@ -39,7 +39,7 @@ def test_a_journal_of_any_size_is_refused_at_its_first_long_line(line: int, nest
             pass
     with mine.open("ab") as file:
         file.truncate(8 << 30)
-    ran = run("mock", str(nest_folder), "--sweep", "3", "--jobs", "1", "--journal", str(mine))
+    ran = run("sweep", str(nest_folder), "--runs", "3", "--jobs", "1", "--journal", str(mine))
     assert (ran.code, f"line {line} has more than 1048576 bytes" in ran.err) == (2, True), ran
     assert mine.stat().st_size == 8 << 30
 
@@ -48,8 +48,8 @@ def test_a_journal_of_any_size_is_refused_at_its_first_long_line(line: int, nest
 def test_a_file_that_is_no_journal_is_left_as_it_is(notes: bytes, nest_folder: Path, tmp_path: Path) -> None:
     mine = tmp_path / "notes.txt"
     mine.write_bytes(notes)
-    for asked in (["--sweep", "3", "--jobs", "1"], ["--replay", "sweep:1"]):
-        ran = run("mock", str(nest_folder), *asked, "--journal", str(mine))
+    for command, *asked in (["sweep", "--runs", "3", "--jobs", "1"], ["replay", "sweep:1"]):
+        ran = run(command, str(nest_folder), *asked, "--journal", str(mine))
         assert (ran.code, "is no journal" in ran.err) == (2, True), ran
         assert mine.read_bytes() == notes
 
@@ -127,7 +127,7 @@ def test_a_full_disk_is_told_with_the_file_and_the_sweep_goes_on_later(
     import resource
 
     journal = tmp_path / "runs.jsonl"
-    asked = ["mock", str(nest_folder), "--sweep", "60", "--jobs", "1", "--journal", str(journal)]
+    asked = ["sweep", str(nest_folder), "--runs", "60", "--jobs", "1", "--journal", str(journal)]
     ended = subprocess.run(
         [sys.executable, "-m", "cellc", *asked],
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes)),
@@ -139,4 +139,4 @@ def test_a_full_disk_is_told_with_the_file_and_the_sweep_goes_on_later(
         check=False,
     )
     assert (ended.returncode, ended.stderr) == (2, f"error: {journal.as_posix()}: cannot be written: file too large\n")
-    assert run("mock", str(nest_folder), "--sweep", "3", "--jobs", "1", "--journal", str(journal)).code == 1
+    assert run("sweep", str(nest_folder), "--runs", "3", "--jobs", "1", "--journal", str(journal)).code == 1

@@ -1,6 +1,6 @@
 """``config/uncertainty.json``: what a sweep draws, each number with unit, distribution and the statement it rests on.
 
-Format 1, ``cellc.contract.uncertainty``. Read by ``cellc mock --sweep``. A residual is taken for the root of the mean
+Format 1, ``cellc.contract.uncertainty``. Read by ``cellc sweep``. A residual is taken for the root of the mean
 square of the distance by which a frame is elsewhere, the same along each axis: an axis has a third of its square. A
 bound of a clock says no more than that: every offset within it is as likely. Pose repeatability is the mean distance
 from the middle of all arrivals and three standard deviations of it (ISO 9283:1998, 7.2.2); of errors that are normal

@@ -1,0 +1,4 @@
+"""How a run of a sweep is named."""
+
+SWEPT = "sweep:"
+"""Before its number."""

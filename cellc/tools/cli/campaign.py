@@ -1,0 +1,53 @@
+"""``cellc campaign``: every fault at every step of the rehearsals of a generated folder."""
+
+from __future__ import annotations
+
+import click
+
+from cellc.contract.compute.fan import Fan
+from cellc.tools.cli.fleet import fan_options
+from cellc.tools.cli.limit_option import limit_option
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, RECORDS, SEED
+
+
+@click.command()
+@FOLDER
+@PAIRS
+@click.option("--list", "list_only", is_flag=True, help="Print the runs, and run none.")
+@RECORDS
+@EVIDENCE
+@JSON
+@SEED
+@EDITED
+@fan_options
+@limit_option
+def campaign(
+    folder: str,
+    pairs: int,
+    list_only: bool,
+    records: str | None,
+    evidence: str | None,
+    as_json: bool,
+    seed: int,
+    edited: bool,
+    fan: Fan,
+) -> None:
+    """Run every fault at every step of the generated FOLDER, and print the matrix.
+
+    A run fails where it ends in another outcome than its fault allows, later than its bound, or beyond a limit of a
+    joint; exit 1 where one does. `cellc replay` makes one run again.
+
+    \b
+    cellc campaign generated/bench                 fault by step, over all cores
+    cellc campaign generated/bench --pairs 500     and 500 runs with two faults
+    cellc campaign generated/bench --list          names of the runs
+    cellc campaign generated/bench --evidence evidence/1
+    """
+    from cellc.mock.command.campaign import list_runs, run_campaign
+    from cellc.mock.command.options import CampaignOptions
+
+    written = next((name for name, path in (("--evidence", evidence), ("--records", records)) if path is not None), "")
+    if list_only and written:
+        raise click.UsageError(f"{written} does not go with --list, which runs nothing.")
+    options = CampaignOptions(folder, seed, edited, as_json, evidence, fan, pairs, records)
+    raise click.exceptions.Exit(list_runs(options) if list_only else run_campaign(options))

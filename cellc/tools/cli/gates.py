@@ -1,0 +1,52 @@
+"""``cellc gates``: what the mock can say of the gates of a generated folder."""
+
+from __future__ import annotations
+
+import click
+
+from cellc.contract.compute.fan import Fan
+from cellc.tools.cli.fleet import fan_options
+from cellc.tools.cli.limit_option import limit_option
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JOURNAL, JSON, PAIRS, RECORDS, SEED
+
+
+@click.command()
+@FOLDER
+@click.option("--sweep", "runs", type=int, metavar="N", help="Judge rates of success too, by up to N runs of a sweep.")
+@JOURNAL
+@PAIRS
+@RECORDS
+@EVIDENCE
+@JSON
+@SEED
+@EDITED
+@fan_options
+@limit_option
+def gates(
+    folder: str,
+    runs: int | None,
+    journal: str | None,
+    pairs: int,
+    records: str | None,
+    evidence: str | None,
+    as_json: bool,
+    seed: int,
+    edited: bool,
+    fan: Fan,
+) -> None:
+    """Run rehearsals and campaign of the generated FOLDER, and judge gates L6, G1 and G2 by them, line by line.
+
+    What only a robot or a person can show stays UNKNOWN; exit 1 where a line failed.
+
+    \b
+    cellc gates generated/bench
+    cellc gates generated/bench --sweep 10000 --journal sweep.jsonl
+    cellc gates generated/bench --evidence evidence/1
+    """
+    from cellc.mock.command.gates import run_gates
+    from cellc.mock.command.options import GatesOptions
+
+    if journal is not None and runs is None:
+        raise click.UsageError("--journal needs --sweep.")
+    options = GatesOptions(folder, seed, edited, as_json, evidence, fan, pairs, records, runs, journal)
+    raise click.exceptions.Exit(run_gates(options))

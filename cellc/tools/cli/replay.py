@@ -1,0 +1,65 @@
+"""``cellc replay``: one run of a campaign or of a sweep again, bit for bit."""
+
+from __future__ import annotations
+
+import click
+
+from cellc.mock.sweep.names import SWEPT
+from cellc.tools.cli.limit_option import limit_option
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, RECORDS, SEED
+from cellc.tools.cli.words import complete_rehearsal, complete_run
+
+
+@click.command()
+@FOLDER
+@click.argument("runs", nargs=-1, required=True, metavar="RUN...", shell_complete=complete_run)
+@click.option("--rehearsal", metavar="NAME", shell_complete=complete_rehearsal, help="That a run of a sweep is of.")
+@click.option(
+    "--journal", type=click.Path(path_type=str, dir_okay=False), help="Of the sweep; any other one is refused."
+)
+@RECORDS
+@EVIDENCE
+@JSON
+@SEED
+@EDITED
+@limit_option
+def replay(
+    folder: str,
+    runs: tuple[str, ...],
+    rehearsal: str | None,
+    journal: str | None,
+    records: str | None,
+    evidence: str | None,
+    as_json: bool,
+    seed: int,
+    edited: bool,
+) -> None:
+    """Make each RUN of the generated FOLDER again: of its campaign, or `sweep:NUMBER`; exit 1 where one fails.
+
+    `cellc campaign --list` prints the runs of a campaign; a run that failed is told with its command.
+
+    \b
+    cellc replay generated/bench 'pick/stick:arm_elbow_joint@3'
+    cellc replay generated/bench sweep:17 --evidence evidence/17
+    """
+    from cellc.mock.command.options import ReplayOptions
+
+    swept = [run.startswith(SWEPT) for run in runs]
+    if any(swept) and not all(swept):
+        raise click.UsageError("runs of a sweep do not go with runs of the campaign.")
+    of_sweep = {"--rehearsal": rehearsal is not None, "--journal": journal is not None}
+    needless = next((option for option, given in of_sweep.items() if given and not swept[0]), "")
+    if needless:
+        raise click.UsageError(f"{needless} needs a run of a sweep, `{SWEPT}NUMBER`.")
+    if records is not None and swept[0]:
+        raise click.UsageError("--records does not go with a run of a sweep.")
+    options = ReplayOptions(
+        folder, seed, edited, as_json, evidence, runs=runs, rehearsal=rehearsal, journal=journal, records=records
+    )
+    if swept[0]:
+        from cellc.mock.command.sweep import replay_swept
+
+        raise click.exceptions.Exit(replay_swept(options))
+    from cellc.mock.command.campaign import replay_runs
+
+    raise click.exceptions.Exit(replay_runs(options))
