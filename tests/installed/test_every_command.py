@@ -39,6 +39,8 @@ CALLS = (
     (f"sweep {BUILT} --cluster tcp://127.0.0.1:1", 2, CLUSTER),
     (f"campaign {BUILT} --list", 0, "ready/cancel"),
     ("campaign nothing", 2, "error: nothing: no such folder"),
+    ("sweep --help", 0, "Runs of each rehearsal, at most."),
+    ("gates --help", 0, "Run rehearsals and campaign"),
     (f"sweep {BUILT}", 2, "the folder has no `config/uncertainty.json`"),
     (f"replay {BUILT} skip_cycles@1", 0, "passed  ready/skip_cycles@1"),
     (f"replay {BUILT} nothing", 2, "there is no run `nothing`"),

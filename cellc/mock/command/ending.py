@@ -18,7 +18,7 @@ def refusing(command: Callable[[_Options], int]) -> Callable[[_Options], int]:
     """Let a command end with 2 and the reason where the folder or an option is unusable.
 
     Raises:
-        MissingExtraError: what it needs is not installed; told before the minutes that a run may take.
+        MissingExtraError: what it needs is not installed; found out before the minutes that a run may take.
     """
 
     @wraps(command)

@@ -27,7 +27,7 @@ class Named:
 
     Attributes:
         paths: generated folders; specs, or folders of them, where there is a matrix.
-        table: whether a table of several is told, and not the results of one folder.
+        table: whether a table of several is printed, and not the results of one folder.
     """
 
     paths: tuple[str, ...]

@@ -36,7 +36,7 @@ def replay(
 ) -> None:
     """Make each RUN of the generated FOLDER again: of its campaign, or `sweep:NUMBER`; exit 1 where one fails.
 
-    `cellc campaign --list` prints the runs of a campaign; a run that failed is told with its command.
+    `cellc campaign --list` prints the runs of a campaign; a run that failed is printed with its command.
 
     \b
     cellc replay generated/bench 'pick/stick:arm_elbow_joint@3'
