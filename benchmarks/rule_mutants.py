@@ -1,8 +1,9 @@
 """Breaks every rule in many small ways, and counts the mutants that the corpus and the page examples notice.
 
 ``python benchmarks/rule_mutants.py [--survivors] [--rule CODE]``. A mutant is one changed condition, comparison,
-figure, word or yield of a rule's check. It is killed where its findings differ by file and line, on any case, from
-those of the rule as it is, which the tests hold. What only words a message is not mutated.
+figure, word or yield of a rule's check, or of what its module has for it. It is killed where its findings differ by
+file and line, on any case, from those of the rule as it is, which the tests hold. What only words a message is not
+mutated.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import shutil
 import sys
 import tempfile
 import types
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -26,7 +27,7 @@ from cellc.compiler.rules.kit import Rule  # noqa: E402
 from cellc.compiler.rules.run import ALL_RULES  # noqa: E402
 from cellc.compiler.source.read import read  # noqa: E402
 from cellc.compiler.spec.parse import parse  # noqa: E402
-from tests.rules import boundaries, examples  # noqa: E402
+from tests.rules import boundaries, examples, sources  # noqa: E402
 
 _WORDING = {"message", "advice", "names", "related", "way", "chain", "allowed", "turns", "faults", "expected", "got"}
 _WORDING |= {"queue", "legal", "per", "deadline", "period", "even", "age", "claimed", "needed", "written", "bounds"}
@@ -90,12 +91,13 @@ def _other(value: object) -> bool | float | str:
     return value * 1.5 + 1 if isinstance(value, (int, float)) else f"{value}~"
 
 
-def mark(tree: ast.Module) -> None:
+def mark(tree: ast.Module, lines: Container[int]) -> None:
     """Mark the nodes that decide, apart from docstrings, annotations, messages and the declaration of the rule."""
-    for function in (node for node in tree.body if isinstance(node, ast.FunctionDef)):
+    own = [statement for statement in tree.body if statement.lineno in lines]
+    for function in (node for node in own if isinstance(node, ast.FunctionDef)):
         for statement in function.body[1:] if ast.get_docstring(function) else function.body:
             _mark(statement)
-    for constant in (node for node in tree.body if isinstance(node, ast.Assign)):
+    for constant in (node for node in own if isinstance(node, ast.Assign)):
         if isinstance(constant.targets[0], ast.Name) and constant.targets[0].id.startswith("_"):
             _mark(constant.value)
 
@@ -139,10 +141,9 @@ def places(rule: Rule, graph: CellGraph) -> Places:
 def killed(tree: ast.Module, rule: Rule, cases: list[tuple[CellGraph, Places]]) -> bool:
     """Tell whether a mutant finds something else than its rule on any case, or fails."""
     module = types.ModuleType(rule.check.__module__)
-    module.__dict__["__doc__"] = rule.page
     try:
         exec(compile(tree, rule.code, "exec"), module.__dict__)
-        return any(places(module.__dict__["check"], graph) != due for graph, due in cases)
+        return any(places(module.__dict__[rule.check.__name__], graph) != due for graph, due in cases)
     except Exception:  # a mutant may raise anything, and is noticed by it
         return True
 
@@ -158,8 +159,8 @@ def main() -> None:
     total = noticed = 0
     for rule in ALL_RULES:
         if options.rule in (None, rule.code):
-            tree = ast.parse(Path(sys.modules[rule.check.__module__].__file__ or "").read_text(encoding="utf-8"))
-            mark(tree)
+            tree = sources.module_of(rule)
+            mark(tree, sources.lines_of(rule))
             cases = [(graph, places(rule, graph)) for graph in made]
             for name, mutant in mutants(tree):
                 total += 1

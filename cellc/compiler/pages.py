@@ -1,9 +1,9 @@
-"""The documentation page of every code that cellc can report, and the families and stages that codes are grouped by."""
+"""Every code that cellc can report, the families and stages that group them, and their pages as a handbook."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
 
 from cellc.compiler.catalog.codes import CODES as CATALOG_CODES
@@ -14,11 +14,12 @@ from cellc.compiler.rules.kit import FAMILIES
 from cellc.compiler.rules.run import ALL_RULES
 from cellc.compiler.rules.shared_domain import CODES as FLEET_CODES
 from cellc.compiler.source.codes import CODES as SOURCE_CODES
-from cellc.compiler.spec.codes import CODES as SPEC_CODES
+from cellc.compiler.spec.errors import CODES as SPEC_CODES
 from cellc.compiler.verify.codes import CODES as VERIFY_CODES
-from cellc.contract.diagnostics.diagnostic import CodePage
+from cellc.contract.code_page import CodePage, page_of
+from cellc.contract.diagnostics import Severity
 
-STAGES: dict[str, tuple[CodePage, ...]] = {
+STAGES: Mapping[str, Mapping[str, Severity]] = {
     "source": SOURCE_CODES,
     "spec": SPEC_CODES,
     "catalog": CATALOG_CODES,
@@ -30,28 +31,22 @@ STAGES: dict[str, tuple[CodePage, ...]] = {
 }
 """Stage → its codes, in the order in which a cell passes the stages."""
 _MARK = re.compile(r"^(?:#|<!--) expect.*\n|  (?:#|<!--) expect.*$", re.MULTILINE)
-"""In the examples of a rule, what tells the tests where the finding is expected."""
-_OWN_PAGE = re.compile(r"(?<!/)\bdocs/(\w+\.md)(#[\w-]+)?")  # not at the end of an address
-_WRITTEN = (
-    "Written by `cellc explain --all -o docs/rules`; not to be edited. `cellc explain CODE` prints one of these pages."
-)
+"""In the examples of a page, what tells the tests where the finding is expected."""
+_LINK = re.compile(r"\[([\w.#-]+)\]\(\.\./\1\)")
+"""To another page of ``docs``; on a terminal it is its path."""
+_WRITTEN = "Written by `cellc explain --all -o docs/rules`; the pages that it lists are written by hand."
 
 
-def all_pages() -> dict[str, CodePage]:
-    """Return the pages by code, in alphabetical order."""
-    pages = [page for stage in STAGES.values() for page in stage]
-    pages += [CodePage(rule.code, rule.severity, rule.title, _body(rule.page), "") for rule in ALL_RULES]
-    return {page.code: page for page in sorted(pages, key=lambda page: page.code)}
+def all_codes() -> dict[str, Severity]:
+    """Return the severity of every code, in alphabetical order."""
+    severities = {code: severity for codes in STAGES.values() for code, severity in codes.items()}
+    severities.update((rule.code, rule.severity) for rule in ALL_RULES)
+    return dict(sorted(severities.items()))
 
 
 def render_page(page: CodePage) -> str:
-    """Write a page as Markdown."""
-    title = page.title[0].upper() + page.title[1:]
-    shown = _MARK.sub("", page.example).strip()
-    language = {"<": "xml", "$": "console"}.get(shown[:1], "yaml")
-    example = f"\nExample that is reported:\n\n```{language}\n{shown}\n```\n" if shown else ""
-    fix = f"\nFix: {page.fix}.\n" if page.fix else ""
-    return f"# {page.code} ({page.severity.value})\n\n{title}.\n\n{page.why.strip()}\n{example}{fix}"
+    """Return a page without what only its tests and its folder need."""
+    return _LINK.sub(r"docs/\1", _MARK.sub("", page.text))
 
 
 def codes_by_family() -> dict[str, frozenset[str]]:
@@ -65,18 +60,12 @@ def family_of(code: str) -> str:
 
 
 def render_handbook() -> dict[str, str]:
-    """Return the files of ``docs/rules``: an index, one document for each family of rules, and one for the stages."""
-    pages, families = all_pages(), codes_by_family()
-    documents = {f"{folder}.md": [f"# {family}: {_about(folder)}", folder] for folder, family in FAMILIES.items()}
-    documents["stages.md"] = ["# Codes of the stages around the rules", *STAGES]
-    index = ["# Every code of cellc\n", f"{_WRITTEN}\n"]
-    files = {}
-    for name, (title, *groups) in documents.items():
-        codes = sorted(code for group in groups for code in families[group])
-        index += [f"#{title}\n", *_rows(name, [pages[code] for code in codes])]
-        text = "\n".join([f"{title}\n", f"{_WRITTEN}\n", *(f"#{render_page(pages[code])}" for code in codes)])
-        files[name] = _OWN_PAGE.sub(r"[\1\2](../\1\2)", text)
-    return {"README.md": "\n".join(index), **files}
+    """Return the files of ``docs/rules``: an index, and the page of every code as it is written."""
+    families, index = codes_by_family(), ["# Every code of cellc\n", f"{_WRITTEN}\n"]
+    for folder, family in FAMILIES.items():
+        index += [f"## {family}: {_about(folder)}\n", *_rows(families[family])]
+    index += ["## Codes of the stages around the rules\n", *_rows(code for codes in STAGES.values() for code in codes)]
+    return {"README.md": "\n".join(index), **{f"{code}.md": page_of(code).text for code in all_codes()}}
 
 
 def _families() -> Iterator[tuple[str, frozenset[str]]]:
@@ -84,13 +73,8 @@ def _families() -> Iterator[tuple[str, frozenset[str]]]:
         codes = frozenset(rule.code for rule in ALL_RULES if rule.family == family)
         yield folder, codes
         yield family, codes
-    for stage, pages in STAGES.items():
-        yield stage, frozenset(page.code for page in pages)
-
-
-def _body(page: str) -> str:
-    """Return a rule's docstring without its title line, and without the marks of its examples."""
-    return _MARK.sub("", page.partition("\n")[2])
+    for stage, severities in STAGES.items():
+        yield stage, frozenset(severities)
 
 
 def _about(folder: str) -> str:
@@ -99,9 +83,9 @@ def _about(folder: str) -> str:
     return text.strip().removeprefix("Rules on ").rstrip(".")
 
 
-def _rows(file: str, pages: list[CodePage]) -> Iterator[str]:
+def _rows(codes: Iterable[str]) -> Iterator[str]:
+    severities = all_codes()
     yield "| code | severity | what is wrong |\n|---|---|---|"
-    for page in pages:
-        severity = page.severity.value
-        yield f"| [{page.code}]({file}#{page.code}-{severity}) | {severity} | {page.title} |"
+    for code in sorted(codes):
+        yield f"| [{code}]({code}.md) | {severities[code].value} | {page_of(code).title} |"
     yield ""

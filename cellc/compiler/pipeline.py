@@ -26,7 +26,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.text import with_shown_texts
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
-from cellc.contract.diagnostics.diagnostic import CodePage, Findings, counted, findings_table
+from cellc.contract.diagnostics.diagnostic import Findings, counted, findings_table
 from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.limits import limits
 from cellc.contract.printing import stage
@@ -219,20 +219,20 @@ def _checked(
 def _excused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:
     """Take out what comments excuse, once every rule has run."""
     ignores = ignore_comments(texts)
-    return _sorted(list(apply_ignores(found, ignores, _pages()))) if ignores else _sorted(found)
+    return _sorted(list(apply_ignores(found, ignores, _codes()))) if ignores else _sorted(found)
 
 
 def _unexcused(found: list[Diagnostic], texts: Mapping[str, str]) -> tuple[Diagnostic, ...]:
     """Keep what stopped a stage, and tell comments that try to excuse it."""
     ignores = ignore_comments(texts)
-    return _sorted([*found, *misused_ignores(ignores, _pages())]) if ignores else _sorted(found)
+    return _sorted([*found, *misused_ignores(ignores, _codes())]) if ignores else _sorted(found)
 
 
-def _pages() -> dict[str, CodePage]:
-    # Few cells excuse anything, and only for them the pages of all stages are read.
-    from cellc.compiler.pages import all_pages
+def _codes() -> Mapping[str, Severity]:
+    # Few cells excuse anything, and only for them the codes of all stages are collected.
+    from cellc.compiler.pages import all_codes
 
-    return all_pages()
+    return all_codes()
 
 
 def _sorted(diagnostics: list[Diagnostic]) -> tuple[Diagnostic, ...]:

@@ -132,7 +132,7 @@ def test_device_of_the_user_with_a_wrong_value_is_reported_on_its_line(tmp_path:
     )
     (tmp_path / "device.yaml").write_text("\n".join(lines), encoding="utf-8")
     (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
-    assert found.code == "catalogue-entry-invalid"
+    assert found.code == "catalog-entry-invalid"
     assert "30 mm" in lines[found.span.line - 1]
 
 
@@ -164,7 +164,7 @@ def test_a_name_of_a_device_of_the_user_is_one_word_without_a_line_break(tmp_pat
     (tmp_path / "device.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "a.urdf").write_text('<robot name="a"><link name="a"/></robot>', encoding="utf-8")
     (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
-    assert found.code in ("catalogue-entry-invalid", "substitution-in-text")
+    assert found.code in ("catalog-entry-invalid", "substitution-in-text")
     assert found.span.line == 10
 
 
@@ -174,7 +174,7 @@ def test_the_name_of_a_hardware_component_is_a_name_of_ros(tmp_path: Path) -> No
     text = f"{_OWN}description: {{file: a.urdf}}\nbase: a\nframes: {{a: a}}\npackages: {{}}\ncontrol: {control}\n"
     (tmp_path / "device.yaml").write_text(text, encoding="utf-8")
     (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
-    assert (found.code, found.span.line, found.yaml_path) == ("catalogue-entry-invalid", 12, ("control", "component"))
+    assert (found.code, found.span.line, found.yaml_path) == ("catalog-entry-invalid", 12, ("control", "component"))
 
 
 def test_tables_load() -> None:

@@ -88,7 +88,7 @@ def test_mistake_is_at_the_line_of_the_file_that_makes_it(folder: Path) -> None:
 def test_family_that_is_not_there_is_said_at_its_name(named: str, folder: Path) -> None:
     _write(folder, "", f"family: {named}\nmodel: long_arm\n")
     (found,) = _load(folder).diagnostics
-    assert found.code == "catalogue-entry-invalid"
+    assert found.code == "catalog-entry-invalid"
     assert found.message.startswith("`family` must name a `FAMILY.family.yaml` beside this file or in the folder above")
     assert (found.span.line, found.span.column) == (1, 9 if not named.startswith("[") else 1)
 

@@ -42,7 +42,7 @@ def test_name_of_nothing_is_found_at_its_line(device: str, old: str, new: str, m
     loaded = load_device_folder(folder, tmp_path)
     assert loaded.value is None
     (found,) = loaded.diagnostics
-    assert (found.code, found.message.endswith(message)) == ("catalogue-entry-invalid", True)
+    assert (found.code, found.message.endswith(message)) == ("catalog-entry-invalid", True)
     assert "nobody" in changed.splitlines()[found.span.line - 1]
 
 
@@ -80,7 +80,7 @@ def test_slip_in_an_interface_and_home_past_a_limit_are_found_at_their_line(
     changed = text.replace(old, new, 1)
     (folder / "device.yaml").write_text(changed, encoding="utf-8")
     (found,) = load_device_folder(folder, tmp_path).diagnostics
-    assert found.code == "catalogue-entry-invalid"
+    assert found.code == "catalog-entry-invalid"
     assert message in found.message
     assert new.split("\n")[0] in changed.splitlines()[found.span.line - 1]
 

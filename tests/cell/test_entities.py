@@ -12,7 +12,7 @@ from cellc.compiler.cell.entity import Places
 from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.site import Host, Kpis, NetworkCard, Safety, Stop, Versions
 from cellc.compiler.graph.cell_graph import build_graph
-from cellc.compiler.rules.safety.dependent_stop import check as dependent_stop
+from cellc.compiler.rules.safety.stop import dependent_stop
 from cellc.contract.diagnostics import Span
 from cellc.contract.vocabulary import Distro
 from cellc.robot.description.model import Description

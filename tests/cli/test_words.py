@@ -12,7 +12,7 @@ import pytest
 from click.shell_completion import ShellComplete
 
 from cellc.compiler.catalog.load import device_names
-from cellc.compiler.pages import all_pages
+from cellc.compiler.pages import all_codes
 from cellc.tools.cli.main import cellc
 from tests.cells import generated
 from tests.cli.run import run
@@ -27,7 +27,7 @@ def _completed(arguments: list[str], incomplete: str) -> list[str]:
 
 
 def test_codes_are_completed() -> None:
-    assert _completed(["explain"], "unread-") == [code for code in all_pages() if code.startswith("unread-")]
+    assert _completed(["explain"], "unread-") == [code for code in all_codes() if code.startswith("unread-")]
 
 
 def test_the_last_code_of_several_is_completed() -> None:

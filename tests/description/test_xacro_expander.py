@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cellc.compiler.catalog.codes import CODES
 from cellc.contract.diagnostics import Diagnostic
 from cellc.robot.description.read_description import read_description
 from cellc.robot.description.xacro_expansion import expand_here, expand_xacro
@@ -190,11 +189,6 @@ def test_a_package_is_found_from_a_relative_root(tmp_path: Path, monkeypatch: py
     expanded = expand_here(f"arm/{file.name}", {}, ".")
     assert expanded.value is not None, expanded.diagnostics
     assert expanded.value.origins["link", "found"].file == "shapes/shape.xacro"
-
-
-def test_every_reported_code_has_one_page() -> None:
-    codes = [page.code for page in CODES]
-    assert codes == sorted(set(codes))
 
 
 _PIECES = st.sampled_from(

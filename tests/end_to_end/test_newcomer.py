@@ -65,7 +65,7 @@ def test_cell_of_init_moves_an_imported_robot_with_a_gripper_of_the_catalog(empt
     [
         ("arm=./nothing", 2, "`nothing` holds no `device.yaml`: `cellc import` writes such a folder"),
         ("arm=./empty_one -o sub/cell.yaml", 2, "`empty_one` must lie below the folder of the spec, which is `sub`"),
-        ("arm=./empty_one", 1, "error[catalogue-entry-invalid]: `model` is missing"),
+        ("arm=./empty_one", 1, "error[catalog-entry-invalid]: `model` is missing"),
     ],
 )
 def test_folder_that_is_no_device_is_refused_by_init(arguments: str, code: int, said: str, empty: Path) -> None:

@@ -337,7 +337,7 @@ def test_name_with_a_space_is_refused_at_its_line(old: str, new: str, here: Path
     file.write_text(text.replace(old, new), encoding="utf-8")
     line = text.partition(old)[0].count("\n") + 1
     out = run("check", "cell.yaml").out
-    assert "error[catalogue-entry-invalid]" in out
+    assert "error[catalog-entry-invalid]" in out
     assert f"odd_arm/device.yaml:{line}:" in out
 
 

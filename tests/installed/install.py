@@ -21,7 +21,7 @@ import pytest
 from tests.cells import ROOT
 from tests.cli.run import Ran
 
-_LEFT_OUT = (":!tests", ":!benchmarks", ":!docs")
+_LEFT_OUT = (":!tests", ":!benchmarks")
 _DRIVER = """\
 import contextlib, io, json, os, sys
 from cellc.tools.cli.main import run

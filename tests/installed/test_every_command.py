@@ -59,6 +59,7 @@ CALLS = (
     (f"diff {SPEC} {BUILT}", 0, "no change"),
     (f"diff {BUILT} nothing", 2, "there is no file `nothing`"),
     ("explain missing-unit", 0, "# missing-unit"),
+    ("explain zero-axis", 0, "# zero-axis (error)"),
     ("explain missing-unitt", 2, "did you mean `missing-unit`"),
     (f"format {SPEC}", 0, "1 file is in canonical form"),
     ("format my_arm.urdf", 1, "error[not-yaml]"),

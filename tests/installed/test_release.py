@@ -10,6 +10,7 @@ import zipfile
 import pytest
 import yaml
 
+from cellc.compiler.pages import all_codes
 from cellc.version import __version__
 from tests.cells import ROOT
 from tests.installed.install import Install, first_command, run
@@ -31,6 +32,12 @@ def test_wheel_has_what_an_editor_and_a_type_checker_read(wheel: zipfile.ZipFile
         assert name in wheel.namelist()
 
 
+def test_wheel_has_the_page_of_every_code(wheel: zipfile.ZipFile) -> None:
+    for code in all_codes():
+        page = ROOT / "docs" / "rules" / f"{code}.md"
+        assert wheel.read(f"cellc/docs/rules/{code}.md") == page.read_bytes()
+
+
 def test_wheel_holds_the_package_and_nothing_else(wheel: zipfile.ZipFile) -> None:
     tops = {name.partition("/")[0] for name in wheel.namelist()}
     assert tops == {"cellc", f"cellc-{__version__}.dist-info"}
@@ -50,6 +57,8 @@ def test_sdist_is_a_checkout_in_which_the_first_command_can_be_run(readme_instal
         names = set(sdist.getnames())
     for needed in ("pyproject.toml", "README.md", "LICENSE", "NOTICE", "cellc/version.py", "schemas/cell.schema.json"):
         assert f"{head}/{needed}" in names
+    for code in all_codes():
+        assert f"{head}/docs/rules/{code}.md" in names
     for named in re.findall(r"(?:cells|generated)/[\w/.]+", first_command()):
         assert [name for name in names if name.startswith(f"{head}/{named}")]
 

@@ -74,4 +74,4 @@ def test_file_of_a_device_is_checked_by_itself() -> None:
     file = "/home/me/arm/device.yaml"
     found, _ = Cells().check(file, {file: "format: 1\nmodel: my_arm\nkind: arn\n"})
     kinds = [one for one in found if one.yaml_path == ("kind",)]
-    assert [(one.code, one.span.line) for one in kinds] == [("catalogue-entry-invalid", 3)]
+    assert [(one.code, one.span.line) for one in kinds] == [("catalog-entry-invalid", 3)]

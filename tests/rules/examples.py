@@ -46,7 +46,7 @@ class Example:
 
 def examples(rule: Rule) -> tuple[Example, Example]:
     """Return the example that is reported and the one that is accepted."""
-    reported, accepted = (Example(language, text) for language, text in _FENCE.findall(rule.page))
+    reported, accepted = (Example(language, text) for language, text in _FENCE.findall(rule.page.text))
     return reported, accepted
 
 

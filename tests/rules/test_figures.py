@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from cellc.compiler.pipeline import check
-from cellc.compiler.rules.motion.timeout_below_motion import _alone_s
+from cellc.compiler.rules.motion.goals import _alone_s
 from cellc.compiler.rules.run import ALL_RULES
 from tests.cells import CORPUS, ROOT
 from tests.rules.examples import diagnose_example, examples

@@ -8,9 +8,8 @@ import pytest
 
 from cellc.compiler.cell.device import CameraStream, FieldOfView
 from cellc.compiler.feasibility import ViewAnswer
-from cellc.compiler.rules.frames.camera_sees_nothing import _aside, _sees
-from cellc.compiler.rules.frames.object_out_of_view import _wrong
-from cellc.compiler.rules.model.impossible_inertia import _impossible
+from cellc.compiler.rules.frames.cameras import _aside, _sees, _wrong
+from cellc.compiler.rules.model.links import _impossible
 from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.robot.description.model import Inertial
 

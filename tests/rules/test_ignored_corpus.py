@@ -52,5 +52,5 @@ def test_finding_is_excused_or_refused(code: str, folder: Path) -> None:
     # Issue 5: errors of safety, ownership and frames cannot be ignored; what blocks motion there cannot either.
     protected = rule.family in ("SAF", "OWN", "FRM") and rule.severity in (Severity.ERROR, Severity.BLOCKER)
     # Errors of linking end the check before a rule could speak.
-    protected = protected or code in {page.code for page in LINK_CODES}
+    protected = protected or code in LINK_CODES
     assert told == ({code, "ignore-refused"} if protected else set())

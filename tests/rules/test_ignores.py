@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compiler.pages import all_pages
+from cellc.compiler.pages import all_codes
 from cellc.compiler.pipeline import Checked, check
 from cellc.compiler.rules.ignores import apply_ignores, ignore_comments
 from cellc.compiler.rules.run import ALL_RULES
@@ -137,7 +137,7 @@ def warning(code: str, place: Span) -> Diagnostic:
 def judged(text: str, *found: Diagnostic) -> list[tuple[str, Span]]:
     """Return code and place of what remains when the comments of ``cell.yaml`` are applied."""
     ignores = ignore_comments({"cell.yaml": text, "part.yaml": "a: 1\n"})
-    return [(one.code, one.span) for one in apply_ignores(found, ignores, all_pages())]
+    return [(one.code, one.span) for one in apply_ignores(found, ignores, all_codes())]
 
 
 @pytest.mark.parametrize("place", [spot(2), spot(1, "part.yaml")])

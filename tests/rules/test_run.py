@@ -14,9 +14,9 @@ from tests.cells import CORPUS, graph_of
 def rule(code: str, line: int | None, assumes: tuple[str, ...] = ()) -> Rule:
     def check(graph: CellGraph) -> Iterator[Finding]:
         if line is not None:
-            yield Finding("found", Span("cell.yaml", line, 1, line, 2))
+            yield Finding("found", Span("cell.yaml", line, 1, line, 2), help="do that")
 
-    return Rule(code, "FRM", Severity.ERROR, check, "", assumes)
+    return Rule(code, "FRM", Severity.ERROR, check, assumes)
 
 
 def codes(*rules: Rule) -> list[str]:

@@ -12,8 +12,8 @@ import pytest
 from cellc.compiler.rules.kit import Rule
 from cellc.compiler.rules.run import ALL_RULES
 from tests.rules.examples import Example, diagnose_example
+from tests.rules.sources import lines_of, module_of
 
-FOLDER = Path(__file__).resolve().parents[2] / "cellc" / "compiler" / "rules"
 RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
 _REFUSED = re.compile(
     r"\b(?:is|are) (?:due|asked for|allowed)\b|\bnone can\b|(?<![Tt]here )\bis no [a-z]|\bha(?:s|ve) to be\b"
@@ -32,7 +32,7 @@ interfaces:
 
 def texts(rule: Rule) -> Iterator[str]:
     """Yield what a rule says to people: its page without examples, and the texts of its messages and helps."""
-    page = re.sub(r"```.*?```", "", rule.page, flags=re.DOTALL)
+    page = re.sub(r"```.*?```", "", rule.page.text, flags=re.DOTALL)
     yield re.sub(r"`[^`]*`", "", page)
     for call in calls_of(rule):
         yield from (
@@ -41,9 +41,9 @@ def texts(rule: Rule) -> Iterator[str]:
 
 
 def calls_of(rule: Rule) -> Iterator[ast.AST]:
-    """Yield the assignments of texts and the calls that report, in the file of a rule."""
-    (file,) = FOLDER.glob(f"*/{rule.code.replace('-', '_')}.py")
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    """Yield the assignments of texts and the calls that report, in the source of a rule."""
+    statements = [statement for statement in module_of(rule).body if statement.lineno in lines_of(rule)]
+    for node in (node for statement in statements for node in ast.walk(statement)):
         named = isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) in _WORDING
         if named or (isinstance(node, ast.Call) and ast.unparse(node.func) in ("found", "Finding")):
             yield node
@@ -56,9 +56,9 @@ def test_words_are_those_of_the_style_sheet(rule: Rule) -> None:
 
 @pytest.mark.parametrize("rule", RULES)
 def test_fix_is_one_line_that_begins_with_a_verb(rule: Rule) -> None:
-    assert re.match(r"[a-z]+ ", rule.fix)
-    assert len(rule.fix) <= 140
-    assert not rule.fix.startswith(("the ", "a ", "an ", "no ", "it "))
+    assert re.match(r"[a-z]+ ", rule.page.fix)
+    assert len(rule.page.fix) <= 140
+    assert not rule.page.fix.startswith(("the ", "a ", "an ", "no ", "it "))
 
 
 @pytest.mark.parametrize("rule", RULES)

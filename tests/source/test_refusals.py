@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from cellc.compiler.source import read
-from cellc.compiler.source.codes import CODES
 from cellc.contract.limits import DEFAULTS, in_force
 from tests.source.reading import codes, places, read_bytes
 
@@ -100,13 +99,6 @@ def test_many_values_without_aliases_are_refused(tmp_path: Path) -> None:
 
 def test_reading_stops_after_a_hundred_findings(tmp_path: Path) -> None:
     assert len(read_bytes(tmp_path, "a: 1\n" * 5000).diagnostics) == 100
-
-
-def test_every_code_has_a_page_of_its_own() -> None:
-    names = [page.code for page in CODES]
-    assert names == sorted(set(names))
-    assert all(page.title and page.why and page.fix for page in CODES)
-    assert all(not page.title.endswith(".") for page in CODES)
 
 
 @pytest.mark.parametrize(

@@ -57,4 +57,4 @@ def _no_family(name: str, document: SourceDocument) -> Diagnostic:
     path = ("family",)
     message = f"`family` must name a `FAMILY{FAMILY_FILE}` beside this file or in the folder above, got `{name}`"
     advice = "write what the models share into that file, or delete `family:`"
-    return Diagnostic("catalogue-entry-invalid", Severity.ERROR, message, document.locate(path), path, advice)
+    return Diagnostic("catalog-entry-invalid", Severity.ERROR, message, document.locate(path), path, advice)

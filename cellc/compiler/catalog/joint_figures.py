@@ -51,7 +51,7 @@ def wrong_joint_figures(model: DeviceModel, description: Description, document: 
 
 
 def _wrong(message: str, path: YamlPath, document: SourceDocument, advice: str) -> Diagnostic:
-    return Diagnostic("catalogue-entry-invalid", Severity.ERROR, message, document.locate(path), path, advice)
+    return Diagnostic("catalog-entry-invalid", Severity.ERROR, message, document.locate(path), path, advice)
 
 
 def _figures(model: DeviceModel, description: Description) -> Iterator[tuple[YamlPath, Joint, Quantity]]:

@@ -50,7 +50,7 @@ def unknown_names(
     ):
         if reference.name not in reference.known:
             yield Diagnostic(
-                "catalogue-entry-invalid",
+                "catalog-entry-invalid",
                 Severity.ERROR,
                 f"the {reference.where} has no {reference.thing} `{reference.name}`",
                 document.locate(reference.path),

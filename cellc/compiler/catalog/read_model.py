@@ -19,7 +19,7 @@ from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, Yaml
 from cellc.contract.limits import Limits, limits
 
 ModelT = TypeVar("ModelT", bound=BaseModel)
-_CODE = "catalogue-entry-invalid"
+_CODE = "catalog-entry-invalid"
 _UNKNOWN_KEY = "extra_forbidden"
 _WORDINGS = {_UNKNOWN_KEY: "there is no key `{}`", "missing": "`{}` is missing"}
 _A_NAME = "use letters, digits and `_`, a letter first"

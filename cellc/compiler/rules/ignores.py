@@ -10,67 +10,26 @@ from itertools import islice
 from cellc.compiler.link.codes import CODES as LINK_CODES
 from cellc.compiler.rules.run import ALL_RULES
 from cellc.compiler.source.events import Comment, comments
-from cellc.contract.diagnostics import Diagnostic, Severity, Span, did_you_mean
-from cellc.contract.diagnostics.diagnostic import CodePage
+from cellc.contract.code_page import meant_code, page_of
+from cellc.contract.diagnostics import Diagnostic, Severity, Span
 
-CODES: tuple[CodePage, ...] = (
-    CodePage(
-        "ignore-refused",
+CODES: Mapping[str, Severity] = {
+    **dict.fromkeys(
+        (
+            "ignore-refused",
+            "ignore-without-reason",
+            "unknown-ignored-code",
+        ),
         Severity.ERROR,
-        "a comment ignores a finding that may not be ignored",
-        "Errors and blockers of safety, ownership and frames say that something can move without a stop, without an "
-        "owner, or from an unknown place. Errors of reading and linking say that the cell is not known. A comment can "
-        "justify neither, so both stay: the finding, and this one.",
-        "remove the comment and fix what the code reports",
-        """
-safety:
-  stop: {authority: UNKNOWN, path: hardwired}  # cellc: ignore unknown-stop-authority not known yet
-""",
     ),
-    CodePage(
-        "ignore-without-reason",
-        Severity.ERROR,
-        "a comment ignores a finding and does not say why",
-        "A later reviewer of the cell must be able to judge whether the exception still holds. Without a reason the "
-        "comment has no effect.",
-        "write `# cellc: ignore CODE reason`",
-        """
-versions:
-  rollback: {image: UNKNOWN, configuration: UNKNOWN}  # cellc: ignore missing-rollback
-""",
-    ),
-    CodePage(
-        "unknown-ignored-code",
-        Severity.ERROR,
-        "a comment ignores a code that does not exist",
-        "A misspelled code ignores nothing, and the intended finding seems to return by itself.",
-        "write a code that `cellc explain` lists; several are separated by commas",
-        """
-versions:
-  ros: jazzy  # cellc: ignore ros-past-end-of-live it stays until spring
-""",
-    ),
-    CodePage(
-        "unused-ignore",
-        Severity.WARNING,
-        "a comment ignores a finding that is not there",
-        "The excused finding is gone or is on another line, and the comment would hide the next defect of its kind. "
-        "It counts at the end of the line that is reported.",
-        "delete the comment, or move it to the end of the reported line",
-        """
-versions:
-  ros: jazzy  # cellc: ignore ros-past-end-of-life it stays until spring
-""",
-    ),
-)
+    "unused-ignore": Severity.WARNING,
+}
 
 # Who, where and what stops it: no comment justifies motion without these answers.
 _PROTECTED_FAMILIES = ("SAF", "OWN", "FRM")
 _STOPPING = (Severity.ERROR, Severity.BLOCKER)
 _RULES = {rule.code: rule for rule in ALL_RULES}
-_PAGES = {page.code: page for page in CODES}
 # A code of a stage and of a rule stops the stage, whatever the family of the rule.
-_LINK_CODES = frozenset(page.code for page in LINK_CODES)
 _MARKER = re.compile(r"(?<!\S)#\s*cellc:\s*ignore\b")
 _CODE = re.compile(r"[\w-]+")
 _NEXT = re.compile(r"\s*,\s*")
@@ -135,7 +94,7 @@ def _span(file: str, comment: Comment, start: int, end: int) -> Span:
 
 
 def apply_ignores(
-    diagnostics: Iterable[Diagnostic], ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]
+    diagnostics: Iterable[Diagnostic], ignores: tuple[IgnoreComment, ...], known: Mapping[str, Severity]
 ) -> tuple[Diagnostic, ...]:
     """Return the findings that no comment excuses, and what is wrong with the comments; in no particular order.
 
@@ -144,7 +103,7 @@ def apply_ignores(
 
     Args:
         diagnostics: what all stages and rules found.
-        pages: the page of every code that cellc can report.
+        known: the severity of every code that cellc can report.
     """
     found = tuple(diagnostics)
     reported = {diagnostic.code for diagnostic in found}
@@ -156,14 +115,14 @@ def apply_ignores(
     unused: list[Diagnostic] = []
     for comment in ignores:
         for ignored in comment.codes if comment.reason else ():
-            page = pages.get(ignored.code)
-            if page is None or _refusal_of(ignored.code, page.severity) is not None:
+            severity = known.get(ignored.code)
+            if severity is None or _refusal_of(ignored.code, severity) is not None:
                 continue
             matches = on_line.get((ignored.code, ignored.span.file, ignored.span.line), set())
             excused |= matches
             if not matches and not _may_be_hidden(ignored.code, reported):
                 unused.append(_misuse("unused-ignore", _unused(ignored), ignored.span))
-    return (*(item for item in found if item not in excused), *misused_ignores(ignores, pages), *unused[:_MOST_SHOWN])
+    return (*(item for item in found if item not in excused), *misused_ignores(ignores, known), *unused[:_MOST_SHOWN])
 
 
 def may_be_ignored(code: str) -> bool:
@@ -172,15 +131,15 @@ def may_be_ignored(code: str) -> bool:
     return rule is not None and _refusal_of(code, rule.severity) is None
 
 
-def misused_ignores(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> tuple[Diagnostic, ...]:
+def misused_ignores(ignores: tuple[IgnoreComment, ...], known: Mapping[str, Severity]) -> tuple[Diagnostic, ...]:
     """Return what is wrong with comments whatever the rules find: no code, no reason, or a code that stays."""
-    return tuple(islice(_misused(ignores, pages), _MOST_SHOWN))
+    return tuple(islice(_misused(ignores, known), _MOST_SHOWN))
 
 
-def _misused(ignores: tuple[IgnoreComment, ...], pages: Mapping[str, CodePage]) -> Iterator[Diagnostic]:
+def _misused(ignores: tuple[IgnoreComment, ...], known: Mapping[str, Severity]) -> Iterator[Diagnostic]:
     for comment in ignores:
         yield from _shape_problems(comment)
-        yield from (refusal for ignored in comment.codes if (refusal := _refusal(ignored, pages)) is not None)
+        yield from (refusal for ignored in comment.codes if (refusal := _refusal(ignored, known)) is not None)
 
 
 def _shape_problems(comment: IgnoreComment) -> Iterator[Diagnostic]:
@@ -191,12 +150,12 @@ def _shape_problems(comment: IgnoreComment) -> Iterator[Diagnostic]:
         yield _misuse("ignore-without-reason", f"{codes} is ignored without a reason", comment.span)
 
 
-def _refusal(ignored: IgnoredCode, pages: Mapping[str, CodePage]) -> Diagnostic | None:
-    page = pages.get(ignored.code)
-    if page is None:
-        known = did_you_mean(ignored.code, pages, "codes that `cellc explain` lists")
-        return _misuse("unknown-ignored-code", f"there is no code `{ignored.code}`", ignored.span, known)
-    reason = _refusal_of(ignored.code, page.severity)
+def _refusal(ignored: IgnoredCode, known: Mapping[str, Severity]) -> Diagnostic | None:
+    severity = known.get(ignored.code)
+    if severity is None:
+        advice = meant_code(ignored.code, known, "codes that `cellc explain` lists")
+        return _misuse("unknown-ignored-code", f"there is no code `{ignored.code}`", ignored.span, advice)
+    reason = _refusal_of(ignored.code, severity)
     if reason is None:
         return None
     return _misuse("ignore-refused", f"`{ignored.code}` cannot be ignored: {reason}", ignored.span)
@@ -205,7 +164,7 @@ def _refusal(ignored: IgnoredCode, pages: Mapping[str, CodePage]) -> Diagnostic 
 def _refusal_of(code: str, severity: Severity) -> str | None:
     """Return why a code may not be ignored; None where a comment may ignore it."""
     rule = _RULES.get(code)
-    if (rule is None or code in _LINK_CODES) and severity is Severity.ERROR:
+    if (rule is None or code in LINK_CODES) and severity is Severity.ERROR:
         return "without it the cell is not known"
     if rule is not None and rule.family in _PROTECTED_FAMILIES and rule.severity in _STOPPING:
         return f"it is {_article(rule.severity)} of family {rule.family}"
@@ -226,5 +185,4 @@ def _unused(ignored: IgnoredCode) -> str:
 
 
 def _misuse(code: str, message: str, span: Span, advice: str = "") -> Diagnostic:
-    page = _PAGES[code]
-    return Diagnostic(code, page.severity, message, span, help=advice or page.fix)
+    return Diagnostic(code, CODES[code], message, span, help=advice or page_of(code).fix)

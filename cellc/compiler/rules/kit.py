@@ -1,16 +1,16 @@
-"""All that a rule file imports: the decorator that makes its check a rule, and the words in which it reports.
+"""All that a module of rules imports: the decorator that makes a check a rule, and the words in which it reports.
 
-A file ``cellc/compiler/rules/<family>/<code>.py`` holds one rule. Its name says the code, its folder the family, and
-its docstring is the page that ``cellc explain`` prints: title, reason, two examples, fix, source.
+A module ``cellc/compiler/rules/<family>/<topic>.py`` holds checks that are read together. The name of a check says its
+code, the folder its family, and ``docs/rules/<code>.md`` is its page: title, reason, two examples, fix, source.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.code_page import CodePage, page_of
 from cellc.contract.diagnostics import Related, Severity, Span, YamlPath, did_you_mean
 
 __all__ = [
@@ -66,7 +66,6 @@ class Rule:
     Args:
         code: names the defect in kebab case and reads well after "allow".
         family: short name, such as FRM.
-        page: documentation in Markdown, the docstring of the rule's file.
         assumes: codes whose absence this rule builds on; it is skipped where one of them was reported.
     """
 
@@ -74,30 +73,20 @@ class Rule:
     family: str
     severity: Severity
     check: Check
-    page: str
     assumes: tuple[str, ...] = ()
 
     @property
-    def title(self) -> str:
-        """The first line of the page, without its full stop."""
-        return self.page.partition("\n")[0].rstrip(".")
-
-    @property
-    def fix(self) -> str:
-        """What to do, in one line: the help of every finding that says nothing more precise."""
-        text = self.page.partition("\nFix: ")[2].partition("\n\n")[0]
-        return " ".join(text.split()).rstrip(".")
+    def page(self) -> CodePage:
+        """What ``cellc explain`` prints, read now."""
+        return page_of(self.code)
 
 
 def rule(severity: Severity, assumes: tuple[str, ...] = ()) -> Callable[[Check], Rule]:
-    """Make the check of a file its rule."""
+    """Make a check the rule of its name, in the family of its folder."""
 
     def make(check: Check) -> Rule:
-        folder, file = check.__module__.split(".")[-2:]
-        page = sys.modules[check.__module__].__doc__
-        if page is None:
-            raise RuntimeError(f"`{check.__module__}` must have a docstring, its page; `python -OO` leaves none")
-        return Rule(file.replace("_", "-"), FAMILIES[folder], severity, check, page, assumes)
+        folder = check.__module__.split(".")[-2]
+        return Rule(check.__name__.replace("_", "-"), FAMILIES[folder], severity, check, assumes)
 
     return make
 

@@ -14,15 +14,16 @@ from cellc.contract.diagnostics import Diagnostic
 
 
 def _rules_of(family: str) -> Iterator[Rule]:
-    """Yield the rule of every file in the folder of a family, in the order of their names."""
+    """Yield the rules of all modules in the folder of a family, in no particular order."""
     package = import_module(f"cellc.compiler.rules.{family}")
-    for name in sorted(module.name for module in iter_modules(package.__path__)):
-        made = import_module(f"{package.__name__}.{name}").check
-        assert isinstance(made, Rule), f"the check of {name} must carry @rule"
-        yield made
+    for topic in iter_modules(package.__path__):
+        module = import_module(f"{package.__name__}.{topic.name}")
+        yield from (made for made in vars(module).values() if isinstance(made, Rule))
 
 
-ALL_RULES: tuple[Rule, ...] = tuple(rule for family in FAMILIES for rule in _rules_of(family))
+ALL_RULES: tuple[Rule, ...] = tuple(
+    rule for family in FAMILIES for rule in sorted(_rules_of(family), key=lambda rule: rule.code)
+)
 
 
 def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Diagnostic, ...]:
@@ -56,6 +57,6 @@ def _diagnostics(rule: Rule, graph: CellGraph) -> Iterator[Diagnostic]:
             message=found.message,
             span=found.span,
             yaml_path=found.path,
-            help=found.help or rule.fix,
+            help=found.help or rule.page.fix,
             related=found.related,
         )

@@ -2,35 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from ipaddress import IPv4Interface
 from typing import TYPE_CHECKING
 
 from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
-from cellc.contract.diagnostics.diagnostic import CodePage
 
 if TYPE_CHECKING:
     from cellc.compiler.graph.cell_graph import CellGraph
 
-CODES: tuple[CodePage, ...] = (
-    CodePage(
-        "shared-domain-id",
-        Severity.ERROR,
-        "two cells of one call share a domain on one network",
-        "Nodes of one domain that can reach each other are one graph: topics, transforms and action servers of both "
-        "cells meet under the same names, and a goal for one robot may be accepted by the other. Cells are compared "
-        "where they are named in one call, such as `cellc check cells/*/cell.yaml`; cells whose hosts share an address "
-        "are taken for variants of one cell. A domain is a partition against accidents, no protection.",
-        "give each cell a domain id of its own; 0 to 101 are safe on every platform",
-        """
-$ sed 's/^cell: .*/cell: second/' cell.yaml > second.yaml
-$ printf 'network: {discovery: multicast}\\nhosts: {a: {nics: {cell: {address: 10.0.0.1/24}}}}\\n' >> cell.yaml
-$ printf 'network: {discovery: multicast}\\nhosts: {b: {nics: {cell: {address: 10.0.0.2/24}}}}\\n' >> second.yaml
-$ cellc check cell.yaml second.yaml
-""",
-    ),
-)
+CODES: Mapping[str, Severity] = {"shared-domain-id": Severity.ERROR}
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""What the compiler says to its user: places in files, diagnostics, outcomes of stages, and the page behind a code."""
+"""What the compiler says to its user: places in files, diagnostics, and outcomes of stages."""
 
 from __future__ import annotations
 
@@ -102,27 +102,6 @@ class Diagnostic:
     def sort_key(self) -> tuple[Span, str, str]:
         """Order by place, then code, then message, so that output never depends on the order of checks."""
         return (self.span, self.code, self.message)
-
-
-@dataclass(frozen=True, slots=True)
-class CodePage:
-    """What ``cellc explain CODE`` prints.
-
-    Args:
-        code: stable kebab-case name of the defect, such as ``duplicate-key``.
-        title: what is wrong, as a phrase that ends without a full stop.
-        why: one paragraph on what would happen if it passed unreported.
-        fix: what to do, beginning with a verb; also the help of a finding that knows nothing more precise.
-        example: part of a spec or description that is reported, or after `$` the commands of a shell that lead to it;
-            empty where none can show it, or where the reason holds it.
-    """
-
-    code: str
-    severity: Severity
-    title: str
-    why: str
-    fix: str
-    example: str = ""
 
 
 def counted(diagnostics: Iterable[Diagnostic]) -> str:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from cellc.compiler.pages import all_pages, render_handbook, render_page
-from cellc.contract.diagnostics import did_you_mean
+from cellc.compiler.pages import all_codes, render_handbook, render_page
+from cellc.contract.code_page import meant_code, page_of
 from cellc.contract.printing import show, show_document
 from cellc.tools.cli.handbook import write_pages
 from cellc.tools.cli.words import complete_code
@@ -20,7 +20,7 @@ from cellc.tools.cli.words import complete_code
     "-o",
     "--output",
     type=click.Path(path_type=Path, file_okay=False),
-    help="With --all, write all pages to a folder: an index, and one file for each family.",
+    help="With --all, write all pages to a folder: an index, and one file for each code.",
 )
 def explain(code: str | None, everything: bool, output: Path | None) -> None:
     """Explain CODE, or list all codes.
@@ -29,18 +29,18 @@ def explain(code: str | None, everything: bool, output: Path | None) -> None:
     cellc explain                              all codes, a line each
     cellc explain frame-cycle
     """
-    pages = all_pages()
+    codes = all_codes()
     if output is not None:
         if not everything:
             raise click.UsageError("--output writes the pages of all codes: give --all too")
         write_pages(output, render_handbook())
         show(f"wrote {output.as_posix()}")
     elif everything:
-        show_document("\n".join(render_page(page) for page in pages.values()))
+        show_document("\n".join(render_page(page_of(known)) for known in codes))
     elif code is None:
-        width = max(len(known) for known in pages)
-        show(*(f"{known:<{width}}  {page.severity.value:<8} {page.title}" for known, page in pages.items()))
-    elif code in pages:
-        show_document(render_page(pages[code]))
+        width = max(map(len, codes))
+        show(*(f"{known:<{width}}  {severity.value:<8} {page_of(known).title}" for known, severity in codes.items()))
+    elif code in codes:
+        show_document(render_page(page_of(code)))
     else:
-        raise click.UsageError(f"there is no code `{code}`: {did_you_mean(code, pages, 'codes')}")
+        raise click.UsageError(f"there is no code `{code}`: {meant_code(code, codes, 'codes')}")

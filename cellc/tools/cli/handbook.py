@@ -20,12 +20,13 @@ def write_pages(folder: Path, pages: Mapping[str, str]) -> None:
     """
     for name, text in pages.items():
         file = folder / name
-        if file.is_file() and _title(file) not in (b"", text.partition("\n")[0].encode()):
+        if file.is_file() and _title(file) not in ("", text.partition("\n")[0].partition(" (")[0]):
             raise click.UsageError(f"`{file.as_posix()}` is not a page that cellc wrote: name another folder")
     for name, text in pages.items():
         write_whole(folder / name, text)
 
 
-def _title(file: Path) -> bytes:
+def _title(file: Path) -> str:
+    """Return the first line; another release may give a code another severity, which is in brackets."""
     with open_regular(file) as stream:
-        return stream.readline().rstrip(b"\r\n")
+        return stream.readline().decode(errors="replace").rstrip("\r\n").partition(" (")[0]

@@ -37,9 +37,10 @@ def _complete(known: Callable[[click.Context], Iterable[tuple[str, str]]], apart
 
 
 def _codes(_context: click.Context) -> Iterable[tuple[str, str]]:
-    from cellc.compiler.pages import all_pages
+    from cellc.compiler.pages import all_codes
+    from cellc.contract.code_page import page_of
 
-    return ((code, page.title) for code, page in all_pages().items())
+    return ((code, page_of(code).title) for code in all_codes())
 
 
 def _models(_context: click.Context) -> Iterable[tuple[str, str]]:

@@ -11,9 +11,9 @@ import json
 from collections.abc import Iterable
 from pathlib import PurePath
 
-from cellc.compiler.pages import all_pages, family_of, render_page
+from cellc.compiler.pages import all_codes, family_of, render_page
+from cellc.contract.code_page import page_of
 from cellc.contract.diagnostics import Diagnostic, Severity, Span, format_path
-from cellc.contract.diagnostics.diagnostic import CodePage
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_json
 from cellc.tools.report.github_report import file_uri
 from cellc.version import __version__
@@ -34,12 +34,12 @@ def render_sarif(diagnostics: Iterable[Diagnostic], folder: PurePath) -> str:
         folder: absolute; files in it are named relative to it, as ``%SRCROOT%``.
     """
     ordered = sorted(diagnostics, key=Diagnostic.sort_key)
-    pages = all_pages()
+    severities = all_codes()
     codes = sorted({diagnostic.code for diagnostic in ordered})
     driver = {
         "name": "cellc",
         "semanticVersion": __version__,
-        "rules": [_rule(pages[code]) for code in codes],
+        "rules": [_rule(code, severities[code]) for code in codes],
     }
     run = {
         "tool": {"driver": driver},
@@ -50,16 +50,16 @@ def render_sarif(diagnostics: Iterable[Diagnostic], folder: PurePath) -> str:
     return harmless_json(json.dumps(log, indent=2)) + "\n"
 
 
-def _rule(page: CodePage) -> dict[str, object]:
-    text = render_page(page)
-    title = f"{page.title[0].upper()}{page.title[1:]}."
+def _rule(code: str, severity: Severity) -> dict[str, object]:
+    page = page_of(code)
+    text, title = render_page(page), f"{page.title}."
     return {
-        "id": page.code,
+        "id": code,
         "shortDescription": {"text": title},
         "fullDescription": {"text": title},
-        "defaultConfiguration": {"level": _LEVELS[page.severity]},
+        "defaultConfiguration": {"level": _LEVELS[severity]},
         "help": {"text": text, "markdown": text},
-        "properties": {"severity": page.severity.value, "tags": [family_of(page.code)]},
+        "properties": {"severity": severity.value, "tags": [family_of(code)]},
     }
 
 

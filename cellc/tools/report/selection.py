@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from cellc.contract.diagnostics import Diagnostic, did_you_mean
+from cellc.contract.code_page import meant_code
+from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.errors import CellcError
 
 
@@ -36,14 +37,14 @@ def selection(select: Iterable[str], ignore: Iterable[str]) -> Selection:
 
 
 def _codes(names: tuple[str, ...]) -> frozenset[str]:
-    # A command that leaves nothing out does not load the pages of all stages.
-    from cellc.compiler.pages import all_pages, codes_by_family
+    # A command that leaves nothing out does not collect the codes of all stages.
+    from cellc.compiler.pages import all_codes, codes_by_family
 
-    families, pages = codes_by_family(), all_pages()
+    families, every = codes_by_family(), all_codes()
     codes: set[str] = set()
     for name in names:
-        if name not in families and name not in pages:
-            known = did_you_mean(name, [*families, *pages], "families")
+        if name not in families and name not in every:
+            known = meant_code(name, [*families, *every], "families")
             raise UnknownSelectionError(f"there is no code or family `{name}`: {known}")
         codes |= families.get(name, frozenset({name}))
     return frozenset(codes)

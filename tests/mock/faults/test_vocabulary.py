@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cellc.compiler.rules.evidence.merged_failure_layers import _LAYERS
+from cellc.compiler.rules.evidence.outcomes import _LAYERS
 from cellc.compiler.spec import faults
 from cellc.compiler.spec.faults import FAULT_KEYS, FaultFields
 from cellc.contract.vocabulary import FaultKind

@@ -1,0 +1,125 @@
+"""Rules on controller managers: their rates, names, and what they load."""
+
+from __future__ import annotations
+
+import math
+from operator import itemgetter
+
+from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.vocabulary import Behaviour
+
+
+@rule(Severity.ERROR)
+def controller_faster_than_manager(graph: CellGraph) -> Findings:
+    """Yield controllers with a rate above that of their manager."""
+    for manager in graph.cell.managers:
+        for controller in manager.controllers:
+            if controller.update_rate_hz is not None and controller.update_rate_hz > manager.update_rate_hz:
+                message = (
+                    f"`update_rate` of `{controller.name}` must be at most {manager.update_rate_hz:g} Hz, "
+                    f"the rate of its manager, got {controller.update_rate_hz:g} Hz"
+                )
+                path = (*controller.path, "update_rate")
+                yield found(graph, path, message, f"write at most {manager.update_rate_hz:g} Hz")
+
+
+@rule(Severity.ERROR)
+def device_apart_from_its_manager(graph: CellGraph) -> Findings:
+    """Yield devices of a manager that are connected to another host than its own."""
+    devices = {device.name: device for device in graph.cell.devices}
+    for manager in graph.cell.managers:
+        for name in manager.devices:
+            device = devices[name]
+            link = device.connection
+            if link is None or device.hardware is None or link.host == manager.host or not manager.host:
+                continue
+            message = f"`{name}` must be connected to `{manager.host}`, where its controller manager runs, got"
+            related = (Related("the manager", graph.cell.locate(*manager.path)),)
+            yield found(graph, (*device.path, "connection", "host"), f"{message} `{link.host}`", related=related)
+
+
+@rule(Severity.ERROR)
+def missing_joint_states(graph: CellGraph) -> Findings:
+    """Yield managers that drive joints without an active joint state broadcaster."""
+    for manager in graph.cell.managers:
+        publishing = any(c.behaviour is Behaviour.JOINT_STATE_BROADCASTER and c.active for c in manager.controllers)
+        if not publishing and any(c.command_interfaces and c.joints for c in manager.controllers):
+            path = (*manager.path, "controllers")
+            message = f"no controller of `{manager.name}` publishes joint states"
+            yield found(graph, path, message)
+
+
+@rule(Severity.ERROR)
+def refused_update_rate(graph: CellGraph) -> Findings:
+    """Yield managers whose rate a device that they drive does not list."""
+    for manager in graph.cell.managers:
+        for device in (graph.cell.device(name) for name in manager.devices):
+            rates = device.update_rates_hz
+            if rates and all(abs(rate - manager.update_rate_hz) > 1e-9 for rate in rates):
+                accepted = " or ".join(f"{rate:g} Hz" for rate in rates)
+                message = f"`update_rate` for `{device.name}` must be {accepted}, got {manager.update_rate_hz:g} Hz"
+                path = (*manager.path, "update_rate")
+                yield found(graph, path, message, f"write {accepted}, or give the device a manager of its own")
+
+
+@rule(Severity.ERROR)
+def shared_manager_name(graph: CellGraph) -> Findings:
+    """Yield managers whose namespace is taken."""
+    first: dict[str, ControllerManager] = {}
+    for manager in graph.cell.managers:
+        earlier = first.setdefault(manager.namespace, manager)
+        if earlier is not manager:
+            name = manager.namespace or "/"
+            message = f"managers `{earlier.name}` and `{manager.name}` are both in namespace `{name}`"
+            related = (Related("the first is here", earlier.span),)
+            yield found(graph, manager.path, message, related=related)
+
+
+@rule(Severity.WARNING)
+def uneven_update_rate(graph: CellGraph) -> Findings:
+    """Yield controllers whose rate does not divide that of their manager."""
+    for manager in graph.cell.managers:
+        for controller in manager.controllers:
+            rate = controller.update_rate_hz
+            if not rate or rate > manager.update_rate_hz:
+                continue
+            cycles = manager.update_rate_hz / rate
+            if abs(cycles - round(cycles)) > 1e-6:
+                even = manager.update_rate_hz / math.ceil(cycles)
+                message = (
+                    f"`update_rate` of `{controller.name}` must divide {manager.update_rate_hz:g} Hz, got {rate:g} Hz"
+                )
+                yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz")
+
+
+@rule(Severity.BLOCKER, assumes=("shared-prefix",))
+def unwatched_claim(graph: CellGraph) -> Findings:
+    """Yield controllers whose claims a real robot keeps over a stop of its program, where no topic reports the stop."""
+    for manager in graph.cell.managers:
+        claiming: dict[str, dict[int, Controller]] = {}
+        for number, controller in enumerate(manager.controllers):
+            for interface in controller.command_interfaces if "real" in controller.targets else ():
+                claiming.setdefault(interface.rpartition("/")[0], {})[number] = controller
+        telling = {
+            (controller.kind, controller.device)
+            for controller in manager.controllers
+            if controller.active and "real" in controller.targets
+        }
+        for name in manager.devices:
+            device = graph.cell.device(name)
+            hardware = device.hardware
+            if hardware is None or "real" not in hardware.targets or not hardware.kept_by_a_claim:
+                continue
+            kinds = [item.controller_kind for item in hardware.heard_before_a_claim]
+            if any((kind, name) in telling for kind in kinds):
+                continue
+            owners = {number: one for joint in device.joints for number, one in claiming.get(joint.name, {}).items()}
+            advice = (
+                f"add a controller of `type: {kinds[0]}` with `device: {name}`"
+                if kinds
+                else f"say under `told` of the `device.yaml` of `{name}` which topic reports whether its program runs"
+            )
+            for _, one in sorted(owners.items(), key=itemgetter(0)):
+                message = f"`{name}` keeps the set points of `{one.name}` over a stop of its program, unheard"
+                yield found(graph, one.path, message, advice)

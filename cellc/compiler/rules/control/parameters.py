@@ -1,0 +1,198 @@
+"""Rules on parameters of controllers and drivers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.catalog.controller_kind import ParameterFacts, is_named
+from cellc.compiler.cell.interface import ParameterValue
+from cellc.compiler.cell.robot import Impedance, ImpedanceFacts
+from cellc.compiler.graph.claims import written_parameters
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
+from cellc.contract.vocabulary import TRAJECTORIES
+
+
+@rule(Severity.WARNING, assumes=("refused-impedance",))
+def impedance_without_effect(graph: CellGraph) -> Findings:
+    """Yield impedance of an arm whose joints are claimed by other interfaces alone on the real target."""
+    for device in graph.cell.devices:
+        takes = device.robot.impedance_facts
+        if device.impedance is None or takes is None:
+            continue
+        joints = {joint.name for joint in device.joints}
+        ends = (
+            claim.rpartition("/")
+            for controller in graph.cell.controllers
+            if "real" in controller.targets
+            for claim in controller.claims("real")
+        )
+        claimed = {interface for owner, _, interface in ends if owner in joints}
+        if claimed and not claimed & set(takes.acts_on):
+            by = " and ".join(sorted(claimed))
+            message = f"the impedance of `{device.name}` has no effect: controllers command its joints by {by}"
+            yield found(graph, (*device.path, "impedance"), message)
+
+
+@rule(Severity.ERROR)
+def missing_controller_parameter(graph: CellGraph) -> Findings:
+    """Yield controllers without a parameter that is required in the distribution and has no default."""
+    for controller in graph.cell.controllers:
+        kind = controller.declared
+        declared = {} if kind is None else kind.parameters_in(graph.cell.distro)
+        for name, facts in declared.items():
+            if kind is None or name == kind.joints_parameter:
+                continue  # where there is no joint to write, another rule says so
+            # One for each name of a list, as in `gains.<joint>.p`, has a default in every kind.
+            if facts.required and facts.default is None and "<" not in name and name not in controller.parameters:
+                message = f"`{controller.kind}` demands `{name}`, and `{controller.name}` does not state it"
+                yield found(graph, controller.path, message, f"write `parameters: {{{name}: ...}}`")
+
+
+@rule(Severity.ERROR)
+def parameter_out_of_range(graph: CellGraph) -> Findings:
+    """Yield numbers below or above what the declaration allows, items of lists too, and texts that it does not list."""
+    for written in written_parameters(graph.cell):
+        kind = written.controller.declared
+        facts = None if kind is None else kind.parameter(written.name, graph.cell.distro)
+        if facts is None:
+            continue
+        subject = f"`{written.name}` of `{written.controller.name}`"
+        if facts.not_empty and written.value in ("", ()):
+            yield found(graph, written.path, f"{subject} must not be empty")
+        seen: list[ParameterValue] = []
+        for path, item in written.items():
+            reason = _refusal(facts, item) or ("must not repeat an item" if facts.unique and item in seen else "")
+            seen.append(item)
+            if reason:
+                yield found(graph, path, f"{subject} {reason}, got `{item}`")
+
+
+def _refusal(facts: ParameterFacts, value: ParameterValue) -> str:
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if facts.minimum is not None and value < facts.minimum:
+            return f"must be at least {facts.minimum:g}"
+        if facts.exclusive_minimum is not None and value <= facts.exclusive_minimum:
+            return f"must be more than {facts.exclusive_minimum:g}"
+        if facts.maximum is not None and value > facts.maximum:
+            return f"must be at most {facts.maximum:g}"
+    choices = facts.one_of or facts.subset_of
+    if isinstance(value, str) and choices and value not in choices:
+        return "must be one of " + ", ".join(choices)
+    return ""
+
+
+_Stated = tuple[tuple[str, ...], tuple[float, ...], tuple[float, float], str]
+
+
+@rule(Severity.ERROR)
+def refused_impedance(graph: CellGraph) -> Findings:
+    """Yield impedance for no device, of another number of joints, and figures that the robot does not take."""
+    for device in graph.cell.devices:
+        stated, takes = device.impedance, device.robot.impedance_facts
+        if stated is None:
+            continue
+        path = (*device.path, "impedance")
+        if takes is None:
+            yield found(graph, path, f"the driver of `{device.name}` sets no impedance")
+            continue
+        joints = len(device.actuated_joints)
+        if stated.joint is not None and len(stated.joint) != joints:
+            message = f"the joint impedance of `{device.name}` must be {joints} figures, got {len(stated.joint)}"
+            yield found(graph, (*path, "joint"), message)
+        for keys, figures, (least, most), unit in _figures(stated, takes):
+            refused = [figure for figure in figures if not least <= figure <= most]
+            if refused:
+                message = f"`{keys[-1]}` of `{device.name}` must be {least:g} to {most:g} {unit}, got {refused[0]:g}"
+                yield found(graph, (*path, *keys), message)
+
+
+def _figures(stated: Impedance, takes: ImpedanceFacts) -> Iterator[_Stated]:
+    """Yield each figure that is written: its keys, values, least and most, and unit."""
+    if stated.joint is not None:
+        yield ("joint",), stated.joint, takes.joint, "N m/rad"
+    if stated.cartesian is not None:
+        yield ("cartesian", "translation"), stated.cartesian.translation, takes.translation, "N/m"
+        yield ("cartesian", "rotation"), stated.cartesian.rotation, takes.rotation, "N m/rad"
+
+
+@rule(Severity.ERROR)
+def refused_thresholds(graph: CellGraph) -> Findings:
+    """Yield thresholds for no device, of another number of joints, and upper ones below the lower."""
+    for device in graph.cell.devices:
+        if device.collision is None:
+            continue
+        path = (*device.path, "collision")
+        if not device.robot.thresholds:
+            yield found(graph, path, f"the driver of `{device.name}` sets no collision thresholds")
+            continue
+        joints = len(device.actuated_joints)
+        for name in ("torque", "force", "moment"):
+            given = getattr(device.collision, name)
+            if name == "torque" and not len(given.lower) == len(given.upper) == joints:
+                counts = f"{len(given.lower)} and {len(given.upper)}"
+                message = f"torque thresholds of `{device.name}` must be {joints} lower and upper ones, got {counts}"
+                yield found(graph, (*path, name), message)
+            elif any(low > high for low, high in zip(given.lower, given.upper, strict=True)):
+                message = f"each lower {name} threshold of `{device.name}` must be at most the upper one"
+                yield found(graph, (*path, name), message)
+
+
+@rule(Severity.ERROR, assumes=("unprovided-command-interface",))
+def trajectory_without_gains(graph: CellGraph) -> Findings:
+    """Yield trajectory controllers without position commands that have a joint without a proportional gain."""
+    for controller in graph.cell.controllers:
+        target = controller.targets[-1]  # the real one where it is there
+        kinds = {interface.rpartition("/")[2] for interface in controller.claims(target)}
+        if controller.behaviour not in TRAJECTORIES or len(kinds) != 1 or not kinds <= {"velocity", "effort"}:
+            continue
+        without = [joint for joint in controller.joints if not controller.told(target).get(f"gains.{joint}.p")]
+        if without:
+            more = f" and {len(without) - 1} more" if len(without) > 1 else ""
+            message = f"`{controller.name}` commands {kinds.pop()} alone and must have gains, `gains.{without[0]}.p`"
+            yield found(graph, (*controller.path, "command_interfaces"), f"{message}{more} is zero")
+
+
+@rule(Severity.ERROR)
+def unknown_controller_parameter(graph: CellGraph) -> Findings:
+    """Yield parameters of the spec that the kind of the controller does not declare for the distribution."""
+    for written in written_parameters(graph.cell):
+        kind = written.controller.declared
+        if kind is None:
+            continue
+        here = {*kind.parameters_in(graph.cell.distro), *written.controller.plugin_parameters}
+        if not any(is_named(declared, written.name) for declared in here):
+            message = f"`{written.controller.kind}` has no parameter `{written.name}` in {graph.cell.distro}"
+            yield found(graph, written.path, message, did_you_mean(written.name, here, "parameters"))
+
+
+_TYPES: dict[str, type] = {"bool": bool, "int": int, "double": float, "string": str}
+_ARRAY = "_array"
+
+
+@rule(Severity.ERROR)
+def wrong_parameter_type(graph: CellGraph) -> Findings:
+    """Yield parameters of the spec whose value has another type than the declared one."""
+    for written in written_parameters(graph.cell):
+        kind, value = written.controller.declared, written.value
+        facts = None if kind is None else kind.parameter(written.name, graph.cell.distro)
+        expected = "none" if facts is None else facts.type
+        item_type = _TYPES.get(expected.removesuffix(_ARRAY))
+        is_list = isinstance(value, tuple)
+        if item_type is None or (
+            is_list == expected.endswith(_ARRAY) and all(type(item) is item_type for _, item in written.items())
+        ):
+            continue
+        message = f"`{written.name}` of `{written.controller.name}` must be of type {expected}, got `{_shown(value)}`"
+        yield found(graph, written.path, message, f"write {_corrected(value, expected)}")
+
+
+def _corrected(value: ParameterValue, expected: str) -> str:
+    items = value if isinstance(value, tuple) else (value,)
+    if expected.startswith("double") and all(type(item) is int for item in items):
+        doubles = tuple(float(item) for item in items)
+        return f"`{_shown(doubles if expected.endswith(_ARRAY) else doubles[0])}`"
+    return f"a value of type {expected}"
+
+
+def _shown(value: ParameterValue) -> str:
+    return f"[{', '.join(map(str, value))}]" if isinstance(value, tuple) else str(value)

@@ -1,0 +1,145 @@
+"""Rules on the tolerances of trajectory controllers, and on how a trajectory ends."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from cellc.compiler.cell.control import Controller
+from cellc.compiler.cell.device import DeviceJoint
+from cellc.compiler.rules.described import described
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
+from cellc.compiler.rules.tolerances import stated, unwatched_joints
+from cellc.contract.vocabulary import TRAJECTORIES
+
+
+@rule(Severity.WARNING, assumes=("unit-of-another-joint",))
+def goal_looser_than_path(graph: CellGraph) -> Findings:
+    """Yield controllers whose goal tolerance exceeds the path tolerance."""
+    for controller in graph.cell.controllers:
+        path = controller.path_tolerance or {}
+        looser = (
+            (goal.value, path[joint].value)
+            for joint, goal in (controller.goal_tolerance or {}).items()
+            if joint in path and goal.value > path[joint].value > 0.0
+        )
+        for goal, way in dict.fromkeys(looser):
+            message = f"`goal_tolerance` of `{controller.name}` must be at most its `path_tolerance`"
+            yield found(graph, (*controller.path, "goal_tolerance"), f"{message} of {way:g}, got {goal:g}")
+
+
+@rule(Severity.ERROR)
+def missing_goal_time(graph: CellGraph) -> Findings:
+    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
+    for controller in graph.cell.controllers:
+        if controller.behaviour not in TRAJECTORIES:
+            continue
+        if not controller.goal_time_s:
+            unstated = controller.goal_time_s is None
+            path = controller.path if unstated else (*controller.path, "goal_time")
+            message = f"`{controller.name}` does not state `goal_time`"
+            if not unstated:
+                message = f"`goal_time` of `{controller.name}` must be above zero, which switches the check off"
+            yield found(graph, path, message)
+
+
+@rule(Severity.ERROR)
+def missing_goal_tolerance(graph: CellGraph) -> Findings:
+    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
+    yield from unwatched_joints(graph, "goal_tolerance")
+
+
+@rule(Severity.ERROR)
+def missing_path_tolerance(graph: CellGraph) -> Findings:
+    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
+    yield from unwatched_joints(graph, "path_tolerance")
+
+
+_PARAMETER = "allow_nonzero_velocity_at_trajectory_end"
+
+
+@rule(Severity.WARNING)
+def moving_trajectory_end(graph: CellGraph) -> Findings:
+    """Yield trajectory controllers that accept such trajectories."""
+    for controller in graph.cell.controllers:
+        if controller.behaviour in TRAJECTORIES and controller.written_parameters.get(_PARAMETER) is True:
+            message = f"trajectories of `{controller.name}` must end at rest, but it takes those that do not"
+            yield found(graph, (*controller.path, "parameters", _PARAMETER), message)
+
+
+@rule(Severity.ERROR, assumes=("parameter-out-of-range",))
+def negative_tolerance(graph: CellGraph) -> Findings:
+    """Yield tolerances and constraints of controllers that are negative."""
+    for controller in graph.cell.controllers:
+        least: dict[YamlPath, float] = {
+            (key,): min(figure.value for figure in figures.values()) for key, figures in stated(controller) if figures
+        }
+        for name, written in controller.written_parameters.items():
+            watched = "tolerance" in name or name.startswith("constraints.")
+            if watched and isinstance(written, int | float):
+                least["parameters", name] = written
+        for at, value in least.items():
+            if value < 0:
+                path = (*controller.path, *at)
+                text = graph.cell.text(*path) or f"{value:g}"
+                yield found(graph, path, f"`{at[-1]}` of `{controller.name}` must be above zero, got {text}")
+
+
+_SHARE_OF_RANGE = 0.5
+_WIDEST_RAD = 1.0
+
+
+@rule(Severity.ERROR, assumes=("unit-of-another-joint",))
+def path_tolerance_without_effect(graph: CellGraph) -> Findings:
+    """Yield trajectory controllers whose tolerance exceeds half of a joint's range, or 1 rad."""
+    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    for controller in graph.cell.controllers:
+        if controller.behaviour not in TRAJECTORIES or controller.path_tolerance is None:
+            continue
+        bounds = _bounds(joints, controller)
+        wide = [(bounds[name], name) for name, one in controller.path_tolerance.items() if one.value > bounds[name]]
+        if wide:
+            widest, joint = min(wide)
+            path = (*controller.path, "path_tolerance")
+            written = graph.cell.text(*path) or f"{controller.path_tolerance[joint].value:g}"
+            message = f"`path_tolerance` of `{controller.name}` must be at most {widest:.3g} rad or m, half of"
+            message += f" what `{joint}` moves or 1 rad, got {written}"
+            yield found(graph, path, message, related=described(graph, [joint]))
+
+
+def _bounds(joints: Mapping[str, DeviceJoint], controller: Controller) -> dict[str, float]:
+    """Return the widest tolerance of each joint in rad or m; no bound where a joint has no limits."""
+    bounds = dict.fromkeys(controller.joints, math.inf)
+    for joint in (joints[name] for name in bounds if name in joints):
+        if joint.lower is not None and joint.upper is not None:
+            bound = _SHARE_OF_RANGE * (joint.upper - joint.lower)
+            bounds[joint.name] = bound if joint.slides else min(bound, _WIDEST_RAD)
+    return bounds
+
+
+_HELD = 1e-4
+"""Rad or m: a tenth of a millimeter at a meter, about what industrial arms repeat."""
+
+
+@rule(Severity.WARNING, assumes=("unit-of-another-joint",))
+def unmeetable_tolerance(graph: CellGraph) -> Findings:
+    """Yield path tolerances below one update at full speed, and goal tolerances below what arms repeat."""
+    speeds = {joint.name: joint.velocity or 0.0 for device in graph.cell.devices for joint in device.joints}
+    for manager in graph.cell.managers:
+        for controller in manager.controllers:
+            if controller.behaviour not in TRAJECTORIES:
+                continue
+            for key, bound, why in _unmet(speeds, controller, manager.update_rate_hz):
+                path = (*controller.path, key)
+                message = f"`{key}` of `{controller.name}` must be at least {bound:.2g} rad or m, {why},"
+                yield found(graph, path, f"{message} got {graph.cell.text(*path) or 'less'}")
+
+
+def _unmet(speeds: Mapping[str, float], controller: Controller, rate_hz: float) -> Iterator[tuple[str, float, str]]:
+    """Yield each key whose figure is too small for some joint, with the largest bound of those joints, and why."""
+    for key, figures in stated(controller):
+        bounds = {joint: speeds.get(joint, 0.0) / rate_hz if rate_hz else 0.0 for joint in figures or {}}
+        bounds = bounds if key == "path_tolerance" else dict.fromkeys(bounds, _HELD)
+        missed = [bounds[joint] for joint, one in (figures or {}).items() if 0.0 < one.value < bounds[joint]]
+        if missed:
+            yield key, max(missed), "one update at full speed" if key == "path_tolerance" else "what arms repeat"

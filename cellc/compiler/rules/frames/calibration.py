@@ -1,0 +1,201 @@
+"""Rules on calibrations: who measured what, when, and how well."""
+
+from __future__ import annotations
+
+import datetime
+import re
+from collections.abc import Container, Sequence
+
+from cellc.compiler.cell.frame import WORLD, Frame, FrameKind
+from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+
+
+@rule(Severity.WARNING)
+def calibration_before_mounting(graph: CellGraph) -> Findings:
+    """Yield calibrations of a mount, or of a frame on a device that is mounted on another, from before that day."""
+    carried = {name for device in graph.cell.devices for name in device.carries}
+    for frame in graph.cell.frames:
+        calibration = graph.cell.calibrations.get(frame.calibration or "")
+        name = _moved(graph, frame, carried)
+        if calibration is None or calibration.measured_on is None or name is None:
+            continue
+        device = graph.cell.device(name)
+        if device.mounted_on is not None and calibration.measured_on < device.mounted_on:
+            message = f"`{calibration.name}` must be measured after `{device.name}` was mounted, on"
+            message += f" {device.mounted_on}, got {calibration.measured_on}"
+            related = (Related("mounted since then", graph.cell.locate(*device.path, "mount", "since")),)
+            yield found(graph, (*calibration.path, "measured"), message, related=related)
+
+
+def _moved(graph: CellGraph, frame: Frame, carried: Container[str | None]) -> str | None:
+    """Return the device whose mounting moves a measured frame: its own, or the tool on which it is fixed."""
+    if frame.kind is FrameKind.MOUNT:
+        return frame.device
+    carrier = graph.frames.get(frame.parent)
+    name = None if carrier is None else carrier.device
+    return name if name in carried else None
+
+
+_APART = datetime.timedelta(days=366)
+
+
+@rule(Severity.WARNING)
+def calibration_of_another_time(graph: CellGraph) -> Findings:
+    """Yield calibrations more than a year before or after the largest group of those that lie nearer together."""
+    dated = [calibration for calibration in graph.cell.calibrations.values() if calibration.measured_on is not None]
+    common = _common([calibration.measured_on for calibration in dated if calibration.measured_on is not None])
+    for calibration in dated:
+        if calibration.measured_on is None or calibration.measured_on in common:
+            continue
+        side = "before" if calibration.measured_on < common[0] else "after"
+        message = f"`{calibration.name}` must be measured within a year of the others, which were between"
+        message += f" {common[0]} and {common[-1]}, got {calibration.measured_on}, {side} all of them"
+        yield found(graph, (*calibration.path, "measured"), message)
+
+
+def _common(dates: Sequence[datetime.date]) -> list[datetime.date]:
+    """Return the largest group of dates without a gap of more than a year, the later of two equal ones."""
+    groups: list[list[datetime.date]] = []
+    for date in sorted(dates):
+        if groups and date - groups[-1][-1] <= _APART:
+            groups[-1].append(date)
+        else:
+            groups.append([date])
+    return max(groups, key=lambda group: (len(group), group[-1]), default=[])
+
+
+@rule(Severity.ERROR)
+def calibration_of_two_frames(graph: CellGraph) -> Findings:
+    """Yield frames that reuse a calibration for another transform."""
+    first: dict[str, Frame] = {}
+    for frame in graph.cell.frames:
+        if frame.calibration is None:
+            continue
+        earlier = first.setdefault(frame.calibration, frame)
+        if (earlier.parent, earlier.transform_to_parent) != (frame.parent, frame.transform_to_parent):
+            message = f"calibration `{frame.calibration}` gives `{frame.name}` another pose than `{earlier.name}`"
+            related = (Related(f"first used for `{earlier.name}` here", earlier.span),)
+            path = (*frame.path, "calibration")
+            yield found(graph, path, message, related=related)
+
+
+@rule(Severity.WARNING)
+def calibration_without_evidence(graph: CellGraph) -> Findings:
+    """Yield calibrations without samples, residual or method."""
+    for name, calibration in graph.cell.calibrations.items():
+        stated = (
+            ("method", calibration.method),
+            ("samples", calibration.samples),
+            ("residual", calibration.residual_m),
+        )
+        missing = [field for field, value in stated if value is None or value == UNKNOWN]
+        if missing:
+            fields = ", ".join(f"`{field}`" for field in missing)
+            message = f"calibration `{name}` does not state {fields}"
+            yield found(graph, ("calibrations", name), message, f"write {fields}")
+
+
+@rule(Severity.BLOCKER)
+def calibration_without_owner(graph: CellGraph) -> Findings:
+    """Yield calibrations without an owner."""
+    for item in graph.responsibilities.of_kind("calibration"):
+        if item.open:
+            message = f"calibration `{item.name}` has no owner"
+            yield found(graph, item.path, message)
+
+
+_COARSEST_M = 0.005
+
+
+@rule(Severity.WARNING)
+def coarse_calibration(graph: CellGraph) -> Findings:
+    """Yield calibrations that a frame rests on with a residual of more than 5 mm."""
+    for calibration in graph.cell.calibrations.values():
+        residual_m = calibration.residual_m
+        users = [frame for frame in graph.cell.frames if frame.calibration == calibration.name]
+        if users and residual_m is not None and residual_m > _COARSEST_M:
+            path = (*calibration.path, "residual")
+            message = f"the residual of `{calibration.name}` must be at most {_COARSEST_M * 1e3:g} mm,"
+            related = tuple(Related("rests on it", user.span) for user in users)
+            yield found(graph, path, f"{message} got {graph.cell.text(*path)}", related=related)
+
+
+_WORDS = frozenset(
+    ("agv", "amr", "cart", "carriage", "forklift", "mobile", "pallet", "shuttle", "trolley", "vehicle", "wagon")
+)
+
+
+@rule(Severity.WARNING)
+def designed_mobile_frame(graph: CellGraph) -> Findings:
+    """Yield designed frames on the world with such a word in their name."""
+    for frame in graph.cell.frames:
+        words = re.findall(r"[a-z]+", frame.name.lower())
+        mobile = next((word for word in words if word in _WORDS), None)
+        if frame.designed and frame.parent == WORLD and mobile is not None:
+            message = f"`{frame.name}` must be measured or published, as a {mobile} does not stand by design"
+            yield found(graph, (*frame.path, "designed"), message)
+
+
+_LEAST = 3
+
+
+@rule(Severity.BLOCKER)
+def too_few_reference_points(graph: CellGraph) -> Findings:
+    """Yield measured frames that goals rest on, or that count points, with fewer than three."""
+    targets = {goal.frame for goal in graph.cell.goals}
+    for frame in graph.cell.frames:
+        concerned = frame.name in targets or frame.reference_points > 0
+        if frame.kind is FrameKind.FIXED and concerned and not frame.designed and frame.reference_points < _LEAST:
+            message = f"`{frame.name}` must have at least {_LEAST} reference points, got {frame.reference_points}"
+            path = (*frame.path, "reference_points")
+            yield found(graph, path, message)
+
+
+_CAMERA = 10
+_OTHER = 3
+
+
+@rule(Severity.WARNING)
+def too_few_samples(graph: CellGraph) -> Findings:
+    """Yield calibrations below the number of samples that what rests on them needs."""
+    cameras = {device.name for device in graph.cell.devices if device.kind == "camera"}
+    for calibration in graph.cell.calibrations.values():
+        users = [frame for frame in graph.cell.frames if frame.calibration == calibration.name]
+        least = _CAMERA if any(user.device in cameras for user in users) else _OTHER
+        if users and calibration.samples is not None and calibration.samples < least:
+            what = "that of a camera" if least == _CAMERA else "any"
+            message = f"calibration `{calibration.name}` must rest on at least {least} samples as {what},"
+            yield found(graph, (*calibration.path, "samples"), f"{message} got {calibration.samples}")
+
+
+@rule(Severity.BLOCKER)
+def uncalibrated_frame(graph: CellGraph) -> Findings:
+    """Yield fixed frames and camera mounts without a calibration."""
+    cameras = {device.name for device in graph.cell.devices if device.kind == "camera"}
+    for frame in graph.cell.frames:
+        measured = frame.kind is FrameKind.FIXED or (frame.kind is FrameKind.MOUNT and frame.device in cameras)
+        if measured and not frame.designed and frame.calibration is None:
+            message = f"the pose of `{frame.name}` in `{frame.parent}` names no calibration"
+            yield found(graph, frame.path, message)
+
+
+@rule(Severity.BLOCKER)
+def undated_calibration(graph: CellGraph) -> Findings:
+    """Yield calibrations whose `measured` is no date."""
+    for name, calibration in graph.cell.calibrations.items():
+        if calibration.measured_on is None:
+            message = f"`measured` of calibration `{name}` must be a date, got `{calibration.measured}`"
+            yield found(graph, ("calibrations", name, "measured"), message)
+
+
+@rule(Severity.WARNING)
+def unused_calibration(graph: CellGraph) -> Findings:
+    """Yield calibrations that no frame and no mount names."""
+    used = {frame.calibration for frame in graph.cell.frames}
+    for name in graph.cell.calibrations:
+        if name not in used:
+            message = f"no frame rests on calibration `{name}`"
+            designed = [frame for frame in graph.cell.frames if frame.designed]
+            related = tuple(Related("designed, without a measurement", frame.span) for frame in designed)
+            yield found(graph, ("calibrations", name), message, related=related)

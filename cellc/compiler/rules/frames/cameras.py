@@ -1,0 +1,194 @@
+"""Rules on where cameras look, and in which frame they say what they see."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+
+from cellc.compiler.cell.device import CameraStream, Device, FieldOfView
+from cellc.compiler.cell.frame import FrameKind, SceneBox
+from cellc.compiler.cell.interface import InterfaceKind
+from cellc.compiler.feasibility import ViewAnswer, motion_answer
+from cellc.compiler.rules.geometry import KNOWN_GOALS
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.transforms import Pose, Vector3, identity
+
+_IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo")
+
+
+@rule(Severity.ERROR)
+def camera_data_in_body_frame(graph: CellGraph) -> Findings:
+    """Yield image topics of a camera in a frame other than its optical ones."""
+    cameras = {device.name: device for device in graph.cell.devices if device.optical_frames}
+    for interface in graph.cell.interfaces:
+        source = next((cameras[end.node] for end in interface.sources if end.node in cameras), None)
+        if source is None or interface.frame is None or interface.type not in _IMAGES:
+            continue
+        optical = {source.frames[name] for name in source.optical_frames}
+        if interface.frame not in optical:
+            message = f"`{interface.name}` carries images in `{interface.frame}`, which is not an optical frame"
+            names = ", ".join(f"`{source.name}/{name}`" for name in source.optical_frames)
+            yield found(graph, (*interface.path, "frame"), message, f"use one of {names}")
+
+
+_SLACK_RAD = math.radians(15.0)
+"""A thing may be this far outside the view: one point represents all of it."""
+_PLACED = (FrameKind.FIXED, FrameKind.SCENE, FrameKind.DYNAMIC)
+
+
+@rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "detached-mount", "turned-optical-frame"))
+def camera_sees_nothing(graph: CellGraph) -> Findings:
+    """Yield cameras that no joint moves and that have no frame, box or device before them, where there are places."""
+    for device in graph.cell.devices:
+        streams = () if device.camera is None else device.camera.streams
+        eyes = [(stream, graph.frames.in_world(stream.frame)) for stream in streams]
+        if not eyes:
+            continue
+        things = list(_places(graph, _PLACED)) + [corner for box in graph.cell.scene for corner in _corners(graph, box)]
+        seen = [*things, *_places(graph, (FrameKind.MOUNT,), device.name)]
+        known = [(stream, eye) for stream, eye in eyes if eye is not None]
+        if not things or not known or any(_sees(stream, eye, thing) for stream, eye in known for thing in seen):
+            continue
+        nearest = min(things, key=lambda thing: _aside(known[0][1], thing))
+        aside_deg = math.degrees(_aside(known[0][1], nearest))
+        message = f"`{device.name}` must look at something of the cell, and the nearest lies {aside_deg:.0f} deg"
+        yield found(graph, (*device.path, "mount"), f"{message} beside its axis")
+
+
+def _places(graph: CellGraph, kinds: tuple[FrameKind, ...], but_of: str = "") -> Iterator[Vector3]:
+    """Yield where frames of some kinds stand in the world, m, as far as no joint moves them."""
+    for frame in graph.cell.frames:
+        place = graph.frames.in_world(frame.name) if frame.kind in kinds and frame.device != but_of else None
+        if place is not None:
+            yield place.position
+
+
+def _corners(graph: CellGraph, box: SceneBox) -> Iterator[Vector3]:
+    """Yield corners, middles of edges and sides, and the center of a box in the world."""
+    parent = graph.frames.in_world(box.parent)
+    if parent is None:
+        return
+    center = parent @ box.transform_to_parent
+    for signs in itertools.product((-0.5, 0.0, 0.5), repeat=3):
+        x, y, z = (sign * length for sign, length in zip(signs, box.size, strict=True))
+        yield (center @ Pose((x, y, z), (0.0, 0.0, 0.0, 1.0))).position
+
+
+def _sees(stream: CameraStream, eye: Pose, thing: Vector3) -> bool:
+    x, y, z = _before(eye, thing)
+    if z <= 0.0 or stream.view is None:
+        return z > 0.0
+    aside, above = math.atan2(abs(x), z), math.atan2(abs(y), z)
+    within = aside <= stream.view.horizontal / 2 + _SLACK_RAD and above <= stream.view.vertical / 2 + _SLACK_RAD
+    return within and math.hypot(x, y, z) <= stream.view.farthest_m
+
+
+def _before(eye: Pose, thing: Vector3) -> Vector3:
+    return (eye.inverse() @ Pose(thing, (0.0, 0.0, 0.0, 1.0))).position
+
+
+def _aside(eye: Pose, thing: Vector3) -> float:
+    """Return the angle between the axis of a camera and a place, rad."""
+    x, y, z = _before(eye, thing)
+    return math.atan2(math.hypot(x, y), z)
+
+
+"""A real object lies somewhere near where the mock has it."""
+
+
+@rule(Severity.WARNING, assumes=(*KNOWN_GOALS, "detached-mount"))
+def object_out_of_view(graph: CellGraph) -> Findings:
+    """Yield objects that are out of the field of view, or out of the distances, of their camera, one for an object."""
+    frames = {frame.name: frame for frame in graph.cell.frames}
+    reported: set[str] = set()
+    for view in motion_answer(graph).views:
+        camera = next(device for device in graph.cell.devices if view.camera_frame in device.frames.values())
+        wrong = _wrong(view, _field(camera, view.camera_frame))
+        if wrong and view.name not in reported:
+            reported.add(view.name)
+            where = f"in `{view.posture}`" if view.posture else "at the start"
+            message = f"`{camera.name}` must see `{view.name}` {where}, where it is detected, but it lies {wrong}"
+            related = (Related("what is detected", frames[view.name].span),)
+            yield found(graph, (*camera.path, "mount"), message, related=related)
+
+
+def _field(camera: Device, frame: str) -> FieldOfView | None:
+    streams = () if camera.camera is None else camera.camera.streams
+    return next((stream.view for stream in streams if stream.frame == frame), None)
+
+
+def _wrong(view: ViewAnswer, field: FieldOfView | None) -> str:
+    """Say where an object lies that is not seen; empty where it is seen. Without a field it must lie in front."""
+    x, y, z = view.place
+    if z <= 0.0:
+        return f"{abs(z):.3g} m behind the camera"
+    if field is None:
+        return ""
+    aside, above = math.atan2(abs(x), z), math.atan2(abs(y), z)
+    if aside > field.horizontal / 2 + _SLACK_RAD or above > field.vertical / 2 + _SLACK_RAD:
+        figures = f"{math.degrees(aside):.0f} deg to the side and {math.degrees(above):.0f} deg above or below the axis"
+        return f"{figures} of a view of {math.degrees(field.horizontal):.0f} by {math.degrees(field.vertical):.0f} deg"
+    distance = math.hypot(x, y, z)
+    if not field.nearest_m <= distance <= field.farthest_m:
+        return f"{distance:.3g} m away, which is not between {field.nearest_m:g} m and {field.farthest_m:g} m"
+    return ""
+
+
+@rule(Severity.ERROR)
+def object_under_another_camera(graph: CellGraph) -> Findings:
+    """Yield dynamic frames under a camera whose publisher hears other cameras, and not this one."""
+    cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
+    owners = {frame: name for name, device in cameras.items() for frame in device.frames.values()}
+    for frame in graph.cell.frames:
+        own = owners.get(frame.parent)
+        if frame.kind is not FrameKind.DYNAMIC or own is None:
+            continue
+        heard = {
+            source.node: interface
+            for interface in graph.cell.interfaces
+            if interface.kind is InterfaceKind.TOPIC and any(sink.node == frame.authority for sink in interface.sinks)
+            for source in interface.sources
+            if source.node in cameras
+        }
+        if heard and own not in heard:
+            other, interface = next(iter(heard.items()))
+            message = f"`{frame.name}` hangs on `{own}`, but its publisher `{frame.authority}` hears `{other}` alone"
+            missed = (
+                interface for interface in graph.cell.interfaces if own in {source.node for source in interface.sources}
+            )
+            readers = [(interface, "its images"), *((interface, f"the images of `{own}`") for interface in missed)]
+            related = tuple(Related(label, graph.cell.locate(*one.path, "to")) for one, label in readers)
+            yield found(graph, (*frame.path, "parent"), message, related=related)
+
+
+_COS_10_DEG = 0.985  # the calibrated mount of an imager is off by a few degrees at most
+
+
+@rule(Severity.ERROR)
+def turned_optical_frame(graph: CellGraph) -> Findings:
+    """Yield optical frames whose axes, seen from the root link of their device, are not those of REP-103."""
+    for device in graph.cell.devices:
+        for name in device.optical_frames:
+            pose = _pose_in(graph, device.frames[name], device.root_link)
+            if pose is not None and not _looks_forward(pose):
+                message = f"the axes of `{device.name}/{name}` must be x right, y down, z forward"
+                advice = "turn its joint by rpy `-90 0 -90 deg` against the camera's own frame"
+                yield found(graph, (*device.path, "model"), message, advice)
+
+
+def _pose_in(graph: CellGraph, name: str, root: str) -> Pose | None:
+    pose = identity()
+    for frame in graph.frames.chain(name):
+        if frame.name == root:
+            return pose
+        if frame.transform_to_parent is None:
+            return None
+        pose = frame.transform_to_parent @ pose
+    return None
+
+
+def _looks_forward(pose: Pose) -> bool:
+    turn = Pose((0.0, 0.0, 0.0), pose.quaternion)
+    forward, right = turn.apply((0.0, 0.0, 1.0)), turn.apply((1.0, 0.0, 0.0))
+    return forward[0] > _COS_10_DEG and -right[1] > _COS_10_DEG

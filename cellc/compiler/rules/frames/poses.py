@@ -1,0 +1,109 @@
+"""Rules on the figures of a pose: unit, order and size."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from cellc.compiler.cell.device import Device
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.contract.transforms import Pose, from_xyz_rpy, identity
+
+_LARGEST_CELL_M = 20.0
+
+
+@rule(Severity.ERROR)
+def implausible_distance(graph: CellGraph) -> Findings:
+    """Yield frames more than 20 m from their parent."""
+    for frame in graph.cell.frames:
+        if frame.transform_to_parent is None:
+            continue
+        distance = math.hypot(*frame.transform_to_parent.position)
+        if distance > _LARGEST_CELL_M:
+            message = f"`{frame.name}` must lie within {_LARGEST_CELL_M:g} m of `{frame.parent}`, got {distance:g} m"
+            yield found(graph, (*frame.path, "xyz"), message)
+
+
+_DEGREES = re.compile(r"[-+0-9.,\s]*\d\s*deg\s*")
+_NUMBER = re.compile(r"\d+(?:\.(\d*))?")
+_QUARTERS = tuple(math.pi * numerator / 2 for numerator in (1, 2, 3, 4))
+_PARTS = (*_QUARTERS, *(math.pi * numerator / 12 for numerator in (2, 3, 4, 8, 9, 10)))
+"""What programs print for 90, 180, 270 and 360 degrees, and for 30, 45, 60, 120, 135 and 150."""
+_JOINTS = 4
+"""As many positions are those of an arm; a rotation and a translation have three numbers."""
+
+
+@rule(Severity.WARNING)
+def radians_as_degrees(graph: CellGraph) -> Findings:
+    """Yield values in degrees with a number that is a fraction of pi to its last digit, and arms that hardly turn."""
+    for path, text in graph.cell.places.texts.items():
+        why = _why(text) if _DEGREES.fullmatch(text) else None
+        if why is not None:
+            yield found(graph, path, f"`{path[-1]}` must be in degrees, got `{text}`, where {why}")
+
+
+def _why(text: str) -> str | None:
+    """Return what tells that numbers are radians; None where nothing does."""
+    numbers = [(number[0], len(number[1] or "")) for number in _NUMBER.finditer(text)]
+    for number, decimals in numbers:
+        if _is_fraction(float(number), decimals):
+            return f"{number} is {math.degrees(float(number)):.0f} deg in radians"
+    printed = sum(decimals > 1 for _, decimals in numbers)
+    if len(numbers) >= _JOINTS and printed > 1 and all(float(number) <= math.tau for number, _ in numbers):
+        return f"{len(numbers)} joints stand within {math.tau:.2f} of zero, as positions in radians do"
+    return None
+
+
+def _is_fraction(number: float, decimals: int) -> bool:
+    """Whether a number is a fraction of pi, rounded or cut at its last digit; a quarter turn is known by two."""
+    digit = 10.0**-decimals
+    parts = {2: _QUARTERS}.get(decimals, _PARTS if decimals > 2 else ())
+    return any(-digit / 2 <= part - number < digit for part in parts)
+
+
+_SIDEWAYS_RAD = math.radians(8.0)
+"""What brackets and calibrations turn a camera out of the plane of its tool, at most."""
+_STRAIGHT_RAD = math.radians(2.0)
+_BESIDE_M = 0.02
+"""Nearer to the axis of the tool no direction is away from it."""
+
+
+@rule(Severity.WARNING, assumes=("turned-optical-frame",))
+def reversed_angles(graph: CellGraph) -> Findings:
+    """Yield cameras on a tool flange that look sideways, and would not with their angles in the reverse order."""
+    tools = {device.tool_frame for device in graph.cell.devices}
+    for device in graph.cell.devices:
+        for name in device.optical_frames:
+            chain = graph.frames.chain(device.frames[name])
+            place = next((frame for frame in chain if frame.name == device.root_link), None)
+            if place is None or place.parent not in tools or place.transform_to_parent is None:
+                continue
+            mount, inside = place.transform_to_parent, _inside(graph, device, name)
+            roll, pitch, yaw = mount.rpy()
+            turned = from_xyz_rpy(mount.position, (yaw, pitch, roll))
+            sideways = _sideways(mount, inside)
+            if sideways > _SIDEWAYS_RAD and _sideways(turned, inside) < _STRAIGHT_RAD:
+                degrees = math.degrees(sideways)
+                message = f"`{device.name}` looks {degrees:.0f} deg sideways past its tool; with `rpy` in the reverse"
+                yield found(graph, (*device.path, "mount", "rpy"), f"{message} order it would look along it")
+                break
+
+
+def _inside(graph: CellGraph, device: Device, name: str) -> Pose:
+    """Return the pose of an optical frame in the root link of its camera."""
+    pose = identity()
+    for frame in graph.frames.chain(device.frames[name]):
+        if frame.name == device.root_link:
+            break
+        pose = (frame.transform_to_parent or identity()) @ pose
+    return pose
+
+
+def _sideways(mount: Pose, inside: Pose) -> float:
+    """Return by how much a camera looks out of the plane through itself and the axis of its tool, z, in radians."""
+    x, y, _ = mount.position
+    beside = math.hypot(x, y)
+    if beside < _BESIDE_M:
+        return 0.0
+    forward = Pose((0.0, 0.0, 0.0), (mount @ inside).quaternion).apply((0.0, 0.0, 1.0))
+    return abs(math.asin(max(-1.0, min(1.0, (forward[1] * x - forward[0] * y) / beside))))

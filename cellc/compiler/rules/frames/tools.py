@@ -1,0 +1,131 @@
+"""Rules on flanges, tool frames and tips."""
+
+from __future__ import annotations
+
+import math
+
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.frame import FrameKind
+from cellc.compiler.cell.motion import CartesianGoal
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.transforms import Pose, Vector3, identity
+
+_APART_M = 1e-3
+_ALONG = 0.999  # cosine; figures of descriptions are rounded
+
+
+@rule(Severity.BLOCKER)
+def broken_flange_convention(graph: CellGraph) -> Findings:
+    """Yield devices with both frames whose z of tool0 is not x of flange, or whose origins differ."""
+    for device in graph.cell.devices:
+        flange, tool = device.frames.get("flange"), device.frames.get("tool0")
+        if flange is None or tool is None:
+            continue
+        pose = _pose_in(graph, tool, flange)
+        if pose is None or not _by_convention(pose):
+            message = f"`tool0` of `{device.name}` must have the origin of `flange` and its z axis along x of `flange`"
+            yield found(graph, (*device.path, "model"), message)
+
+
+def _pose_in(graph: CellGraph, name: str, ancestor: str) -> Pose | None:
+    pose = identity()
+    for frame in graph.frames.chain(name):
+        if frame.name == ancestor:
+            return pose
+        if frame.transform_to_parent is None or frame.moving:
+            return None
+        pose = frame.transform_to_parent @ pose
+    return None
+
+
+def _by_convention(pose: Pose) -> bool:
+    out = Pose((0.0, 0.0, 0.0), pose.quaternion).apply((0.0, 0.0, 1.0))
+    return math.hypot(*pose.position) < _APART_M and out[0] > _ALONG
+
+
+@rule(Severity.ERROR, assumes=("frame-cycle",))
+def tcp_off_the_tool(graph: CellGraph) -> Findings:
+    """Yield TCPs that no fixed transform places in the tool frame of their arm."""
+    for device in graph.cell.devices:
+        if device.tcp is None:
+            continue
+        path = (*device.path, "tcp")
+        if device.tool_frame is None:
+            yield found(graph, path, f"`{device.name}` has no frame where tools mount")
+            continue
+        chain = [frame.name for frame in graph.frames.chain(device.tcp)]
+        tool = device.tool_frame in chain
+        between = graph.frames.chain(device.tcp)[: chain.index(device.tool_frame)] if tool else ()
+        if not tool or any(frame.moving or frame.transform_to_parent is None for frame in between):
+            message = f"the TCP of `{device.name}` must hang on `{device.tool_frame}` by fixed transforms"
+            yield found(graph, path, f"{message}, got `{device.tcp}`")
+
+
+@rule(Severity.ERROR)
+def tip_off_the_tool_chain(graph: CellGraph) -> Findings:
+    """Yield groups of an arm with a tip that does not come after its tool frame."""
+    arms = {
+        link.name: device for device in graph.cell.devices if device.tool_frame for link in device.description.links
+    }
+    for group in graph.cell.groups:
+        arm = arms.get(group.base_link)
+        if arm is None or arm.tool_frame is None:
+            continue
+        chain = graph.frames.chain(group.tip_frame)
+        if arm.tool_frame not in (frame.name for frame in chain):
+            message = f"tip `{group.tip_frame}` of group `{group.name}` does not hang on `{arm.tool_frame}`"
+            mounts = [frame for frame in chain if frame.kind is FrameKind.MOUNT and frame.device != arm.name]
+            related = tuple(Related(f"`{mount.device}` is mounted on `{mount.parent}`", mount.span) for mount in mounts)
+            yield found(graph, (*group.path, "tip"), message, related=related)
+
+
+_SHORTEST_M = 0.05
+"""A shorter tool tells nothing."""
+_NEAREST = 0.5
+_BEYOND_M = 0.3
+
+
+@rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "tip-off-the-tool-chain"))
+def tip_within_tool(graph: CellGraph) -> Findings:
+    """Yield tips less than half way to the fingers of the carried gripper, or far beyond them.
+
+    A link of the arm may well be a tip, where its goals keep the distance themselves.
+    """
+    for group in graph.cell.groups:
+        tip = graph.frames.get(group.tip_frame)
+        arm = next((device for device in graph.cell.devices if group.base_link in _links(device)), None)
+        if tip is None or arm is None or arm.tool_frame is None:
+            continue
+        pose = graph.frames.pose_in(tip.name, arm.tool_frame)
+        end = _end(graph, arm)
+        if pose is None or end is None or (reach_m := math.hypot(*end)) < _SHORTEST_M:
+            continue
+        along_m = sum(a * b for a, b in zip(pose.position, end, strict=True)) / reach_m
+        if not _NEAREST * reach_m <= along_m <= reach_m + _BEYOND_M:
+            message = f"tip `{tip.name}` must lie near the end of the tool, {reach_m * 1e3:.0f} mm or more from"
+            message += f" `{arm.tool_frame}`, got {along_m * 1e3:.3g} mm towards it"
+            if tip.kind is FrameKind.FIXED:
+                yield found(graph, tip.path, message, related=(Related("the group", group.span),))
+            elif tip.name in _links(arm) and (near := _nearest(graph, group.name, _NEAREST * reach_m)) is not None:
+                related = (Related(f"goal `{near.name}` keeps no distance", near.span),)
+                yield found(graph, (*group.path, "tip"), message, related=related)
+
+
+def _nearest(graph: CellGraph, group: str, within_m: float) -> CartesianGoal | None:
+    """Return the first goal of a group that brings its tip nearer to the goal's frame than a distance."""
+    own = (goal for goal in graph.cell.goals if goal.group == group)
+    return next((goal for goal in own if math.hypot(*goal.transform_tip_to_frame.position) < within_m), None)
+
+
+def _links(device: Device) -> set[str]:
+    return {link.name for link in device.description.links}
+
+
+def _end(graph: CellGraph, arm: Device) -> Vector3 | None:
+    """Return the origin of the farthest link of the only gripper that an arm carries, in its tool frame, m."""
+    grippers = [tool for name in arm.carries if (tool := graph.cell.device(name)).kind == "gripper"]
+    if len(grippers) != 1:
+        return None
+    poses = [graph.frames.pose_in(link.name, arm.tool_frame or "") for link in grippers[0].description.links]
+    places = [pose.position for pose in poses if pose is not None]
+    return max(places, key=lambda place: math.hypot(*place), default=None)

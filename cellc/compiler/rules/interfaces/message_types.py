@@ -1,0 +1,111 @@
+"""Rules on the types of interfaces."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from difflib import SequenceMatcher
+
+from cellc.compiler.cell.interface import InterfaceKind
+from cellc.compiler.graph.data_flow import interface_types
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
+
+_FOLDER = {InterfaceKind.TOPIC: "msg", InterfaceKind.SERVICE: "srv", InterfaceKind.ACTION: "action"}
+
+
+@rule(Severity.ERROR)
+def interface_kind_mismatch(graph: CellGraph) -> Findings:
+    """Yield interfaces whose type is in the folder of another kind."""
+    for interface in graph.cell.interfaces:
+        parts = interface.type.split("/")
+        expected = _FOLDER[interface.kind]
+        if len(parts) == 3 and parts[1] in _FOLDER.values() and parts[1] != expected:
+            message = f"`{interface.name}` is a {interface.kind.value}, but `{interface.type}` is a `{parts[1]}` type"
+            path = (*interface.path, interface.kind.value)
+            yield found(graph, path, message, f"use a `{expected}` type, or declare it as what it is")
+
+
+_TYPE = re.compile(r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Z][A-Za-z0-9]*")
+
+
+@rule(Severity.ERROR)
+def malformed_interface_type(graph: CellGraph) -> Findings:
+    """Yield types of another shape."""
+    for interface in graph.cell.interfaces:
+        if _TYPE.fullmatch(interface.type) is None:
+            message = f"`{interface.type}` is not an interface type"
+            parts = interface.type.split("/")
+            nearest = (
+                f"{parts[0]}/{_FOLDER[interface.kind]}/{parts[-1]}" if len(parts) == 2 else "sensor_msgs/msg/Image"
+            )
+            yield found(
+                graph, (*interface.path, interface.kind.value), message, f"write three parts, such as `{nearest}`"
+            )
+
+
+@rule(Severity.ERROR)
+def type_conflict(graph: CellGraph) -> Findings:
+    """Yield interfaces of the spec whose device or controller has another type for the name."""
+    for interface in graph.cell.interfaces:
+        for source in interface.sources:
+            real = _type_of(graph, source.node, interface.name)
+            if real is not None and real != interface.type:
+                message = f"`{interface.name}` is declared as `{interface.type}`, but `{source.node}` has `{real}`"
+                yield found(graph, (*interface.path, interface.kind.value), message, f"write `{real}`")
+
+
+def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
+    topics = graph.once(_topics)
+    return topics[node].get(name) if node in topics else graph.once(_actions).get((node, name))
+
+
+def _topics(graph: CellGraph) -> Mapping[str, Mapping[str, str]]:
+    return {device.name: device.topics for device in graph.cell.devices}
+
+
+def _actions(graph: CellGraph) -> Mapping[tuple[str, str | None], str | None]:
+    return {
+        (controller.label, controller.action): controller.action_type for controller in reversed(graph.cell.controllers)
+    }
+
+
+@rule(Severity.ERROR)
+def type_of_another_distribution(graph: CellGraph) -> Findings:
+    """Yield known types that the distribution does not have."""
+    known = interface_types()
+    for interface in graph.cell.interfaces:
+        facts = known.get(interface.type)
+        if facts is not None and facts.only and graph.cell.distro not in facts.only and not interface.derived:
+            message = f"`{interface.type}` does not exist in {graph.cell.distro}"
+            names = ", ".join(facts.only)
+            yield found(
+                graph, (*interface.path, interface.kind.value), message, f"it exists in {names}; use another type"
+            )
+
+
+_ALIKE = 0.8  # ratio of difflib: one letter in a word of four, two in a word of ten
+
+
+@rule(Severity.ERROR, assumes=("interface-kind-mismatch", "malformed-interface-type"))
+def unknown_interface_type(graph: CellGraph) -> Findings:
+    """Yield types that are not known and nearly are."""
+    known = interface_types()
+    for interface in graph.cell.interfaces:
+        if interface.type not in known and interface.type.count("/") == 2:
+            close = [name for name in known if _alike(name, interface.type)]
+            if close:
+                path = (*interface.path, interface.kind.value)
+                yield found(
+                    graph, path, f"there is no interface type `{interface.type}`", f"did you mean `{close[0]}`?"
+                )
+
+
+def _alike(known: str, written: str) -> bool:
+    """Tell whether one word of the type differs by a typing error; `UInt32` and `Int16` are no misspellings of
+    `Int32`."""
+    words, others = (re.findall(r"[A-Z][a-z]*|[a-z]+|[0-9]+|[/_]", name) for name in (known, written))
+    differing = [(word, other) for word, other in zip(words, others, strict=False) if word != other]
+    if len(words) != len(others) or len(differing) != 1:
+        return False
+    word, other = differing[0]
+    return word.isalpha() and SequenceMatcher(None, word, other).ratio() >= _ALIKE
