@@ -5,7 +5,6 @@ all, is left out. The mock reads this file, the URDF and controllers.yaml that r
 SRDF, and nothing of the compiler.
 """
 
-from collections.abc import Iterable
 from typing import Literal
 
 from pydantic import Field
@@ -196,16 +195,6 @@ class ContractGripper(ContractModel):
     max_velocity: PositiveMagnitude | None = Field(
         None, description="Speed of the joint as the jaws move, rad/s or m/s; null where it is not stated."
     )
-
-
-def hand_group(device: str, kind: str) -> str:
-    """Return the group of the SRDF that the fingers of a device are: an arm that has its own has another group too."""
-    return f"{device}_gripper" if kind == "arm" else device
-
-
-def several_groups(groups: Iterable[str]) -> str:
-    """Return the group of the SRDF that several groups are, whose poses are reached together."""
-    return "_and_".join(groups)
 
 
 class ContractCamera(ContractModel):

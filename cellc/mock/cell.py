@@ -14,10 +14,10 @@ from cellc.contract.printing import stage
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.signals import within
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.agreement.agreement import refuse_disagreement
 from cellc.mock.assemble import assemble, start_nodes
 from cellc.mock.bringup import Bringup
 from cellc.mock.bus.qos import unmatched_pairs
+from cellc.mock.by_hand import notes_on, refuse_not_executed
 from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
@@ -333,7 +333,7 @@ def load(folder: Path, *, edited: bool = False) -> MockCell:
         edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
 
     Raises:
-        MockError: the folder cannot be executed, or an edited file says otherwise than what is; names it and why.
+        MockError: the folder cannot be executed, or a file was edited that is not; names it and why.
     """
     return cell_of(read_to_run(folder, edited=edited))
 
@@ -344,9 +344,20 @@ def read_to_run(folder: Path, *, edited: bool = False) -> GeneratedFolder:
     Raises:
         MockError: as `load`.
     """
+    read = read_to_show(folder, edited=edited)
+    refuse_not_executed(read)
+    return read
+
+
+def read_to_show(folder: Path, *, edited: bool = False) -> GeneratedFolder:
+    """Read a generated folder as `read_to_run` does, but leave edits that no run shows to the notes.
+
+    Raises:
+        MockError: the folder cannot be executed, or is edited and may not be.
+    """
     stage(f"reading {folder.as_posix()}")
     read = read_folder(folder, edited=edited)
-    return replace(read, notes=(*read.notes, *refuse_disagreement(folder, read))) if read.edits else read
+    return replace(read, notes=(*read.notes, *notes_on(read)))
 
 
 def cell_of(folder: GeneratedFolder) -> MockCell:

@@ -32,7 +32,7 @@ from cellc.robot.description.yaml_values import load_values
 CONTRACT_FILE = "contract.json"
 MANIFEST_FILE = "manifest.json"
 _Model = TypeVar("_Model", bound=BaseModel)
-_BUILD_OR_EDITED = "build it again, or take `--edited` to run it under an id that signs no gate"
+_BUILD_OR_EDITED = "build it again, or take `--edited`, which executes edits under an id that signs no gate"
 
 
 @dataclass(frozen=True, slots=True)
@@ -299,7 +299,7 @@ def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[t
     edits: list[str] = []
     total, most = 0, limits().folder_total_bytes
     held = hashlib.sha256()
-    executed = {CONTRACT_FILE, *_named(contract)}
+    executed = {CONTRACT_FILE, *named_files(contract)}
     for name in sorted({*manifest.files, *executed}):
         if not _inside(folder, name).is_file():
             notes.append(f"`{name}` is listed in the manifest and missing")
@@ -319,8 +319,8 @@ def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[t
     return tuple(notes), tuple(edits), f"edited-{held.hexdigest()[:12]}"
 
 
-def _named(contract: Contract) -> Iterator[str]:
-    """Yield the files that a contract has executed."""
+def named_files(contract: Contract) -> Iterator[str]:
+    """Yield the files beside it that a contract has executed."""
     files = contract.files
     yield from (files.rehearsals, files.urdf_mock, files.bring_up, *files.parameters.values())
     if files.srdf is not None:

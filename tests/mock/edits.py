@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cellc.mock.agreement.agreement import EXECUTED, KINDS, Kind
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 
@@ -26,7 +25,7 @@ class Edit:
     runs: str = ""
     outcome: str = ""
     stuck: str = ""
-    ends: str = ""
+    refused: bool = False
     not_shown: str = ""
 
 
@@ -35,27 +34,15 @@ EDITS = tuple(Edit(**row) for row in safe_load((ROOT / "tests" / "mock" / "edits
 
 def table() -> str:
     """Return what stands in docs/mock.md between its marks."""
-    kinds = "".join(_kind(kind) for kind in (*EXECUTED, *KINDS))
     rows = "".join(f"| `{edit.file}` | {edit.what} | {_then(edit)} |\n" for edit in EDITS)
-    return (
-        "| file | compared with what is executed | what no run shows, and why |\n|---|---|---|\n"
-        f"{kinds}\n"
-        f"{len(EDITS)} edits, each of them tried:\n\n| file | edit by hand | `--edited` |\n|---|---|---|\n{rows}"
-    )
-
-
-def _kind(kind: Kind) -> str:
-    name = f"`{kind.pattern}`" if "*" in kind.pattern or "/" in kind.pattern else kind.pattern
-    return f"| {name} | {kind.compared or '–'} | {kind.not_shown or '–'} |\n"
+    return f"{len(EDITS)} edits, each of them tried:\n\n| file | edit by hand | `--edited` |\n|---|---|---|\n{rows}"
 
 
 def _then(edit: Edit) -> str:
     if edit.runs:
         stuck = f" with `{edit.stuck}` stuck" if edit.stuck else ""
         return f"executed: `{edit.runs}`{stuck} differs, and ends as `{edit.outcome}`"
-    if edit.ends:
-        return "ends the run: it differs from what is executed"
-    return f"runs, and says what no run shows: {edit.not_shown}"
+    return "refused" if edit.refused else f"runs, with a note: {edit.not_shown}"
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Every edit of a generated folder by hand is refused; with `--edited` it is executed, ends the run, or is told."""
+"""Every edit of a generated folder by hand is refused; with `--edited` it is executed, refused too, or a note."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ import pytest
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock import MockCell, MockError, load
-from cellc.mock.agreement.agreement import EXECUTED, kind_of, refuse_disagreement
+from cellc.mock.by_hand import FOR_PEOPLE, not_executed, notes_on, refuse_not_executed
+from cellc.mock.cell import read_to_run, read_to_show
 from cellc.mock.folder import differences, read_folder
 from cellc.mock.result import RehearsalResult
 from tests.cells import CELLS, ROOT
@@ -21,7 +22,7 @@ from tests.mock.edits import BEGIN, EDITS, END, PAGE, Edit, table
 
 PLAIN = ROOT / "generated" / "ur5e_pick"
 RUN = [edit for edit in EDITS if edit.runs]
-ENDED = [edit for edit in EDITS if edit.ends]
+REFUSED = [edit for edit in EDITS if edit.refused]
 NOT_SHOWN = [edit for edit in EDITS if edit.not_shown]
 
 
@@ -93,44 +94,64 @@ def test_edit_of_what_is_executed_ends_otherwise(
     assert result != as_generated(edit)
 
 
-@pytest.mark.parametrize("edit", ENDED, ids=lambda edit: f"{edit.file}: {edit.what}")
-def test_edit_of_what_is_told_again_ends_the_run(edit: Edit, spoilt: Path, plain: MockCell) -> None:
-    of_its_own = kind_of(edit.file, plain.contract.files) not in EXECUTED
+@pytest.mark.parametrize("edit", REFUSED, ids=lambda edit: f"{edit.file}: {edit.what}")
+def test_edit_of_what_is_not_executed_is_refused(edit: Edit, spoilt: Path) -> None:
     with _edited(spoilt, edit), pytest.raises(MockError) as caught:
-        refuse_disagreement(
-            spoilt, replace(plain.folder if of_its_own else read_folder(spoilt, edited=True), edits=(edit.file,))
-        )
+        read_to_run(spoilt, edited=True)
     assert caught.value.file == edit.file
-    assert edit.ends in caught.value.reason
+    assert caught.value.reason.startswith("was edited or removed by hand, and is not executed")
 
 
-def test_one_that_differs_ends_the_load(spoilt: Path) -> None:
-    with (
-        _edited(spoilt, ENDED[-1]),
-        pytest.raises(MockError, match="no run would show it: have every file say the same"),
-    ):
-        load(spoilt, edited=True)
+def test_every_file_of_several_is_named(plain: MockCell) -> None:
+    files = [f"config/{number}.yaml" for number in range(14)]
+    with pytest.raises(MockError) as caught:
+        refuse_not_executed(replace(plain.folder, edits=("README.md", *files[:3])))
+    assert str(caught.value).startswith(
+        f"{files[0]}: was edited or removed by hand, as `{files[1]}`, `{files[2]}`, and is"
+    )
+    with pytest.raises(MockError, match=r", `config/11\.yaml` and 2 more, and is not executed"):
+        refuse_not_executed(replace(plain.folder, edits=tuple(files)))
 
 
-def test_edit_that_no_run_shows_is_told(spoilt: Path) -> None:
-    notes: list[str] = []
-    for executed in (True, False):
-        with _edited(spoilt, *(edit for edit in NOT_SHOWN if edit.file.endswith("mock.urdf") is executed)):
-            notes += load(spoilt, edited=True).notes
+def test_file_that_was_removed_is_refused(spoilt: Path) -> None:
+    (spoilt / "config/joint_limits.yaml").unlink()
+    try:
+        with pytest.raises(MockError, match=r"joint_limits\.yaml: was edited or removed by hand, and is not executed"):
+            load(spoilt, edited=True)
+    finally:
+        shutil.copy(PLAIN / "config/joint_limits.yaml", spoilt / "config/joint_limits.yaml")
+
+
+def test_edit_that_no_run_shows_is_a_note_of_every_result(spoilt: Path) -> None:
     for edit in NOT_SHOWN:
-        assert f"`{edit.file}` differs from the manifest: it was edited after it was generated" in notes
-        assert any(note.startswith(f"`{edit.file}` ") and edit.not_shown in note for note in notes), edit
+        with _edited(spoilt, edit):
+            cell = load(spoilt, edited=True)
+        assert any(note.startswith(f"`{edit.file}` ") and edit.not_shown in note for note in cell.notes), edit
+        assert cell.run("cancelled").edited
+
+
+def test_a_page_of_an_edited_folder_names_what_is_not_executed(spoilt: Path) -> None:
+    edit = REFUSED[0]
+    with _edited(spoilt, edit):
+        notes = read_to_show(spoilt, edited=True).notes
+    assert f"`{edit.file}` was edited or removed by hand, and is not executed" in notes
 
 
 @pytest.mark.parametrize("name", CELLS)
-def test_files_of_a_generated_folder_say_what_is_executed(name: str) -> None:
-    folder = ROOT / "generated" / name
-    read = read_folder(folder)
-    notes = refuse_disagreement(folder, replace(read, edits=read.listed))
-    assert {note.split("`")[1] for note in notes} <= set(read.listed)
+def test_every_generated_file_is_executed_or_refused_or_read_by_people_alone(name: str) -> None:
+    read = read_folder(ROOT / "generated" / name)
+    whole = replace(read, edits=read.listed)
+    files = read.contract.files
+    # docs/mock.md, "What it takes from where".
+    executed = {"contract.json", "config/uncertainty.json", files.rehearsals, files.urdf_mock, files.bring_up}
+    executed |= {*files.parameters.values(), *filter(None, (files.srdf,))}
+    assert {*not_executed(whole)} == {
+        one for one in read.listed if one not in executed and not one.endswith(FOR_PEOPLE)
+    }
+    assert list(notes_on(read)) == []
 
 
-def test_page_has_the_edits_and_kinds_of_files_that_are_tried() -> None:
+def test_page_has_the_edits_that_are_tried() -> None:
     assert PAGE.read_text(encoding="utf-8").partition(BEGIN)[2].partition(END)[0] == f"\n{table()}\n"
-    assert len(EDITS) >= 57
-    assert all(bool(edit.runs) + bool(edit.ends) + bool(edit.not_shown) == 1 for edit in EDITS)
+    assert len(EDITS) >= 68
+    assert all(bool(edit.runs) + edit.refused + bool(edit.not_shown) == 1 for edit in EDITS)

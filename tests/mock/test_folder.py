@@ -159,27 +159,15 @@ def test_folder_as_generated_has_no_notes(cell: MockCell) -> None:
     assert cell.notes == ()
 
 
-@pytest.mark.parametrize(
-    ("name", "more"),
-    [
-        ("config/controllers.yaml", []),
-        ("config/qos_overrides.yaml", []),
-        (
-            "config/joint_limits.yaml",
-            ["`config/joint_limits.yaml` says what is executed; no run shows: default scaling"],
-        ),
-        ("gates/promotion.md", ["`gates/promotion.md` is not executed: people read it"]),
-    ],
-)
-def test_edit_by_hand_is_refused_with_the_file_and_what_to_do(folder: Path, name: str, more: list[str]) -> None:
+@pytest.mark.parametrize("name", ["config/controllers.yaml", "gates/promotion.md"])
+def test_edit_by_hand_is_refused_with_the_file_and_what_to_do(folder: Path, name: str) -> None:
     path = folder / name
     path.write_text(path.read_text() + "# by hand\n")
     edit = f"`{name}` differs from the manifest: it was edited after it was generated"
     with pytest.raises(MockError) as caught:
         load(folder)
     assert caught.value.reason.startswith(f"{edit}; build it again, or take `--edited`")
-    notes = load(folder, edited=True).notes
-    assert [note.partition(": move_group")[0] for note in notes] == [edit, *more]
+    assert load(folder, edited=True).notes == (edit,)
 
 
 @pytest.mark.parametrize("name", CELLS)

@@ -15,7 +15,7 @@ rooted in the world.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
@@ -28,7 +28,6 @@ from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.urdf.robot import manager_description, robot_description
 from cellc.compiler.formats.xml_text import comment, element, render
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.contract import hand_group, several_groups
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
@@ -55,7 +54,7 @@ def _semantic(graph: CellGraph) -> Iterator[Element]:
     yield from _named_together(cell.poses)
     named = {group.name for group in cell.groups}
     for device in cell.devices:
-        if device.gripper is not None and hand_group(device.name, device.kind) not in named:
+        if device.gripper is not None and _hand_group(device.name, device.kind) not in named:
             yield comment(f"devices.{device.name}")
             yield from _gripper(device)
     disabled = disabled_links(graph)
@@ -73,7 +72,7 @@ def _named_together(poses: Sequence[NamedPose]) -> Iterator[Element]:
     told: set[str] = set()
     for name in dict.fromkeys(pose.name for pose in poses):
         parts = [pose for pose in poses if pose.name == name]
-        group = several_groups(pose.group for pose in parts)
+        group = _several_groups(pose.group for pose in parts)
         if len(parts) > 1 and group not in told:
             yield element("group", {"name": group}, [element("group", {"name": pose.group}) for pose in parts])
         if len(parts) > 1:
@@ -91,7 +90,7 @@ def _at(pose: NamedPose) -> Iterator[Element]:
 
 
 def _gripper(device: Device) -> Iterator[Element]:
-    gripper, group = device.gripper, hand_group(device.name, device.kind)
+    gripper, group = device.gripper, _hand_group(device.name, device.kind)
     assert gripper is not None
     joint = gripper.joint
     yield element("group", {"name": group}, [element("joint", {"name": joint})])
@@ -100,3 +99,13 @@ def _gripper(device: Device) -> Iterator[Element]:
         yield element("group_state", {"name": name, "group": group}, [value])
     if device.kind != "arm":  # fingers of an arm have no mount; a marker then is at the tip of the arm's group
         yield element("end_effector", {"name": group, "group": group, "parent_link": device.parent_frame})
+
+
+def _hand_group(device: str, kind: str) -> str:
+    """Return the group of the SRDF that the fingers of a device are: an arm that has its own has another group too."""
+    return f"{device}_gripper" if kind == "arm" else device
+
+
+def _several_groups(groups: Iterable[str]) -> str:
+    """Return the group of the SRDF that several groups are, whose poses are reached together."""
+    return "_and_".join(groups)

@@ -16,7 +16,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.errors import CellcError
 from cellc.contract.store.swap import temporary_folder
-from cellc.mock.cell import read_to_run
+from cellc.mock.cell import read_to_show
 from cellc.mock.errors import MockError
 from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, read_folder, read_text
 from cellc.robot.description.packages import root_of
@@ -81,7 +81,7 @@ def read_subject(path: Path) -> Subject:
 
 
 def _of_folder(path: Path) -> Subject:
-    folder = read_to_run(path, edited=True)
+    folder = read_to_show(path, edited=True)
     views = dict(_views_by_model(folder.contract))
     return _of_package(folder.contract.cell, None, folder, views, _pictures(path, folder))
 

@@ -8,7 +8,7 @@ from cellc.mock.control.parameters.declaration import (
     Requirement,
     type_name,
 )
-from cellc.mock.control.parameters.file import ParameterFile, ParameterFileError, flat
+from cellc.mock.control.parameters.file import ParameterFile, ParameterFileError
 
 __all__ = [
     "Parameter",
@@ -18,6 +18,5 @@ __all__ = [
     "ParameterSet",
     "ParameterValue",
     "Requirement",
-    "flat",
     "type_name",
 ]

@@ -138,18 +138,6 @@ def _token_matches(token: str, name: str) -> bool:
     return name.endswith(rest[-1]) and len(name) - len(rest[-1]) > end
 
 
-def flat(text: str) -> dict[str, ParameterValue]:
-    """Return the values of a YAML file that no node is started with, read as those of one: nesting as dots.
-
-    Raises:
-        ParameterFileError: where rcl would refuse the same as parameters.
-    """
-    root = _root(text)
-    if not isinstance(root, yaml.MappingNode):
-        raise ParameterFileError("Cannot have a value without a name")
-    return _parameters(root, "")
-
-
 def _root(text: str) -> yaml.Node | None:
     if any("\t" in line[: len(line) - len(line.lstrip())] for line in text.splitlines()):
         raise ParameterFileError("found character that cannot start any token (tab)")

@@ -1,0 +1,54 @@
+"""What an edited folder says that no run shows: a file that is not executed, and parts of some that are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from cellc.contract.contract import ContractFiles
+from cellc.contract.uncertainty import UNCERTAINTY_FILE
+from cellc.mock.errors import MockError
+from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, named_files
+
+FOR_PEOPLE = (".md", ".mmd", ".svg")
+"""How files end that no program reads; an edit of one is a note."""
+
+_SHOWN = 12
+"""Files that are named in one line; all are counted."""
+
+
+def partly_executed(files: ContractFiles) -> Mapping[str, str]:
+    """Return the files that are executed in part, with what of them no run shows."""
+    shown = {
+        files.urdf_mock: "limits of joints, which the planner takes from `contract.json`; masses, efforts, looks",
+        UNCERTAINTY_FILE: "it but one of a sweep",
+        files.bring_up: "the steps of the real target without a rehearsal of it",
+    }
+    return shown if files.srdf is None else {**shown, files.srdf: "groups, end effectors, poses: as in `contract.json`"}
+
+
+def not_executed(folder: GeneratedFolder) -> tuple[str, ...]:
+    """Return the files that were edited and that no run executes, but for those that only people read."""
+    executed = {CONTRACT_FILE, UNCERTAINTY_FILE, *named_files(folder.contract)}
+    return tuple(name for name in folder.edits if name not in executed and not name.endswith(FOR_PEOPLE))
+
+
+def refuse_not_executed(folder: GeneratedFolder) -> None:
+    """Raise MockError where a file was edited or removed that no run executes."""
+    found = not_executed(folder)
+    if not found:
+        return
+    others = ", ".join(f"`{name}`" for name in found[1:_SHOWN])
+    more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
+    also = f", as {others}{more}" if others else ""
+    reason = f"was edited or removed by hand{also}, and is not executed, so that no run would show it"
+    raise MockError(found[0], f"{reason}; put it back, or build the folder again")
+
+
+def notes_on(folder: GeneratedFolder) -> Iterator[str]:
+    """Yield what of the edits no run shows, one line for each file."""
+    for name in not_executed(folder):
+        yield f"`{name}` was edited or removed by hand, and is not executed"
+    partly = partly_executed(folder.contract.files)
+    for name in folder.edits:
+        if name in partly:
+            yield f"`{name}` was edited by hand, and is executed in part; no run shows {partly[name]}"
