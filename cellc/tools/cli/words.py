@@ -1,11 +1,14 @@
 """What a shell completes beside commands and options: codes, models, rehearsals and runs.
 
-Nothing is printed and nothing raised here: a folder that cannot be read has nothing to complete.
+Nothing is printed and nothing raised here: a folder that cannot be read has nothing to complete. A shell puts a word
+into its line as it is, and shows its help on the terminal: a name that a shell evaluates, or that a terminal
+obeys, is no word.
 """
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +17,7 @@ from typing import TYPE_CHECKING
 import click
 from click.shell_completion import CompletionItem
 
+from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.limits import limits
 from cellc.contract.store.regular_file import open_regular, read_regular
 
@@ -21,6 +25,8 @@ if TYPE_CHECKING:
     from cellc.contract.rehearsals import RehearsalEntry
 
 _MOST_BYTES = 10_000_000
+_PLAIN = re.compile(r"[\w./:@=,+-]+", re.ASCII)
+"""No quote, blank or mark of a shell."""
 
 Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
@@ -31,9 +37,13 @@ def _complete(known: Callable[[click.Context], Iterable[tuple[str, str]]], apart
     def complete(context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
         before, mark, begun = incomplete.rpartition(apart) if apart else ("", "", incomplete)
         words = (pair for pair in known(context) if pair[0].startswith(begun))
-        return [CompletionItem(f"{before}{mark}{word}", help=said) for word, said in words]
+        return _items((f"{before}{mark}{word}", said) for word, said in words)
 
     return complete
+
+
+def _items(words: Iterable[tuple[str, str]]) -> list[CompletionItem]:
+    return [CompletionItem(word, help=escaped(said)) for word, said in words if _PLAIN.fullmatch(word)]
 
 
 def _codes(_context: click.Context) -> Iterable[tuple[str, str]]:
@@ -79,7 +89,7 @@ def complete_run(context: click.Context, _parameter: click.Parameter, incomplete
     meant = [name for name in names if name.startswith(incomplete) or incomplete.startswith(name)]
     found = meant if len(meant) > 1 else _campaign_runs(context, meant[0].rstrip("/")) if meant else ()
     known = (*found, *_swept_runs(context.params.get("journal")))
-    return [CompletionItem(run) for run in known if run.startswith(incomplete)]
+    return _items((run, "") for run in known if run.startswith(incomplete))
 
 
 def _campaign_runs(context: click.Context, rehearsal: str) -> Iterable[str]:
@@ -103,7 +113,7 @@ def _swept_runs(journal: str | None) -> Iterable[str]:
         with open_regular(Path(journal or "")) as file:
             _, *lines = file.read(_MOST_BYTES).splitlines()
         runs = [(bool(run["passed"]), f"sweep:{int(run['number'])}") for run in map(json.loads, lines)]
-    except (KeyError, TypeError, OSError, ValueError):
+    except (KeyError, TypeError, OSError, OverflowError, RecursionError, ValueError):
         return ()
     return (run for _, run in sorted(runs, key=lambda each: each[0]))
 
