@@ -65,6 +65,21 @@ def test_no_program_that_a_repository_names_is_run(
     assert sorted(path.as_posix() for path in hostile.folder.rglob("*")) == before
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes in folders")
+@pytest.mark.parametrize("name", ["HEAD", "config", "packed-refs", "objects/info/alternates"])
+def test_a_pipe_in_a_repository_is_not_waited_for(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert objects._PATIENCE_S <= 10
+    monkeypatch.setattr(objects, "_PATIENCE_S", 1)
+    repository = new_repository(tmp_path, SMALL)
+    pipe = repository.folder / ".git" / name
+    pipe.unlink(missing_ok=True)
+    os.mkfifo(pipe)
+    monkeypatch.chdir(repository.folder)
+    ended = run("diff", SMALL)
+    assert ended.code == 2
+    assert "git must answer within 1 s; look for a pipe below `.git`" in ended.err
+
+
 def test_variables_of_a_hook_choose_no_other_repository(
     repository: Repository, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -19,7 +19,8 @@ from cellc.contract.errors import CellcError
 from cellc.contract.limits import limits, option
 from cellc.contract.store.regular_file import read_regular
 
-_PATIENCE_S = 120
+_PATIENCE_S = 10
+"""A pipe in the place of a file of a repository keeps git waiting."""
 _GIT = (
     "git",
     "--no-pager",
@@ -233,6 +234,8 @@ def _asked(folder: Path, *arguments: str, given: bytes = b"", ceiling: Path | No
         )
     except FileNotFoundError:
         raise RevisionError("git is not installed, which reads revisions") from None
-    except (subprocess.TimeoutExpired, OSError, ValueError):  # ValueError: a zero character in an argument
+    except subprocess.TimeoutExpired:
+        raise RevisionError(f"git must answer within {_PATIENCE_S} s; look for a pipe below `.git`") from None
+    except (OSError, ValueError):  # ValueError: a zero character in an argument
         raise RevisionError(f"git did not answer `{arguments[-1]}`") from None
     return done.stdout if done.returncode == 0 else None
