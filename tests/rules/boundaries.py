@@ -68,6 +68,13 @@ def _first(delta: str, velocity: str) -> Example:
 Case = tuple[str, Example, bool]
 
 BOUNDARIES: list[Case] = [
+    # 3 rad/s, of which the mock counts with 1e-9 at least.
+    *_spec(
+        "limit-share-of-nothing",
+        "devices: {{arm: {{limits: {{velocity: {value}}}}}}}",
+        ("4e-8 %",),
+        ("3e-8 %", "1e-30 %"),
+    ),
     *_spec(
         "path-tolerance-without-effect",
         "control: {{controllers: {{arm_trajectory: {{path_tolerance: {value}}}}}}}",

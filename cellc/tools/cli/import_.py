@@ -125,11 +125,18 @@ def _stop_at_errors(found: Findings) -> None:
 
 
 def _tell_kept(folder: Path, written: Written) -> None:
+    from cellc.tools.importing.folder import LOCK
+
     if written.kept:
         changed = (
             f"kept, with what the vendor changed: {', '.join(written.changed)}" if written.changed else "as it was"
         )
         show(f"{folder.as_posix()}/device.yaml is {changed}")
+    if written.lost:
+        show(
+            f"{folder.as_posix()}/{LOCK} was damaged: device.yaml has nothing of what the vendor changed since; "
+            "compare it by hand, or remove device.yaml and import again"
+        )
 
 
 def _argument(text: str) -> tuple[str, str]:

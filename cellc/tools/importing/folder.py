@@ -51,6 +51,7 @@ class Written:
 
     Attributes:
         changed: keys of a person's device.yaml whose values the vendor changed.
+        lost: whether the lock of the last import was damaged.
         away: where the joints of the chain may go first, rad or m.
     """
 
@@ -58,6 +59,7 @@ class Written:
     size: int
     kept: bool
     changed: tuple[str, ...]
+    lost: bool
     checked: Findings
     away: tuple[float, ...]
 
@@ -103,7 +105,7 @@ def write_folder(
     if written.value is None:
         return Outcome(None, written.diagnostics)
     size = sum(len(file.content) for file in files)
-    return Outcome(Written(len(whole), size, device.kept, device.changed, checked, away))
+    return Outcome(Written(len(whole), size, device.kept, device.changed, device.lost, checked, away))
 
 
 def _tried(
@@ -162,6 +164,7 @@ class _Device:
         known: the hash of the file that it is made from, by its name; nothing without one.
         kept: whether there was one.
         changed: keys whose values the vendor changed since.
+        lost: whether the lock of the last import is damaged, so that nobody knows which of its values are a person's.
         imported: what this import would have written by itself.
     """
 
@@ -170,7 +173,8 @@ class _Device:
         self.kept, self.known = held is not None, {} if held is None else {_DEVICE: sha256(held)}
         self._former = "" if held is None else held.decode("utf-8", "surrogateescape")
         self._person = facts_in(self._former) if self.kept and len(self._former) <= limits().spec_bytes else None
-        self._before = _imported_before(folder)
+        before = _imported_before(folder)
+        self._before, self.lost = before or {}, before is None and self.kept
         self._robot, self._day = robot, day
         self.text = self._former
         self.changed: tuple[str, ...] = ()
@@ -194,15 +198,17 @@ class _Device:
             self.text = rewritten(self._former, self._person, found)
 
 
-def _imported_before(folder: Path) -> Facts:
-    """Return what the last import into a folder found; nothing where there was none, or an older one."""
+def _imported_before(folder: Path) -> Facts | None:
+    """Return what the last import into a folder found; nothing where there was none, None of a damaged lock."""
     held = content_of(folder / LOCK)
-    try:
-        lock = json.loads(held or b"{}")
-    except (ValueError, RecursionError):
+    if held is None:
         return {}
-    found = lock.get("device") if isinstance(lock, dict) else None
-    return found if isinstance(found, dict) else {}
+    try:
+        lock = json.loads(held)
+    except (ValueError, RecursionError):
+        return None
+    found = lock.get("device", {}) if isinstance(lock, dict) else None  # an older one has none
+    return found if isinstance(found, dict) else None
 
 
 def kept_kind(folder: Path) -> str | None:

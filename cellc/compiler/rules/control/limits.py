@@ -6,6 +6,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.rules.described import described
 from cellc.compiler.rules.excuses import spared
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.contract.quantities import SMALLEST
 from cellc.contract.vocabulary import Behaviour
 
 
@@ -63,14 +64,21 @@ def limit_share_above_full(graph: CellGraph) -> Findings:
 
 @rule(Severity.ERROR)
 def limit_share_of_nothing(graph: CellGraph) -> Findings:
-    """Yield shares of zero and below."""
+    """Yield shares of zero and below, and those that leave a joint less than the mock counts with."""
     for device in graph.cell.devices:
         shares = device.limit_shares
         for name, share in (("velocity", shares.velocity), ("acceleration", shares.acceleration)):
+            path = (*device.path, "limits", name)
+            got = f"got {graph.cell.text(*path)}"
             if share <= 0.0:
-                path = (*device.path, "limits", name)
-                message = f"the {name} share of `{device.name}` must be above zero, got {graph.cell.text(*path)}"
-                yield found(graph, path, message)
+                yield found(graph, path, f"the {name} share of `{device.name}` must be above zero, {got}")
+                continue
+            for joint in device.actuated_joints:
+                figure = getattr(joint, name)
+                if figure is not None and figure < SMALLEST <= figure / share:
+                    message = f"the {name} share of `{device.name}` must leave `{joint.name}` at least {SMALLEST:g}"
+                    yield found(graph, path, f"{message} in SI units, {got}, which is {figure:.3g}")
+                    break
 
 
 _CODE = "missing-velocity-limit"
@@ -81,7 +89,7 @@ def missing_velocity_limit(graph: CellGraph) -> Findings:
     """Yield joints with a command interface and without a velocity limit above zero."""
     for device in graph.cell.devices:
         for joint in device.actuated_joints:
-            if (joint.velocity is None or joint.velocity <= 0.0) and not spared(graph, device, joint.name, _CODE):
+            if (joint.velocity is None or joint.velocity < SMALLEST) and not spared(graph, device, joint.name, _CODE):
                 stated = "no velocity limit" if joint.velocity is None else f"a velocity limit of {joint.velocity:g}"
                 message = f"joint `{joint.name}` has {stated}"
                 yield found(graph, (*device.path, "model"), message, related=described(graph, [joint.name]))

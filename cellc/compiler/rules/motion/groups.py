@@ -9,6 +9,7 @@ from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.rules.described import described
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
 from cellc.compiler.rules.tolerances import stated
+from cellc.contract.quantities import SMALLEST
 from cellc.contract.vocabulary import TRAJECTORIES
 
 _PARTIAL = "allow_partial_joints_goal"
@@ -126,7 +127,10 @@ def _of_one_joint(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
                     yield (*fault.path, key), fault.name, fault.linear
 
 
-@rule(Severity.ERROR, assumes=("missing-joint-limits", "missing-velocity-limit", "reversed-limits"))
+@rule(
+    Severity.ERROR,
+    assumes=("limit-share-of-nothing", "missing-joint-limits", "missing-velocity-limit", "reversed-limits"),
+)
 def unplannable_joint(graph: CellGraph) -> Findings:
     """Yield joints of planning groups without the limits that a planner needs."""
     joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
@@ -139,7 +143,7 @@ def unplannable_joint(graph: CellGraph) -> Findings:
 
 def _lacking(joint: DeviceJoint) -> Iterator[str]:
     for name, limit in (("velocity", joint.velocity), ("acceleration", joint.acceleration), ("jerk", joint.jerk)):
-        if limit is None:
+        if limit is None or limit < SMALLEST:
             yield f"{name} limit"
     if joint.type != "continuous" and joint.lower is not None and joint.lower == joint.upper:
         yield f"range: both limits are {joint.lower:g}"
