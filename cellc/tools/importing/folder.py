@@ -164,7 +164,7 @@ class _Device:
         known: the hash of the file that it is made from, by its name; nothing without one.
         kept: whether there was one.
         changed: keys whose values the vendor changed since.
-        lost: whether the lock of the last import is damaged, so that nobody knows which of its values are a person's.
+        lost: whether the lock of the last import is damaged: which values are of a person is not known.
         imported: what this import would have written by itself.
     """
 
