@@ -214,12 +214,18 @@ def _raise_lost_signals() -> None:
 
     def again(swallowed: sys.UnraisableHookArgs) -> None:
         if issubclass(swallowed.exc_type, Stopped):
-            signal.setitimer(signal.ITIMER_REAL, 0.01)
+            raise_again()
         else:
             others(swallowed)
 
     signal.signal(signal.SIGALRM, _watch.on_alarm)
     sys.unraisablehook = again
+
+
+def raise_again() -> None:
+    """Raise a signal once more, in a moment: what runs now keeps it for itself, as a task of asyncio does."""
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_REAL, 0.01)
 
 
 def _ignore() -> None:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from io import FileIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
@@ -26,11 +26,15 @@ from cellc.compiler.source.text import read_text
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
 from cellc.contract.limits import limits, option
 from cellc.contract.printing import refuse
+from cellc.contract.signals import Stopped, raise_again
 from cellc.tools.edit.rewrite import Edit
 from cellc.tools.layout.layout import formatted
 from cellc.tools.lsp.answers import Symbol, by_file, completions, definition, fixes, hover, symbols
 from cellc.tools.lsp.cells import Cells
 from cellc.version import __version__
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer
 
 _QUIET_S = 0.15
 """How long nobody types before a cell is checked."""
@@ -81,7 +85,7 @@ class CellServer(LanguageServer):
         reading, writing = os.pipe()
         self._writing = os.fdopen(writing, "wb", buffering=0)
         threading.Thread(target=_pump, args=(source, self._writing), daemon=True).start()
-        with _Messages(reading) as coming, os.fdopen(os.dup(sink), "wb") as going:
+        with _Messages(reading) as coming, _Answers(os.dup(sink)) as going:
             self.start_io(coming, going)
 
     def shutdown(self) -> None:
@@ -178,6 +182,26 @@ class _Messages(io.BufferedReader):
         while left and (dropped := super().read(min(left, most))):
             left -= len(dropped)
         return b"" if left else _NOTHING
+
+
+class _Answers(FileIO):
+    """What an editor gets. A signal that comes while the editor takes nothing ends it: no rest of it is waited for."""
+
+    def __init__(self, descriptor: int) -> None:
+        super().__init__(descriptor, "wb")
+        self._ended = False
+
+    def write(self, data: ReadableBuffer, /) -> int:
+        """Write a message, or drop it behind one that was cut short."""
+        left = memoryview(data)
+        try:
+            while left and not self._ended:
+                left = left[super().write(left) or 0 :]
+        except Stopped:
+            self._ended = True
+            raise_again()
+            raise
+        return memoryview(data).nbytes
 
 
 def _pump(source: int, sink: FileIO) -> None:
