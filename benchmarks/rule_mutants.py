@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT))
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph  # noqa: E402  the checkout comes before what is installed
 from cellc.compiler.link.link import link  # noqa: E402
 from cellc.compiler.rules.kit import Rule  # noqa: E402
-from cellc.compiler.rules.run import ALL_RULES  # noqa: E402
+from cellc.compiler.rules.run import ALL_RULES, rules_in  # noqa: E402
 from cellc.compiler.source.read import read  # noqa: E402
 from cellc.compiler.spec.parse import parse  # noqa: E402
 from tests.rules import boundaries, examples, sources  # noqa: E402
@@ -143,7 +143,8 @@ def killed(tree: ast.Module, rule: Rule, cases: list[tuple[CellGraph, Places]]) 
     module = types.ModuleType(rule.check.__module__)
     try:
         exec(compile(tree, rule.code, "exec"), module.__dict__)
-        return any(places(module.__dict__[rule.check.__name__], graph) != due for graph, due in cases)
+        (mutant,) = (made for made in rules_in(module.__dict__) if made.code == rule.code)
+        return any(places(mutant, graph) != due for graph, due in cases)
     except Exception:  # a mutant may raise anything, and is noticed by it
         return True
 

@@ -8,7 +8,7 @@ import pytest
 
 from cellc.compiler.cell.device import CameraStream, FieldOfView
 from cellc.compiler.feasibility import ViewAnswer
-from cellc.compiler.rules.frames.cameras import _aside, _sees, _wrong
+from cellc.compiler.rules.frames.cameras import _aside, _out_of_view, _sees
 from cellc.compiler.rules.model.links import _impossible
 from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.robot.description.model import Inertial
@@ -77,12 +77,12 @@ ABOVE = math.tan(math.radians(35))
     ],
 )
 def test_place_of_an_object_in_the_view_of_a_camera(place: Vector3, wrong: str) -> None:
-    assert _wrong(ViewAnswer("object", "optical", "home", place), VIEW) == wrong
+    assert _out_of_view(ViewAnswer("object", "optical", "home", place), VIEW) == wrong
 
 
 def test_without_a_field_an_object_must_be_before_the_camera() -> None:
-    assert _wrong(ViewAnswer("object", "optical", "", (9.0, 0.0, 0.1)), None) == ""
-    assert _wrong(ViewAnswer("object", "optical", "", (9.0, 0.0, -0.1)), None) == "0.1 m behind the camera"
+    assert _out_of_view(ViewAnswer("object", "optical", "", (9.0, 0.0, 0.1)), None) == ""
+    assert _out_of_view(ViewAnswer("object", "optical", "", (9.0, 0.0, -0.1)), None) == "0.1 m behind the camera"
 
 
 # At (1, 2, 3), turned by half a turn about x: it looks down, and its y points back.

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from cellc.compiler.cell.frame import Frame, FrameKind
-from cellc.compiler.feasibility import BodyContact, DisabledAnswer, MeshFault, MotionAnswer, mesh_faults
-from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Related, found
+from cellc.compiler.feasibility import BodyContact, DisabledAnswer, MotionAnswer
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, found
 from cellc.contract.limits import option
 
 USABLE_MESHES = ("malformed-mesh", "mesh-outside-root", "mesh-too-large")
@@ -40,33 +40,6 @@ KNOWN_POSES = (*SOUND_MODEL, "pose-outside-limits", "wrong-pose-size")
 
 KNOWN_GOALS = (*KNOWN_POSES, "goal-moves-with-tip", "goal-out-of-reach", "implausible-approach")
 """Adds that every goal is at a place worth a search."""
-
-
-def unusable_meshes(graph: CellGraph, code: str) -> Findings:
-    """Yield the meshes of collision shapes that cannot be used for the reason that a rule reports.
-
-    Those of one device that are not there are one finding: one package is missing, not twenty files.
-    """
-    faults: dict[object, list[MeshFault]] = {}
-    for number, fault in enumerate(fault for fault in mesh_faults(graph) if fault.code == code):
-        faults.setdefault(fault.path if code == "mesh-not-found" else number, []).append(fault)
-    for first, *others in faults.values():
-        more = f"; nor {', '.join(f'`{fault.name}`' for fault in others)}" if others else ""
-        more += _unseen(graph, [first, *others]) if code == "mesh-not-found" else ""
-        yield Finding(first.message + more, first.span, first.path, first.help)
-
-
-def _unseen(graph: CellGraph, faults: Sequence[MeshFault]) -> str:
-    """Say which links of a device touch nothing for want of a shape: those that move may hit anything."""
-    missing = {fault.name for fault in faults}
-    links = [
-        part.link.name
-        for part in graph.model.links()
-        if part.path == faults[0].path and any(mesh.filename in missing for mesh in part.link.collision_meshes())
-    ]
-    moving = [link for link in links if any(frame.moving for frame in graph.frames.chain(link))]
-    of_these = f", {len(moving)} of which move" if moving else ", which stand still"
-    return f"; contact of {', '.join(f'`{link}`' for link in links)}{of_these}, is not checked"
 
 
 def beyond_limits(graph: CellGraph, answer: MotionAnswer | DisabledAnswer) -> Findings:

@@ -6,8 +6,9 @@ code, the folder its family, and ``docs/rules/<code>.md`` is its page: title, re
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import wraps
 
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.code_page import CodePage, page_of
@@ -24,6 +25,7 @@ __all__ = [
     "did_you_mean",
     "found",
     "rule",
+    "rules",
 ]
 
 FAMILIES = {
@@ -85,10 +87,28 @@ def rule(severity: Severity, assumes: tuple[str, ...] = ()) -> Callable[[Check],
     """Make a check the rule of its name, in the family of its folder."""
 
     def make(check: Check) -> Rule:
-        folder = check.__module__.split(".")[-2]
-        return Rule(check.__name__.replace("_", "-"), FAMILIES[folder], severity, check, assumes)
+        return Rule(check.__name__.replace("_", "-"), _family(check), severity, check, assumes)
 
     return make
+
+
+def rules(
+    severity: Severity, check: Callable[[CellGraph, str], Findings], words: Mapping[str, str]
+) -> tuple[Rule, ...]:
+    """Make rules that differ by a word: a row has a code, and what its check is called with."""
+
+    def made(code: str, word: str) -> Rule:
+        @wraps(check)
+        def row(graph: CellGraph) -> Findings:
+            return check(graph, word)
+
+        return Rule(code, _family(check), severity, row)
+
+    return tuple(made(code, word) for code, word in words.items())
+
+
+def _family(check: Callable[..., Findings]) -> str:
+    return FAMILIES[check.__module__.split(".")[-2]]
 
 
 def found(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from graphlib import TopologicalSorter
 from importlib import import_module
@@ -17,8 +17,16 @@ def _rules_of(family: str) -> Iterator[Rule]:
     """Yield the rules of all modules in the folder of a family, in no particular order."""
     package = import_module(f"cellc.compiler.rules.{family}")
     for topic in iter_modules(package.__path__):
-        module = import_module(f"{package.__name__}.{topic.name}")
-        yield from (made for made in vars(module).values() if isinstance(made, Rule))
+        yield from rules_in(vars(import_module(f"{package.__name__}.{topic.name}")))
+
+
+def rules_in(names: Mapping[str, object]) -> Iterator[Rule]:
+    """Yield the rules among the names of a module: checks, and the rows of tables."""
+    for value in names.values():
+        if isinstance(value, Rule):
+            yield value
+        elif isinstance(value, tuple):
+            yield from (row for row in value if isinstance(row, Rule))
 
 
 ALL_RULES: tuple[Rule, ...] = tuple(

@@ -9,7 +9,7 @@ from cellc.compiler.cell.interface import Interface, Node
 from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 
-_OTHER = {"wall": "sim", "sim": "wall"}
+_OTHER_CLOCK = {"wall": "sim", "sim": "wall"}
 
 
 @rule(Severity.ERROR)
@@ -20,7 +20,7 @@ def contradicting_time_source(graph: CellGraph) -> Findings:
             continue
         for node, clock in _clocks(graph, interface):
             hardware = interface.time_source == "hardware" and clock != "hardware"
-            if hardware or clock == _OTHER.get(interface.time_source):
+            if hardware or clock == _OTHER_CLOCK.get(interface.time_source):
                 message = (
                     f"`{interface.name}` claims {interface.time_source} stamps, but `{node}` stamps with {clock} time"
                 )
@@ -50,11 +50,11 @@ def mixed_clocks(graph: CellGraph) -> Findings:
     """Yield nodes and controllers whose clock is not that of a target that starts them, by whichever road it is set."""
     for node in graph.cell.nodes:
         clock, path = _stated(node)
-        yield from _other(graph, f"node `{node.name}`", clock, path)
+        yield from _other_clock(graph, f"node `{node.name}`", clock, path)
     for controller in graph.cell.controllers:
         if isinstance(simulated := controller.written_parameters.get(_PARAMETER), bool):
             path = (*controller.path, "parameters", _PARAMETER)
-            yield from _other(graph, f"controller `{controller.name}`", "sim" if simulated else "wall", path)
+            yield from _other_clock(graph, f"controller `{controller.name}`", "sim" if simulated else "wall", path)
 
 
 def _stated(node: Node) -> tuple[str | None, YamlPath]:
@@ -65,7 +65,7 @@ def _stated(node: Node) -> tuple[str | None, YamlPath]:
     return node.clock, (*node.path, "clock")
 
 
-def _other(graph: CellGraph, who: str, clock: str | None, path: YamlPath) -> Findings:
+def _other_clock(graph: CellGraph, who: str, clock: str | None, path: YamlPath) -> Findings:
     targets = {name: target.clock for name, target in graph.cell.targets.items()}
     other = next((name for name, own in targets.items() if clock not in (None, own)), None)
     if other is not None:

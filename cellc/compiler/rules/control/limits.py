@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from cellc.compiler.cell.device import Device
 from cellc.compiler.rules.described import described
 from cellc.compiler.rules.excuses import spared
@@ -14,7 +16,7 @@ from cellc.contract.vocabulary import Behaviour
 def assumed_joint_limit(graph: CellGraph) -> Findings:
     """Yield devices with joints of which a limit has no source."""
     for device in graph.cell.devices:
-        assumed = _assumed(device)
+        assumed = _assumed_limits(device)
         if assumed:
             named = ", ".join(f"`{key}` of {_shown(joints)}" for key, joints in assumed.items())
             message = f"limits of `{device.name}` are assumed: {named}"
@@ -23,7 +25,7 @@ def assumed_joint_limit(graph: CellGraph) -> Findings:
             yield found(graph, (*device.path, "model"), message, related=places)
 
 
-def _assumed(device: Device) -> dict[str, list[str]]:
+def _assumed_limits(device: Device) -> dict[str, list[str]]:
     """Return the keys of the limits that are assumed, each with its joints."""
     joints: dict[str, list[str]] = {}
     for joint in device.actuated_joints:
@@ -52,36 +54,35 @@ def assumed_speed_scaling(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def limit_share_above_full(graph: CellGraph) -> Findings:
     """Yield shares above 100 %."""
-    for device in graph.cell.devices:
-        shares = device.limit_shares
-        for name, share in (("velocity", shares.velocity), ("acceleration", shares.acceleration)):
-            if share > 1.0:
-                path = (*device.path, "limits", name)
-                text = graph.cell.text(*path)
-                message = f"the {name} share of `{device.name}` must be at most 100 %, got {text}"
-                yield found(graph, path, message)
+    for device, name, share in _shares(graph):
+        if share > 1.0:
+            path = (*device.path, "limits", name)
+            message = f"the {name} share of `{device.name}` must be at most 100 %, got {graph.cell.text(*path)}"
+            yield found(graph, path, message)
 
 
 @rule(Severity.ERROR)
 def limit_share_of_nothing(graph: CellGraph) -> Findings:
     """Yield shares of zero and below, and those that leave a joint less than the mock counts with."""
+    for device, name, share in _shares(graph):
+        path = (*device.path, "limits", name)
+        got = f"got {graph.cell.text(*path)}"
+        if share <= 0.0:
+            yield found(graph, path, f"the {name} share of `{device.name}` must be above zero, {got}")
+            continue
+        for joint in device.actuated_joints:
+            figure = getattr(joint, name)
+            if figure is not None and figure < SMALLEST <= figure / share:
+                message = f"the {name} share of `{device.name}` must leave `{joint.name}` at least {SMALLEST:g}"
+                yield found(graph, path, f"{message} in SI units, {got}, which is {figure:.3g}")
+                break
+
+
+def _shares(graph: CellGraph) -> Iterator[tuple[Device, str, float]]:
+    """Yield each share of its limits that a cell gives to a device."""
     for device in graph.cell.devices:
-        shares = device.limit_shares
-        for name, share in (("velocity", shares.velocity), ("acceleration", shares.acceleration)):
-            path = (*device.path, "limits", name)
-            got = f"got {graph.cell.text(*path)}"
-            if share <= 0.0:
-                yield found(graph, path, f"the {name} share of `{device.name}` must be above zero, {got}")
-                continue
-            for joint in device.actuated_joints:
-                figure = getattr(joint, name)
-                if figure is not None and figure < SMALLEST <= figure / share:
-                    message = f"the {name} share of `{device.name}` must leave `{joint.name}` at least {SMALLEST:g}"
-                    yield found(graph, path, f"{message} in SI units, {got}, which is {figure:.3g}")
-                    break
-
-
-_CODE = "missing-velocity-limit"
+        yield device, "velocity", device.limit_shares.velocity
+        yield device, "acceleration", device.limit_shares.acceleration
 
 
 @rule(Severity.ERROR, assumes=("missing-joint-limits", "limit-share-of-nothing"))
@@ -89,7 +90,8 @@ def missing_velocity_limit(graph: CellGraph) -> Findings:
     """Yield joints with a command interface and without a velocity limit above zero."""
     for device in graph.cell.devices:
         for joint in device.actuated_joints:
-            if (joint.velocity is None or joint.velocity < SMALLEST) and not spared(graph, device, joint.name, _CODE):
+            moves = joint.velocity is not None and joint.velocity >= SMALLEST
+            if not moves and not spared(graph, device, joint.name, "missing-velocity-limit"):
                 stated = "no velocity limit" if joint.velocity is None else f"a velocity limit of {joint.velocity:g}"
                 message = f"joint `{joint.name}` has {stated}"
                 yield found(graph, (*device.path, "model"), message, related=described(graph, [joint.name]))

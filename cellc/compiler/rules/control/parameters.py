@@ -61,13 +61,13 @@ def parameter_out_of_range(graph: CellGraph) -> Findings:
             yield found(graph, written.path, f"{subject} must not be empty")
         seen: list[ParameterValue] = []
         for path, item in written.items():
-            reason = _refusal(facts, item) or ("must not repeat an item" if facts.unique and item in seen else "")
+            reason = _out_of_range(facts, item) or ("must not repeat an item" if facts.unique and item in seen else "")
             seen.append(item)
             if reason:
                 yield found(graph, path, f"{subject} {reason}, got `{item}`")
 
 
-def _refusal(facts: ParameterFacts, value: ParameterValue) -> str:
+def _out_of_range(facts: ParameterFacts, value: ParameterValue) -> str:
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         if facts.minimum is not None and value < facts.minimum:
             return f"must be at least {facts.minimum:g}"
@@ -99,14 +99,14 @@ def refused_impedance(graph: CellGraph) -> Findings:
         if stated.joint is not None and len(stated.joint) != joints:
             message = f"the joint impedance of `{device.name}` must be {joints} figures, got {len(stated.joint)}"
             yield found(graph, (*path, "joint"), message)
-        for keys, figures, (least, most), unit in _figures(stated, takes):
+        for keys, figures, (least, most), unit in _impedance_figures(stated, takes):
             refused = [figure for figure in figures if not least <= figure <= most]
             if refused:
                 message = f"`{keys[-1]}` of `{device.name}` must be {least:g} to {most:g} {unit}, got {refused[0]:g}"
                 yield found(graph, (*path, *keys), message)
 
 
-def _figures(stated: Impedance, takes: ImpedanceFacts) -> Iterator[_Stated]:
+def _impedance_figures(stated: Impedance, takes: ImpedanceFacts) -> Iterator[_Stated]:
     """Yield each figure that is written: its keys, values, least and most, and unit."""
     if stated.joint is not None:
         yield ("joint",), stated.joint, takes.joint, "N m/rad"

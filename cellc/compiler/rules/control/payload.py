@@ -12,7 +12,7 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, fou
 _IN_THE_FLANGE_M = 0.005
 _LONG_M = 0.05
 """A tool that reaches further than this has its center of mass outside of the flange."""
-_BEYOND_M = 0.05
+_BEYOND_TOOL_M = 0.05
 """A part that is held has its center of mass beyond the end of the tool by at most as much."""
 
 
@@ -23,18 +23,18 @@ def implausible_center_of_mass(graph: CellGraph) -> Findings:
         payload, reach_m = device.payload, _reach_m(graph, device)
         if payload is None or reach_m <= 0.0:
             continue
-        wrong = _wrong(payload, reach_m)
+        wrong = _wrong_center(payload, reach_m)
         if wrong:
             path = (*device.path, "payload", "center_of_mass")
             message = f"the center of mass of the payload of `{device.name}` must lie between the flange and"
-            message += f" {(reach_m + _BEYOND_M) * 1e3:.0f} mm from it, got {graph.cell.text(*path)}, {wrong}"
+            message += f" {(reach_m + _BEYOND_TOOL_M) * 1e3:.0f} mm from it, got {graph.cell.text(*path)}, {wrong}"
             related = tuple(Related("carried here", graph.cell.device(name).span) for name in device.carries)
             yield found(graph, path, message, related=related)
 
 
-def _wrong(payload: Payload, reach_m: float) -> str:
+def _wrong_center(payload: Payload, reach_m: float) -> str:
     far_m = math.hypot(*payload.center_of_mass)
-    if far_m > reach_m + _BEYOND_M:
+    if far_m > reach_m + _BEYOND_TOOL_M:
         return "beyond the end of the tools"
     if payload.center_of_mass[2] < -_IN_THE_FLANGE_M and reach_m > _LONG_M:
         return "behind the flange"
@@ -138,12 +138,12 @@ def refused_tool_connector(graph: CellGraph) -> Findings:
         if stated.serial is not None and not has.has_serial:
             yield found(graph, (*path, "serial"), f"the tool connector of `{device.name}` has no serial line")
         elif stated.serial is not None:
-            for key, wanted, got in _refused(stated.serial, has):
+            for key, wanted, got in _refused_connector(stated.serial, has):
                 message = f"`{key}` of the tool connector of `{device.name}` must be {wanted}, got {got}"
                 yield found(graph, (*path, "serial", key), message)
 
 
-def _refused(stated: ToolSerial, has: ToolFacts) -> Iterator[tuple[str, str, str]]:
+def _refused_connector(stated: ToolSerial, has: ToolFacts) -> Iterator[tuple[str, str, str]]:
     """Yield each setting that the robot does not have, what it has, and what is written."""
     for key, allowed in has.settings.items():
         if getattr(stated, key) not in allowed:

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.rules.described import described
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
-from cellc.compiler.rules.tolerances import stated, unwatched_joints
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule, rules
+from cellc.compiler.rules.tolerances import stated
 from cellc.contract.vocabulary import TRAJECTORIES
 
 
@@ -43,28 +43,41 @@ def missing_goal_time(graph: CellGraph) -> Findings:
             yield found(graph, path, message)
 
 
-@rule(Severity.ERROR)
-def missing_goal_tolerance(graph: CellGraph) -> Findings:
-    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
-    yield from unwatched_joints(graph, "goal_tolerance")
+def _unwatched_joints(graph: CellGraph, key: str) -> Findings:
+    """Yield trajectory controllers that state no tolerance, or none for some joint, or zero, which is no check."""
+    for controller in graph.cell.controllers:
+        if controller.behaviour not in TRAJECTORIES:
+            continue
+        figures = dict(stated(controller))[key]
+        if figures is None:
+            yield found(graph, controller.path, f"`{controller.name}` does not state `{key}`")
+            continue
+        path = (*controller.path, key)
+        untold = [joint for joint in controller.joints if joint not in figures]
+        if untold:
+            yield found(graph, path, f"`{key}` of `{controller.name}` states nothing for `{untold[0]}`")
+        elif not all(figure.value for figure in figures.values()):
+            message = f"`{key}` of `{controller.name}` must be above zero, which switches the check off"
+            yield found(graph, path, message)
 
 
-@rule(Severity.ERROR)
-def missing_path_tolerance(graph: CellGraph) -> Findings:
-    """Yield trajectory controllers without the value, and with zero, which switches the check off."""
-    yield from unwatched_joints(graph, "path_tolerance")
+UNWATCHED = rules(
+    Severity.ERROR,
+    _unwatched_joints,
+    {"missing-goal-tolerance": "goal_tolerance", "missing-path-tolerance": "path_tolerance"},
+)
 
 
-_PARAMETER = "allow_nonzero_velocity_at_trajectory_end"
+_MOVING_END = "allow_nonzero_velocity_at_trajectory_end"
 
 
 @rule(Severity.WARNING)
 def moving_trajectory_end(graph: CellGraph) -> Findings:
     """Yield trajectory controllers that accept such trajectories."""
     for controller in graph.cell.controllers:
-        if controller.behaviour in TRAJECTORIES and controller.written_parameters.get(_PARAMETER) is True:
+        if controller.behaviour in TRAJECTORIES and controller.written_parameters.get(_MOVING_END) is True:
             message = f"trajectories of `{controller.name}` must end at rest, but it takes those that do not"
-            yield found(graph, (*controller.path, "parameters", _PARAMETER), message)
+            yield found(graph, (*controller.path, "parameters", _MOVING_END), message)
 
 
 @rule(Severity.ERROR, assumes=("parameter-out-of-range",))

@@ -17,7 +17,7 @@ def calibration_before_mounting(graph: CellGraph) -> Findings:
     carried = {name for device in graph.cell.devices for name in device.carries}
     for frame in graph.cell.frames:
         calibration = graph.cell.calibrations.get(frame.calibration or "")
-        name = _moved(graph, frame, carried)
+        name = _device_that_moves(graph, frame, carried)
         if calibration is None or calibration.measured_on is None or name is None:
             continue
         device = graph.cell.device(name)
@@ -28,7 +28,7 @@ def calibration_before_mounting(graph: CellGraph) -> Findings:
             yield found(graph, (*calibration.path, "measured"), message, related=related)
 
 
-def _moved(graph: CellGraph, frame: Frame, carried: Container[str | None]) -> str | None:
+def _device_that_moves(graph: CellGraph, frame: Frame, carried: Container[str | None]) -> str | None:
     """Return the device whose mounting moves a measured frame: its own, or the tool on which it is fixed."""
     if frame.kind is FrameKind.MOUNT:
         return frame.device
@@ -37,14 +37,14 @@ def _moved(graph: CellGraph, frame: Frame, carried: Container[str | None]) -> st
     return name if name in carried else None
 
 
-_APART = datetime.timedelta(days=366)
+_YEAR = datetime.timedelta(days=366)
 
 
 @rule(Severity.WARNING)
 def calibration_of_another_time(graph: CellGraph) -> Findings:
     """Yield calibrations more than a year before or after the largest group of those that lie nearer together."""
     dated = [calibration for calibration in graph.cell.calibrations.values() if calibration.measured_on is not None]
-    common = _common([calibration.measured_on for calibration in dated if calibration.measured_on is not None])
+    common = _largest_group([calibration.measured_on for calibration in dated if calibration.measured_on is not None])
     for calibration in dated:
         if calibration.measured_on is None or calibration.measured_on in common:
             continue
@@ -54,11 +54,11 @@ def calibration_of_another_time(graph: CellGraph) -> Findings:
         yield found(graph, (*calibration.path, "measured"), message)
 
 
-def _common(dates: Sequence[datetime.date]) -> list[datetime.date]:
+def _largest_group(dates: Sequence[datetime.date]) -> list[datetime.date]:
     """Return the largest group of dates without a gap of more than a year, the later of two equal ones."""
     groups: list[list[datetime.date]] = []
     for date in sorted(dates):
-        if groups and date - groups[-1][-1] <= _APART:
+        if groups and date - groups[-1][-1] <= _YEAR:
             groups[-1].append(date)
         else:
             groups.append([date])
@@ -121,7 +121,7 @@ def coarse_calibration(graph: CellGraph) -> Findings:
             yield found(graph, path, f"{message} got {graph.cell.text(*path)}", related=related)
 
 
-_WORDS = frozenset(
+_MOBILE = frozenset(
     ("agv", "amr", "cart", "carriage", "forklift", "mobile", "pallet", "shuttle", "trolley", "vehicle", "wagon")
 )
 
@@ -131,13 +131,13 @@ def designed_mobile_frame(graph: CellGraph) -> Findings:
     """Yield designed frames on the world with such a word in their name."""
     for frame in graph.cell.frames:
         words = re.findall(r"[a-z]+", frame.name.lower())
-        mobile = next((word for word in words if word in _WORDS), None)
+        mobile = next((word for word in words if word in _MOBILE), None)
         if frame.designed and frame.parent == WORLD and mobile is not None:
             message = f"`{frame.name}` must be measured or published, as a {mobile} does not stand by design"
             yield found(graph, (*frame.path, "designed"), message)
 
 
-_LEAST = 3
+_POINTS = 3
 
 
 @rule(Severity.BLOCKER)
@@ -146,14 +146,14 @@ def too_few_reference_points(graph: CellGraph) -> Findings:
     targets = {goal.frame for goal in graph.cell.goals}
     for frame in graph.cell.frames:
         concerned = frame.name in targets or frame.reference_points > 0
-        if frame.kind is FrameKind.FIXED and concerned and not frame.designed and frame.reference_points < _LEAST:
-            message = f"`{frame.name}` must have at least {_LEAST} reference points, got {frame.reference_points}"
+        if frame.kind is FrameKind.FIXED and concerned and not frame.designed and frame.reference_points < _POINTS:
+            message = f"`{frame.name}` must have at least {_POINTS} reference points, got {frame.reference_points}"
             path = (*frame.path, "reference_points")
             yield found(graph, path, message)
 
 
-_CAMERA = 10
-_OTHER = 3
+_LEAST_OF_CAMERA = 10
+_LEAST_OF_OTHERS = 3
 
 
 @rule(Severity.WARNING)
@@ -162,9 +162,9 @@ def too_few_samples(graph: CellGraph) -> Findings:
     cameras = {device.name for device in graph.cell.devices if device.kind == "camera"}
     for calibration in graph.cell.calibrations.values():
         users = [frame for frame in graph.cell.frames if frame.calibration == calibration.name]
-        least = _CAMERA if any(user.device in cameras for user in users) else _OTHER
+        least = _LEAST_OF_CAMERA if any(user.device in cameras for user in users) else _LEAST_OF_OTHERS
         if users and calibration.samples is not None and calibration.samples < least:
-            what = "that of a camera" if least == _CAMERA else "any"
+            what = "that of a camera" if least == _LEAST_OF_CAMERA else "any"
             message = f"calibration `{calibration.name}` must rest on at least {least} samples as {what},"
             yield found(graph, (*calibration.path, "samples"), f"{message} got {calibration.samples}")
 

@@ -12,7 +12,7 @@ from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.feasibility import ViewAnswer, motion_answer
 from cellc.compiler.rules.geometry import KNOWN_GOALS
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.transforms import Pose, Vector3, identity
+from cellc.contract.transforms import Pose, Vector3
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo")
 
@@ -104,7 +104,7 @@ def object_out_of_view(graph: CellGraph) -> Findings:
     reported: set[str] = set()
     for view in motion_answer(graph).views:
         camera = next(device for device in graph.cell.devices if view.camera_frame in device.frames.values())
-        wrong = _wrong(view, _field(camera, view.camera_frame))
+        wrong = _out_of_view(view, _field_of_view(camera, view.camera_frame))
         if wrong and view.name not in reported:
             reported.add(view.name)
             where = f"in `{view.posture}`" if view.posture else "at the start"
@@ -113,12 +113,12 @@ def object_out_of_view(graph: CellGraph) -> Findings:
             yield found(graph, (*camera.path, "mount"), message, related=related)
 
 
-def _field(camera: Device, frame: str) -> FieldOfView | None:
+def _field_of_view(camera: Device, frame: str) -> FieldOfView | None:
     streams = () if camera.camera is None else camera.camera.streams
     return next((stream.view for stream in streams if stream.frame == frame), None)
 
 
-def _wrong(view: ViewAnswer, field: FieldOfView | None) -> str:
+def _out_of_view(view: ViewAnswer, field: FieldOfView | None) -> str:
     """Say where an object lies that is not seen; empty where it is seen. Without a field it must lie in front."""
     x, y, z = view.place
     if z <= 0.0:
@@ -170,22 +170,11 @@ def turned_optical_frame(graph: CellGraph) -> Findings:
     """Yield optical frames whose axes, seen from the root link of their device, are not those of REP-103."""
     for device in graph.cell.devices:
         for name in device.optical_frames:
-            pose = _pose_in(graph, device.frames[name], device.root_link)
+            pose = graph.frames.pose_in(device.frames[name], device.root_link)
             if pose is not None and not _looks_forward(pose):
                 message = f"the axes of `{device.name}/{name}` must be x right, y down, z forward"
                 advice = "turn its joint by rpy `-90 0 -90 deg` against the camera's own frame"
                 yield found(graph, (*device.path, "model"), message, advice)
-
-
-def _pose_in(graph: CellGraph, name: str, root: str) -> Pose | None:
-    pose = identity()
-    for frame in graph.frames.chain(name):
-        if frame.name == root:
-            return pose
-        if frame.transform_to_parent is None:
-            return None
-        pose = frame.transform_to_parent @ pose
-    return None
 
 
 def _looks_forward(pose: Pose) -> bool:

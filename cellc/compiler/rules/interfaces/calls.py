@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
-from cellc.compiler.cell.interface import InterfaceKind
+from cellc.compiler.cell.interface import Interface, InterfaceKind
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 
 
@@ -108,16 +109,18 @@ def service_without_error_answer(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def unbounded_action(graph: CellGraph) -> Findings:
     """Yield actions of the spec without a timeout."""
-    for interface in graph.cell.interfaces:
-        if interface.kind is InterfaceKind.ACTION and not interface.derived and interface.timeout_s is None:
-            message = f"action `{interface.name}` has no bound on a whole goal"
-            yield found(graph, interface.path, message)
+    for interface in _unbounded(graph, InterfaceKind.ACTION):
+        yield found(graph, interface.path, f"action `{interface.name}` has no bound on a whole goal")
 
 
 @rule(Severity.ERROR)
 def unbounded_service(graph: CellGraph) -> Findings:
     """Yield services of the spec without a timeout."""
+    for interface in _unbounded(graph, InterfaceKind.SERVICE):
+        yield found(graph, interface.path, f"service `{interface.name}` has no bound on its response time")
+
+
+def _unbounded(graph: CellGraph, kind: InterfaceKind) -> Iterator[Interface]:
     for interface in graph.cell.interfaces:
-        if interface.kind is InterfaceKind.SERVICE and not interface.derived and interface.timeout_s is None:
-            message = f"service `{interface.name}` has no bound on its response time"
-            yield found(graph, interface.path, message)
+        if interface.kind is kind and not interface.derived and interface.timeout_s is None:
+            yield interface

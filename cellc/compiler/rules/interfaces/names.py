@@ -60,12 +60,12 @@ def _legal(name: str) -> str:
 @rule(Severity.ERROR)
 def reserved_file_name(graph: CellGraph) -> Findings:
     """Yield names that files are named after and that are devices of Windows."""
-    for name, path in _names(graph):
+    for name, path in _file_names(graph):
         if opens_a_device(name):
             yield found(graph, path, f"`{name}` must not be the name of a file: Windows keeps it for a device")
 
 
-def _names(graph: CellGraph) -> Iterator[tuple[str, YamlPath]]:
+def _file_names(graph: CellGraph) -> Iterator[tuple[str, YamlPath]]:
     """Yield each name that a file begins with, once for each place."""
     cell = graph.cell
     yield cell.name, ("cell",)

@@ -85,7 +85,7 @@ def unread_vendor_description(graph: CellGraph) -> Findings:
             yield found(graph, (*device.path, "model"), message)
 
 
-_TYPES = ("system", "actuator", "sensor")
+_COMPONENT_TYPES = ("system", "actuator", "sensor")
 _STANDARD = ("position", "velocity", "acceleration", "effort")
 
 Told = Iterator[tuple[str, Span | None]]
@@ -97,18 +97,18 @@ def unusable_ros2_control(graph: CellGraph) -> Findings:
     """Yield what ros2_control refuses of the tags, and joints and interfaces that nothing has."""
     for device in graph.cell.devices:
         path = (*device.path, "model")
-        for message, span in (*_refused(device.description), *_of_joints(device)):
+        for message, span in (*_unloadable(device.description), *_of_joints(device)):
             yield Finding(message, span or graph.cell.locate(*path), path)
 
 
-def _refused(description: Description) -> Told:
+def _unloadable(description: Description) -> Told:
     if description.hardware_error:
         yield f"ros2_control refuses the description: {description.hardware_error}", description.hardware_error_span
     names = Counter(component.name for component in description.hardware)
     for component in description.hardware:
-        if component.type not in _TYPES:
+        if component.type not in _COMPONENT_TYPES:
             yield (
-                f"`type` of `{component.name}` must be one of {', '.join(_TYPES)}, got `{component.type}`",
+                f"`type` of `{component.name}` must be one of {', '.join(_COMPONENT_TYPES)}, got `{component.type}`",
                 component.span,
             )
         if names[component.name] > 1:
@@ -206,10 +206,10 @@ def _limited(ours: Description, vendor: Description) -> Iterator[str]:
     for joint in ours.joints:
         theirs = vendor.joint(joint.name) if joint.movable else None
         if theirs is not None:
-            yield from _figures(joint, theirs)
+            yield from _limit_figures(joint, theirs)
 
 
-def _figures(joint: Joint, theirs: Joint) -> Iterator[str]:
+def _limit_figures(joint: Joint, theirs: Joint) -> Iterator[str]:
     if joint.limit is None or theirs.limit is None or joint.type != theirs.type:
         if joint.type != theirs.type:
             yield f"`{joint.name}` is {joint.type}, and {theirs.type} there"

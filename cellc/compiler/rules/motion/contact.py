@@ -8,6 +8,7 @@ from cellc.compiler.cell.frame import SceneBox
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.motion import DEPTH_IMAGE, POINT_CLOUD, Octomap
 from cellc.compiler.feasibility import BodyContact, motion_answer
+from cellc.compiler.feasibility.answers import PoseAnswer
 from cellc.compiler.rules.geometry import (
     KNOWN_GOALS,
     KNOWN_POSES,
@@ -19,7 +20,7 @@ from cellc.compiler.rules.geometry import (
     with_scene,
     within_robot,
 )
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.contract.transforms import Pose
 
 
@@ -93,23 +94,27 @@ def _joints(graph: CellGraph, name: str) -> Sequence[str]:
 @rule(Severity.ERROR, assumes=KNOWN_POSES)
 def pose_in_collision_with_scene(graph: CellGraph) -> Findings:
     """Yield each pose in which a link touches a box of the scene."""
-    paths = {pose.name: pose.path for pose in reversed(graph.cell.poses)}
-    for pose in motion_answer(graph).poses:
+    for pose, path in _poses(graph):
         contacts = with_scene(graph, pose.contacts)
         if contacts:
-            message = f"in pose `{pose.name}` {named(contacts)}"
-            yield found(graph, paths[pose.name], message)
+            yield found(graph, path, f"in pose `{pose.name}` {named(contacts)}")
 
 
 @rule(Severity.ERROR, assumes=KNOWN_POSES)
 def pose_in_self_collision(graph: CellGraph) -> Findings:
     """Yield each pose in which links touch links."""
-    paths = {pose.name: pose.path for pose in reversed(graph.cell.poses)}
-    for pose in motion_answer(graph).poses:
+    for pose, path in _poses(graph):
         contacts = within_robot(graph, pose.contacts)
         if contacts:
             message = f"in pose `{pose.name}` {named(contacts)}"
-            yield found(graph, paths[pose.name], message, related=mounts(graph, contacts))
+            yield found(graph, path, message, related=mounts(graph, contacts))
+
+
+def _poses(graph: CellGraph) -> Iterator[tuple[PoseAnswer, YamlPath]]:
+    """Yield what is known of each named pose, with the place of the first of its name."""
+    paths = {pose.name: pose.path for pose in reversed(graph.cell.poses)}
+    for pose in motion_answer(graph).poses:
+        yield pose, paths[pose.name]
 
 
 @rule(Severity.WARNING, assumes=KNOWN_POSES)

@@ -72,7 +72,7 @@ def near_singular_goal(graph: CellGraph) -> Findings:
             yield found(graph, (*paths[goal.name], "frame"), message)
 
 
-_LEAST_OF_POSE = 0.02
+_LEAST_IN_POSE = 0.02
 
 
 @rule(Severity.WARNING, assumes=KNOWN_POSES)
@@ -88,9 +88,9 @@ def near_singular_pose(graph: CellGraph) -> Findings:
     paths = {(pose.name, pose.group): pose.path for pose in graph.cell.poses}
     for pose in motion_answer(graph).poses:
         for group, least in pose.least:
-            if least < _LEAST_OF_POSE and (pose.name, group) in starts:
+            if least < _LEAST_IN_POSE and (pose.name, group) in starts:
                 message = f"the least singular value in pose `{pose.name}`, from which `{group}` goes to a goal,"
-                message += f" must be at least {_LEAST_OF_POSE:g}, got {least:.2g}"
+                message += f" must be at least {_LEAST_IN_POSE:g}, got {least:.2g}"
                 yield found(graph, paths[pose.name, group], message)
 
 

@@ -42,15 +42,15 @@ def discovery_without_effect(graph: CellGraph) -> Findings:
             yield found(graph, ("network", key), message)
 
 
-_LARGEST = 232
+_LARGEST_DOMAIN = 232
 
 
 @rule(Severity.ERROR)
 def domain_id_out_of_range(graph: CellGraph) -> Findings:
     """Yield a domain outside 0 to 232."""
     domain = graph.cell.network.domain_id
-    if not 0 <= domain <= _LARGEST:
-        message = f"`domain_id` must be between 0 and {_LARGEST}, got {domain}"
+    if not 0 <= domain <= _LARGEST_DOMAIN:
+        message = f"`domain_id` must be between 0 and {_LARGEST_DOMAIN}, got {domain}"
         yield found(graph, ("network", "domain_id"), message)
 
 
@@ -66,7 +66,7 @@ def domain_in_ephemeral_ports(graph: CellGraph) -> Findings:
         yield found(graph, ("network", "domain_id"), message)
 
 
-_LONGEST = 64
+_LONGEST_ENCLAVE = 64
 """Characters of a common name: RFC 5280, ub-common-name."""
 
 
@@ -76,8 +76,8 @@ def enclave_too_long(graph: CellGraph) -> Findings:
     if graph.cell.versions.rmw.startswith("rmw_zenoh"):
         return
     for name, path in enclaves(graph.cell):
-        if len(name) > _LONGEST:
-            message = f"enclave `{name}` must have at most {_LONGEST} characters, got {len(name)}"
+        if len(name) > _LONGEST_ENCLAVE:
+            message = f"enclave `{name}` must have at most {_LONGEST_ENCLAVE} characters, got {len(name)}"
             yield found(graph, path, message)
 
 

@@ -89,7 +89,7 @@ def refused_command_modes(graph: CellGraph) -> Findings:
     """Yield the switch that leads to two controllers whose command modes exclude each other, once for a pair."""
     seen: set[tuple[str, str, str]] = set()
     for state in graph.claims.states:
-        for first, second, device, modes in _refused(graph.cell, state):
+        for first, second, device, modes in _refused_modes(graph.cell, state):
             pair = (state.manager, first.name, second.name)
             if pair in seen:
                 continue
@@ -102,7 +102,7 @@ def refused_command_modes(graph: CellGraph) -> Findings:
             yield found(graph, path, message, f"deactivate `{first.name}` in the same switch", related)
 
 
-def _refused(cell: Cell, state: ControlState) -> Iterator[tuple[Controller, Controller, str, str]]:
+def _refused_modes(cell: Cell, state: ControlState) -> Iterator[tuple[Controller, Controller, str, str]]:
     """Yield pairs of active controllers that no driver runs together, with the device and its two modes."""
     claiming: dict[str, dict[str, Controller]] = {}
     for controller in state.active:

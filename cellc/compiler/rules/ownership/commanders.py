@@ -169,8 +169,8 @@ def second_commander(graph: CellGraph) -> Findings:
                 yield found(graph, sink.path, message, f"send the goals through `{owner}`")
 
 
-_PACKAGE = "moveit_servo"
-_EXECUTABLES = {Distro.HUMBLE: "servo_node_main"}
+_SERVO_PACKAGE = "moveit_servo"
+_SERVO_EXECUTABLES = {Distro.HUMBLE: "servo_node_main"}
 """What runs it where that is not ``servo_node``: moveit2 2.5.9, moveit_ros/moveit_servo/CMakeLists.txt."""
 
 
@@ -182,18 +182,18 @@ def unfit_servo(graph: CellGraph) -> Findings:
         return
     path = ("motion", "servo")
     (node,) = (node for node in cell.nodes if node.path == ("nodes", servo.node))
-    wanted = f"{_PACKAGE}/{_EXECUTABLES.get(cell.distro, 'servo_node')}"
+    wanted = f"{_SERVO_PACKAGE}/{_SERVO_EXECUTABLES.get(cell.distro, 'servo_node')}"
     if f"{node.package}/{node.executable}" != wanted:
         message = f"`{servo.node}` must run `{wanted}` on {cell.distro}, got `{node.package}/{node.executable}`"
         yield found(graph, (*path, "node"), message)
     if not any((node.package, node.executable) == ("moveit_ros_move_group", "move_group") for node in cell.nodes):
         yield found(graph, (*path, "node"), f"`{servo.node}` needs a node that runs move_group, whose scene it follows")
     (controller,) = (controller for controller in cell.controllers if controller.full_name == servo.controller)
-    if refused := next(_refused(cell, servo, controller), ""):
+    if refused := next(_refused_servo(cell, servo, controller), ""):
         yield found(graph, (*path, "controller"), refused)
 
 
-def _refused(cell: Cell, servo: Servo, controller: Controller) -> Iterator[str]:
+def _refused_servo(cell: Cell, servo: Servo, controller: Controller) -> Iterator[str]:
     """Yield why a controller must not be commanded by Servo."""
     streamed = controller.behaviour is Behaviour.FORWARD_COMMAND
     if not streamed and controller.behaviour not in TRAJECTORIES:

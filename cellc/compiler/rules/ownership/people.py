@@ -8,37 +8,35 @@ from difflib import SequenceMatcher
 
 from cellc.compiler.cell.interface import NodeSource
 from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.graph.responsibilities import Responsibility
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
 
 
 @rule(Severity.BLOCKER)
 def missing_approval(graph: CellGraph) -> Findings:
     """Yield the approval areas without an owner; those that the spec does not mention in one finding."""
-    unwritten = []
-    for item in graph.responsibilities.of_kind("approval"):
-        if item.open and graph.cell.states(*item.path):
-            yield found(graph, item.path, f"no owner approves `{item.name}`")
-        elif item.open:
-            unwritten.append(item.name)
-    if unwritten:
-        names = ", ".join(f"`{name}`" for name in unwritten)
-        path = ("owners", "approvals")
-        yield found(graph, path, f"no owner approves {names}")
+    written, others = _open(graph, "approval")
+    for item in written:
+        yield found(graph, item.path, f"no owner approves `{item.name}`")
+    if others:
+        yield found(graph, ("owners", "approvals"), f"no owner approves {others}")
 
 
 @rule(Severity.BLOCKER)
 def missing_responsibility(graph: CellGraph) -> Findings:
     """Yield the responsibilities without an owner; those that the spec does not mention in one finding."""
-    unwritten = []
-    for item in graph.responsibilities.of_kind("responsibility"):
-        if item.open and graph.cell.states(*item.path):
-            yield found(graph, item.path, f"`{item.name}` has no owner")
-        elif item.open:
-            unwritten.append(item.name)
-    if unwritten:
-        names = ", ".join(f"`{name}`" for name in unwritten)
-        path = ("owners", "responsibilities")
-        yield found(graph, path, f"no owner for {names}")
+    written, others = _open(graph, "responsibility")
+    for item in written:
+        yield found(graph, item.path, f"`{item.name}` has no owner")
+    if others:
+        yield found(graph, ("owners", "responsibilities"), f"no owner for {others}")
+
+
+def _open(graph: CellGraph, kind: str) -> tuple[list[Responsibility], str]:
+    """Return what the spec mentions and no owner has, and the names of what it does not mention."""
+    items = [item for item in graph.responsibilities.of_kind(kind) if item.open]
+    written = [item for item in items if graph.cell.states(*item.path)]
+    return written, ", ".join(f"`{item.name}`" for item in items if item not in written)
 
 
 _ALIKE = 0.8

@@ -2,32 +2,34 @@
 
 from __future__ import annotations
 
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
-from cellc.compiler.rules.qos_offers import weak_offers
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule, rules
+from cellc.contract.qos import incompatibilities
 
 
-@rule(Severity.ERROR)
-def deadline_mismatch(graph: CellGraph) -> Findings:
-    """Yield subscribers that request more than their publisher offers."""
-    return weak_offers(graph, "deadline")
+def _mismatched(graph: CellGraph, policy: str) -> Findings:
+    """Yield a finding at each subscriber that requests more of a policy than one publisher of its topic offers."""
+    for pair in graph.data.topic_pairs():
+        source, sink = pair.source, pair.sink
+        for row in incompatibilities(source.qos, sink.qos):
+            if row.policy == policy:
+                message = (
+                    f"`{sink.node}` requests `{policy}: {row.requested}` on `{pair.topic.name}`, "
+                    f"`{source.node}` offers `{row.offered}`"
+                )
+                yield found(graph, sink.path, message, related=(Related("offered here", source.span),))
 
 
-@rule(Severity.ERROR)
-def durability_mismatch(graph: CellGraph) -> Findings:
-    """Yield subscribers that request more than their publisher offers."""
-    return weak_offers(graph, "durability")
-
-
-@rule(Severity.ERROR)
-def lease_mismatch(graph: CellGraph) -> Findings:
-    """Yield subscribers that request more than their publisher offers."""
-    return weak_offers(graph, "lease_duration")
-
-
-@rule(Severity.ERROR)
-def liveliness_mismatch(graph: CellGraph) -> Findings:
-    """Yield subscribers that request more than their publisher offers."""
-    return weak_offers(graph, "liveliness")
+MISMATCHES = rules(
+    Severity.ERROR,
+    _mismatched,
+    {
+        "deadline-mismatch": "deadline",
+        "durability-mismatch": "durability",
+        "lease-mismatch": "lease_duration",
+        "liveliness-mismatch": "liveliness",
+        "reliability-mismatch": "reliability",
+    },
+)
 
 
 @rule(Severity.WARNING)
@@ -42,9 +44,3 @@ def qos_ignored_by_rmw(graph: CellGraph) -> Findings:
             if field is not None and not topic.derived:
                 message = f"`{end.node}` sets `{field}` on `{topic.name}`, which Zenoh does not watch"
                 yield found(graph, (*end.path, field), message)
-
-
-@rule(Severity.ERROR)
-def reliability_mismatch(graph: CellGraph) -> Findings:
-    """Yield subscribers that request more than their publisher offers."""
-    return weak_offers(graph, "reliability")

@@ -79,11 +79,11 @@ def refused_initial_state(graph: CellGraph) -> Findings:
         path = (*device.path, "initial_state")
         if device.hardware is None:
             yield found(graph, path, f"no controller manager brings up `{device.name}`: it has no hardware component")
-        elif refused := _refused(device, device.hardware):
+        elif refused := _refused_state(device, device.hardware):
             yield found(graph, path, refused)
 
 
-def _refused(device: Device, hardware: HardwareComponent) -> str:
+def _refused_state(device: Device, hardware: HardwareComponent) -> str:
     """Return why a component must not start as stated; empty where it may."""
     said = f"`{device.name}` must not start `{device.initial_state}`:"
     if device.initial_state == "active":
