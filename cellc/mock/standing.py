@@ -144,6 +144,6 @@ def comes_up_alike(plant: Plant) -> bool:
         and not any(facts.noise for facts in plant.contract.simulated_joints.values())
         and all(feed.at_once for feed in plant.task.feeds)
         and plant.robot_state_publisher.at_once
-        and all(len(history.stamps) and history.stamps[0] <= PROCESSING_S * 1e9 for history in histories)
+        and all(history.first_ns is not None and history.first_ns <= PROCESSING_S * 1e9 for history in histories)
         and plant.simulation.next_foreground_ns() is None
     )

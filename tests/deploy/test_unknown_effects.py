@@ -48,7 +48,7 @@ def test_its_component_comes_up_unconfigured_and_a_person_activates_it(built: Co
     manager = safe_load(built.texts["config/controllers.yaml"])["controller_manager"]["ros__parameters"]
     assert manager["hardware_components_initial_state"] == {"unconfigured": ["it_hardware"]}
     real = json.loads(built.texts["config/bring_up.json"])["real"]
-    activating = [step for step in real if (step["request"] or {}).get("kind") == "hardware"]
+    activating = [step for step in real if (step.get("request") or {}).get("kind") == "hardware"]
     assert [(step["phase"], step["request"]["component"]) for step in activating] == [("activate", "it_hardware")]
     early = [proof for step in real if step["phase"] == "start" for proof in step["proof"]]
     assert "it_hardware" not in {proof.get("component") for proof in early}

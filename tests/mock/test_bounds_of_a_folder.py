@@ -155,7 +155,7 @@ def test_buffer_of_a_day_is_not_allocated(edit_contract: Callable[[Callable[[Any
 
     result = edit_contract(longer).run("pick_and_place")
     assert result.outcome is RunFailure.LIMIT_REACHED
-    assert "a buffer of 43200002 joint states of 7 joints" in result.reason
+    assert "a buffer of 43200002 joint states of 6 joints" in result.reason
 
 
 @pytest.mark.parametrize("rate", ["1000000000", "99999999999999999999", "1" + "0" * 5000, ".inf", "1.0e9"])

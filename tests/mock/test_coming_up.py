@@ -120,7 +120,9 @@ def test_activation_after_the_claim_ends_the_program_of_the_arm(ur5e: GeneratedF
         if step.phase is BringUpPhase.ACTIVATE
     ]
     first = [step for step in ur5e.real_bring_up if step.phase is BringUpPhase.START]
-    result, plant = brought_up(replace(ur5e, real_bring_up=(*first, *arm_first, *late, *rest)))
+    (manager,) = ur5e.parameters
+    shown = {manager: ur5e.parameters[manager].replace("unconfigured:", "inactive:")}  # its states are observed before
+    result, plant = brought_up(replace(ur5e, parameters=shown, real_bring_up=(*first, *arm_first, *late, *rest)))
     assert result.outcome == "uncommanded_motion"  # fingers in the phase of the claim
     assert "arm" in plant.effects.silenced
 

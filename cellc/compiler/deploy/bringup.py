@@ -19,7 +19,7 @@ from cellc.compiler.cell.frame import WORLD, FrameKind
 from cellc.compiler.cell.interface import TARGETS, InterfaceKind, Node
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, motion_clients
 from cellc.compiler.deploy.versions import compared_on
-from cellc.compiler.graph.claims import crosses_an_adapter
+from cellc.compiler.graph.claims import crosses_a_joint, crosses_an_adapter
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.bring_up import (
@@ -75,6 +75,22 @@ def phases(plan: BringUp, target: Target, host: str | None = None) -> tuple[Brin
     return tuple(phase for phase in BringUpPhase if phase in found)
 
 
+def silent_until_activation(cell: Cell) -> frozenset[str]:
+    """Return the full names of controllers and managed nodes that run only once a person has activated hardware."""
+    readers = (
+        reader.full_name
+        for manager in cell.managers
+        for reader in _readers(cell, manager, "real")
+        if not _is_exported(cell, manager, reader, "real")
+    )
+    nodes = (
+        node.full_name
+        for node in cell.nodes
+        if node.lifecycle and not asks_for_motion(cell, node) and _waits_for_hardware(cell, node, "real")
+    )
+    return frozenset((*readers, *nodes))
+
+
 def activation(node: Node) -> str:
     """Return the command with which a person activates a managed node that asks for motion."""
     return f"ros2 lifecycle set {node.full_name} activate"
@@ -86,9 +102,12 @@ def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
     yield from (_configure(cell, node, target) for node in managed)
     for manager in cell.managers:
         yield from _observe(cell, manager, target)
-    yield from (_activate(cell, node, target) for node in managed if not asks_for_motion(cell, node))
+    activated = [node for node in managed if not asks_for_motion(cell, node)]
+    late = [node for node in activated if _waits_for_hardware(cell, node, target)]
+    yield from (_activate(cell, node, target, BringUpPhase.START) for node in activated if node not in late)
     for manager in cell.managers:
         yield from _activate_hardware(cell, manager, target)
+    yield from (_activate(cell, node, target, BringUpPhase.ACTIVATE) for node in late)
     for manager in cell.managers:
         yield from _claim(cell, manager, target)
     if motion_clients(cell):
@@ -119,29 +138,50 @@ def _configure(cell: Cell, node: Node, target: Target) -> BringUpStep:
     )
 
 
-def _activate(cell: Cell, node: Node, target: Target) -> BringUpStep:
-    parents = dict.fromkeys(
-        frame.parent for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name
-    )
+def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase) -> BringUpStep:
     return _step(
-        BringUpPhase.START,
+        phase,
         f"activate_{node.name}",
         node.host,
         [
             *_mocked(cell, target),
             _lifecycle(node, "inactive"),
-            *(transform for parent in parents for transform in _transforms(cell, target, WORLD, parent)),
+            *(tf for parent in _measured_in(cell, node) for tf in _transforms(cell, target, WORLD, parent)),
         ],
         Transition(kind="transition", node=node.full_name, transition="activate"),
         [_lifecycle(node, "active")],
     )
 
 
+def _measured_in(cell: Cell, node: Node) -> tuple[str, ...]:
+    """Return the frames in which a node publishes others."""
+    published = (frame for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name)
+    return tuple(dict.fromkeys(frame.parent for frame in published))
+
+
+def _waits_for_hardware(cell: Cell, node: Node, target: Target) -> bool:
+    """Whether a transform that a node needs is shown only once a person has activated hardware."""
+    return any(is_shown_late(cell, WORLD, parent, target) for parent in _measured_in(cell, node))
+
+
+def is_shown_late(cell: Cell, parent: str, child: str, target: Target = "real") -> bool:
+    """Whether a transform goes over joints whose states show only once hardware has been activated."""
+    later = {
+        device.name
+        for manager in cell.managers
+        for device in _components(cell, manager, target)
+        if device.comes_up == "unconfigured"
+    }
+    return crosses_a_joint(cell, parent, child, later)
+
+
 def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
-    """Yield the step that activates what reads states; of hardware that a person activates it sees none yet."""
+    """Yield the step that activates what reads states; of hardware that a person activates there are none yet."""
     spawned = [controller.name for controller in manager.controllers if target in controller.targets]
     later = _activated_later(cell, manager, target)
-    observing = tuple(reader.name for reader in _active(manager, target) if not _claims(cell, reader, later))
+    observing = tuple(
+        reader.name for reader in _readers(cell, manager, target) if _is_exported(cell, manager, reader, target)
+    )
     if spawned:
         components = (
             _hardware(manager, device, "active")
@@ -163,9 +203,8 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
 
 
 def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
-    """Yield what takes hardware to active that moves by it, and restarts what read its states before it was there."""
+    """Yield what takes hardware to active that moves by it, and then reads it: what read the rest is restarted."""
     devices = _activated_later(cell, manager, target)
-    read = {None, *(device.name for device in devices)}  # a broadcaster of no device reads those of all
     for device in devices:
         yield _step(
             BringUpPhase.ACTIVATE,
@@ -175,17 +214,45 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
         )
-    readers = (controller for controller in _active(manager, target) if not controller.command_interfaces)
-    observing = tuple(reader.name for reader in readers if reader.device in read)
-    if devices and observing:
+    read = {None, *(device.name for device in devices)}  # a broadcaster of no device reads those of all
+    readers = [reader for reader in _readers(cell, manager, target) if devices and reader.device in read]
+    restarted = tuple(reader.name for reader in readers if _is_exported(cell, manager, reader, target))
+    first = tuple(reader.name for reader in readers if reader.name not in restarted)
+    if restarted:
         yield _step(
             BringUpPhase.ACTIVATE,
             f"observe_{manager.name}_again",
             manager.host,
-            [*_mocked(cell, target), *(_controller(manager, name, "active") for name in observing)],
-            Restart(kind="restart", manager=manager.node, controllers=observing),
-            [_controller(manager, name, "active") for name in observing],
+            [*_mocked(cell, target), *(_controller(manager, name, "active") for name in restarted)],
+            Restart(kind="restart", manager=manager.node, controllers=restarted),
+            [_controller(manager, name, "active") for name in restarted],
         )
+    if first:
+        yield _step(
+            BringUpPhase.ACTIVATE,
+            f"observe_{manager.name}_activated",
+            manager.host,
+            [*_mocked(cell, target), *(_controller(manager, name, "inactive") for name in first)],
+            Activation(kind="controllers", manager=manager.node, controllers=first),
+            [_controller(manager, name, "active") for name in first],
+        )
+
+
+def _readers(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Controller]:
+    """Yield the controllers of a target that read states or answer services, and are active before any claim."""
+    later = _activated_later(cell, manager, target)
+    return (reader for reader in _active(manager, target) if not _claims(cell, reader, later))
+
+
+def _is_exported(cell: Cell, manager: ControllerManager, reader: Controller, target: Target) -> bool:
+    """Whether an interface that a controller reads exists before a person activates hardware.
+
+    A component exports its interfaces from its configuration on. Without one, joint_state_broadcaster ends its
+    activation with an error, and the manager refuses any other controller.
+    Source: https://github.com/ros-controls/ros2_controllers/blob/5.17.0/joint_state_broadcaster/src/joint_state_broadcaster.cpp
+    """
+    read = [one for one in _components(cell, manager, target) if reader.device in (None, one.name)]
+    return not read or any(device.comes_up != "unconfigured" for device in read)
 
 
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:

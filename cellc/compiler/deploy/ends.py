@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
-from cellc.compiler.deploy.bringup import watches
+from cellc.compiler.deploy.bringup import silent_until_activation, watches
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import CLAIM_WATCH
 
@@ -16,14 +16,27 @@ def ends_on_real(graph: CellGraph, interface: Interface) -> tuple[tuple[str, ...
     A driver's node listens to the controllers of its robot, the stopper of claims to what it watches, and a planner has
     a client of each action that it executes on. A person who compares the graph with the page finds them all.
     """
+    from_gate = dict.fromkeys(graph.once(silent), "G5") | dict.fromkeys(graph.cell.started_late, "G7")
 
     def named(ends: tuple[Endpoint, ...]) -> Iterator[str]:
         for end in ends:
             if "real" in end.targets:
-                yield end.full_name + (" (from G7 on)" if end.full_name in graph.cell.started_late else "")
+                gate = from_gate.get(end.full_name)
+                yield end.full_name + (f" (from {gate} on)" if gate else "")
 
     sinks = dict.fromkeys((*named(interface.sinks), *_beside(graph, interface)))
     return tuple(dict.fromkeys(named(interface.sources))), tuple(sinks)
+
+
+def silent(graph: CellGraph) -> frozenset[str]:
+    """Return the full names of what runs only once a person has activated hardware."""
+    return silent_until_activation(graph.cell)
+
+
+def is_late(graph: CellGraph, interface: Interface) -> bool:
+    """Whether nobody publishes or serves an interface before a person has activated hardware."""
+    late = graph.once(silent)
+    return bool(interface.sources) and all(end.full_name in late for end in interface.sources)
 
 
 def _beside(graph: CellGraph, interface: Interface) -> Iterator[str]:

@@ -10,8 +10,9 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface, InterfaceKind
 from cellc.compiler.cell.site import UNKNOWN
+from cellc.compiler.deploy.bringup import is_shown_late
 from cellc.compiler.deploy.configuration import version_tuple
-from cellc.compiler.deploy.ends import ends_on_real
+from cellc.compiler.deploy.ends import ends_on_real, is_late, silent
 from cellc.compiler.deploy.files import is_servo
 from cellc.compiler.deploy.gate_motion import (
     Values,
@@ -113,10 +114,18 @@ def _mock_actions(graph: CellGraph) -> Iterator[Values]:
     )
 
 
-def _joint_states(graph: CellGraph) -> Iterator[Values]:
-    return (
-        (interface.name,) for interface in _on_real(graph) if interface.type == JOINT_STATE_TYPE and interface.sinks
-    )
+def _joint_states(graph: CellGraph) -> Iterator[Interface]:
+    return (interface for interface in _on_real(graph) if interface.type == JOINT_STATE_TYPE and interface.sinks)
+
+
+def _idle_joint_states(graph: CellGraph) -> Iterator[Values]:
+    """Yield the joint states that arrive before a person activates hardware."""
+    return ((interface.name,) for interface in _joint_states(graph) if not is_late(graph, interface))
+
+
+def _late_readers(graph: CellGraph) -> Iterator[Values]:
+    late = graph.once(silent)
+    return ((controller.full_name,) for controller in graph.cell.controllers if controller.full_name in late)
 
 
 def _components(graph: CellGraph) -> Iterator[Values]:
@@ -131,7 +140,8 @@ def _components(graph: CellGraph) -> Iterator[Values]:
 def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
     for node in graph.cell.nodes:
         if node.lifecycle:
-            yield node.full_name, "inactive" if asks_for_motion(graph.cell, node) else "active"
+            later = asks_for_motion(graph.cell, node) or node.full_name in graph.once(silent)
+            yield node.full_name, "inactive" if later else "active"
 
 
 def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
@@ -278,9 +288,12 @@ def _interfaces(graph: CellGraph) -> Iterator[Values]:
         yield interface.name, ", ".join(starts) or "none", ", ".join(ends) or "none", command
 
 
-def _streams(graph: CellGraph) -> Iterator[Values]:
+def _streams(graph: CellGraph, *, late: bool) -> Iterator[Values]:
+    """Yield the topics with a rate: those of the start, or those that wait for hardware that a person activates."""
     for interface in _on_real(graph):
         if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None:
+            if is_late(graph, interface) is not late:
+                continue
             # What is measured is the sum of all sources, and the interface has the rate of the slowest manager.
             several = f" or more ({len(interface.sources)} sources)" if len(interface.sources) > 1 else ""
             age = (
@@ -289,6 +302,13 @@ def _streams(graph: CellGraph) -> Iterator[Values]:
                 else f"no sample older than {shortest(interface.max_age_s)} s"
             )
             yield interface.name, f"{shortest(interface.rate_hz)} Hz{several}", age
+
+
+def _groups(graph: CellGraph, *, late: bool) -> Iterator[Values]:
+    """Yield the ends of planning groups: of those whose joints show from the start on, or only later."""
+    for group in graph.cell.groups:
+        if is_shown_late(graph.cell, group.base_link, group.tip_frame) is late:
+            yield group.tip_frame, group.base_link
 
 
 def _bounded_clocks(graph: CellGraph) -> Iterator[Values]:
@@ -321,7 +341,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "component": (("component", "state", "whose"), _components),
     "mock_action": (("action",), _mock_actions),
     "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),
-    "joint_states": (("topic",), _joint_states),
+    "joint_states": (("topic",), lambda graph: ((interface.name,) for interface in _joint_states(graph))),
+    "idle_joint_states": (("topic",), _idle_joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
     "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "told_by"), _loaded_devices),
@@ -348,9 +369,12 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "reached_device": (("host", "device", "card", "address"), _reached_devices),
     "device": (("device", "serial", "firmware", "safety"), _devices),
     "interface": (("interface", "starts", "ends", "command"), _interfaces),
-    "stream": (("topic", "rate", "age"), _streams),
+    "stream": (("topic", "rate", "age"), lambda graph: _streams(graph, late=False)),
+    "late_stream": (("topic", "rate", "age"), lambda graph: _streams(graph, late=True)),
+    "late_reader": (("controller",), _late_readers),
     "bounded_clock": (("host", "offset"), _bounded_clocks),
-    "group": (("tip", "base"), lambda graph: ((group.tip_frame, group.base_link) for group in graph.cell.groups)),
+    "group": (("tip", "base"), lambda graph: _groups(graph, late=False)),
+    "late_group": (("tip", "base"), lambda graph: _groups(graph, late=True)),
     "described_node": (("node",), lambda graph: _each(description_nodes(graph.cell))),
 }
 _OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")

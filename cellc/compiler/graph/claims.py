@@ -6,7 +6,7 @@ Parameters that the user wrote for a controller stand here too, apart from those
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
@@ -142,10 +142,15 @@ def adapter_of_group(cell: Cell, group: PlanningGroup) -> AdaptedDevice | None:
 
 def crosses_an_adapter(cell: Cell, parent: str, child: str) -> bool:
     """Tell whether a joint of a device behind an adapter lies between two frames, the child below the parent."""
-    behind = {adapted.device for adapted in cell.adapters}
+    return crosses_a_joint(cell, parent, child, {adapted.device for adapted in cell.adapters})
+
+
+def crosses_a_joint(cell: Cell, parent: str, child: str, devices: Container[str]) -> bool:
+    """Tell whether a joint of some devices lies between two frames, the child below the parent."""
     frames, frame = {frame.name: frame for frame in cell.frames}, child
     while frame != parent and frame in frames:
-        if frames[frame].moving and frames[frame].device in behind:
+        device = frames[frame].device
+        if frames[frame].moving and device is not None and device in devices:
             return True
         frame = frames[frame].parent
     return False

@@ -25,6 +25,7 @@ class InterfaceTable:
         command: values of the command interfaces, NaN where nothing was commanded yet.
         state: values of the state interfaces.
         claims: name of the controller that owns a command interface.
+        absent: state interfaces that nobody exports now: their component is not configured.
         journal: what was commanded, for who listens.
     """
 
@@ -32,6 +33,7 @@ class InterfaceTable:
         self.command: Array = np.empty(0)
         self.state: Array = np.empty(0)
         self.claims: dict[str, str] = {}
+        self.absent: frozenset[str] = frozenset()
         self.journal = CommandJournal()
         self._command_columns: dict[str, int] = {}
         self._state_columns: dict[str, int] = {}
@@ -85,6 +87,10 @@ class InterfaceTable:
     def state_names(self) -> tuple[str, ...]:
         """Names of all state interfaces, in the order in which they were added."""
         return tuple(self._state_columns)
+
+    def exported_states(self) -> tuple[str, ...]:
+        """Names of the state interfaces that are there now, in the order in which they were added."""
+        return tuple(name for name in self._state_columns if name not in self.absent)
 
     def data_type(self, name: str) -> str:
         """The declared data type of an interface."""

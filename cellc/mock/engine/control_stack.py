@@ -272,19 +272,19 @@ class ControlStack:
     def _collect(self) -> None:
         for (manager, controller), history in self.histories.items():
             if history.subscribed:
-                block = self._take_joint_states(manager, controller)
-                history.append(block)
-                for watcher in self._watchers:
-                    watcher.joint_states(manager, controller, block)
+                for block in self._take_joint_states(manager, controller):
+                    history.append(block)
+                    for watcher in self._watchers:
+                        watcher.joint_states(manager, controller, block)
 
     def servers(self) -> tuple[GoalServer, ...]:
         """Return every manager, then every adapter."""
         return self._servers
 
-    def _take_joint_states(self, manager: str, controller: str) -> JointStateBlock:
+    def _take_joint_states(self, manager: str, controller: str) -> tuple[JointStateBlock, ...]:
         if manager in self.managers:
             return self.managers[manager].take_joint_states(controller)
-        return self.adapters[manager].take_joint_states()
+        return (self.adapters[manager].take_joint_states(),)
 
 
 def _joints(managers: Iterable[ContractManager]) -> frozenset[str]:

@@ -37,6 +37,7 @@ class JointStateHistory:
         subscribed: somebody collects the messages of the broadcaster.
         silent: the broadcaster is not active, so that messages which stay away are no missed cycles.
         period_ns: of the update cycles in which it may publish.
+        first_ns: stamp of its first message, of whichever joints; None before.
     """
 
     def __init__(
@@ -66,6 +67,7 @@ class JointStateHistory:
         self._stamps: IntArray = np.empty(0, dtype=np.int64)
         self._positions: FloatArray = np.empty((0, 0))
         self._count = 0
+        self.first_ns: int | None = None
 
     def __getstate__(self) -> dict[str, object]:
         """Return what a copy has: room for the messages that are there, unless old ones are to be dropped."""
@@ -77,6 +79,8 @@ class JointStateHistory:
         size = len(block.stamps_ns)
         if size == 0:
             return
+        if self.first_ns is None:
+            self.first_ns = int(block.stamps_ns[0])
         if block.names != self._published:
             self._published = block.names
             self._columns = [index for index, name in enumerate(block.names) if name not in self._foreign]

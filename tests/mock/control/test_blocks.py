@@ -213,7 +213,7 @@ def _play(story: Story, next_step_ns: Callable[[int], int]) -> Result:
             events.extend(manager.take_events())
         if action is not None:
             action(manager)
-    joints, slow = manager.take_joint_states("joints"), manager.take_joint_states("slow_joints")
+    (joints,), (slow,) = manager.take_joint_states("joints"), manager.take_joint_states("slow_joints")
     return events, joints, slow, manager.recording("arm"), tuple(str(line) for line in manager.log.lines())
 
 

@@ -53,7 +53,7 @@ def test_slow_joint_never_exceeds_its_velocity() -> None:
     manager.disturbances.slow("a", 0.45)
     manager.send_goal("arm", _GOAL)
     assert _results(manager) == [(4, 0)]
-    block = manager.take_joint_states("joints")
+    (block,) = manager.take_joint_states("joints")
     assert np.abs(block.velocities[:, block.names.index("a")]).max() == pytest.approx(0.45)
 
 

@@ -94,7 +94,7 @@ def _check_goals(replay: _Replay, observed: Case) -> None:
 
 def _check_motion(replay: _Replay, observed: Case) -> None:
     rows = observed.get("joint_states", {}).get("rows", [])
-    block = replay.manager.take_joint_states("joint_state_broadcaster")
+    (block,) = replay.manager.take_joint_states("joint_state_broadcaster")
     column = block.names.index("finger_joint")
     for time_s, position, velocity in rows:
         index = int(abs(block.stamps_ns - (replay.t0_ns + round(time_s * S))).argmin())

@@ -103,8 +103,8 @@ class Controller(Protocol):
     def reference_interfaces(self) -> tuple[str, ...]:
         """Command interfaces that it offers to a preceding controller, with its own name in front."""
 
-    def activation_refusal(self) -> str:
-        """Why activation would fail, empty where it would not."""
+    def activation_error(self) -> str:
+        """Why `on_activate` would return an error now, which leaves the controller unconfigured; empty otherwise."""
 
     def activate(self, now_ns: int) -> None:
         """Start, with interfaces claimed."""
@@ -168,8 +168,8 @@ class QuietController:
         """Not chainable."""
         return ()
 
-    def activation_refusal(self) -> str:
-        """Never refused."""
+    def activation_error(self) -> str:
+        """Never an error."""
         return ""
 
     def configure(self) -> None:

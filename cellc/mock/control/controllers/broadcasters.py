@@ -142,6 +142,7 @@ class JointStateBroadcaster(QuietController):
         self._names: tuple[str, ...] = ()
         self._stamps: list[Times] = []
         self._rows: list[Array] = []
+        self._ended: list[JointStateBlock] = []
 
     def _asked_for(self) -> tuple[str, ...]:
         parameters = self.context.parameters
@@ -156,18 +157,24 @@ class JointStateBroadcaster(QuietController):
         """Interface name of each field of the message."""
         return {kind: self.context.parameters.text(f"map_interface_to_joint_state.{kind}") for kind in _KINDS}
 
-    def activation_refusal(self) -> str:
-        """Activation fails without any state interface."""
-        if self.context.table.state_names():
+    def activation_error(self) -> str:
+        """An error where nothing is exported that could be published.
+
+        Source: https://github.com/ros-controls/ros2_controllers/blob/5.17.0/joint_state_broadcaster/src/joint_state_broadcaster.cpp
+        (`on_activate`).
+        """
+        if self.context.table.exported_states():
             return ""
-        return "None of requested interfaces exist. Controller will not run."
+        return (
+            "No state interfaces found to publish. Error initializing joint data. JointStateBroadcaster will not run."
+        )
 
     def joint_names(self) -> tuple[str, ...]:
         """Names in the order of the message: as listed, else alphabetical."""
         table, parameters = self.context.table, self.context.parameters
         asked = self._asked_for()
         available = asked or tuple(
-            name for name in table.state_names() if table.data_type(name) in ("double", "float32")
+            name for name in table.exported_states() if table.data_type(name) in ("double", "float32")
         )
         fields = set(self._kinds().values())
         found = {name.rpartition("/")[0] for name in available if name.rpartition("/")[2] in fields}
@@ -180,8 +187,10 @@ class JointStateBroadcaster(QuietController):
         return (*names, *(joint for joint in parameters.texts("extra_joints") if joint not in names))
 
     def activate(self, now_ns: int) -> None:
-        """Look up what is published."""
+        """Look up what is published; what was published of other joints before is a block of its own."""
         table, names = self.context.table, self.joint_names()
+        if self._rows and names != self._names:
+            self._ended.append(self._block())
         self._names = names
         wanted = [f"{name}/{kind}" for kind in self._kinds().values() for name in names]
         self._columns = np.array(
@@ -196,8 +205,12 @@ class JointStateBroadcaster(QuietController):
         """Collect what is published from now on."""
         self._listened = True
 
-    def take(self) -> JointStateBlock:
-        """Hand over what was collected since the last time."""
+    def take(self) -> tuple[JointStateBlock, ...]:
+        """Hand over what was collected since the last time: one block, or one for each set of joints."""
+        blocks, self._ended = (*self._ended, self._block()), []
+        return blocks
+
+    def _block(self) -> JointStateBlock:
         count = len(self._names)
         rows = _joined(self._rows) if self._rows else np.empty((0, 3 * count))
         stamps = _joined(self._stamps) if self._stamps else np.empty(0, dtype=np.int64)

@@ -278,7 +278,7 @@ class ControllerManager:
         self._touch()
         self._broadcaster(controller).listen()
 
-    def take_joint_states(self, controller: str) -> JointStateBlock:
+    def take_joint_states(self, controller: str) -> tuple[JointStateBlock, ...]:
         """Hand over the joint states that were published since the last time."""
         return self._broadcaster(controller).take()
 

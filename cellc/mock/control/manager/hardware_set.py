@@ -96,12 +96,18 @@ class HardwareSet:
         for state, names in (("unconfigured", unconfigured), ("inactive", inactive)):
             for name in names:
                 if name in self.components:
-                    self.components[name].state = state
+                    self._enter(self.components[name], state)
                 else:
                     self._log.warn(
                         "controller_manager",
                         f"Hardware component '{name}' is unknown, therefore not set in '{state}' state.",
                     )
+
+    def _enter(self, component: Component, state: str) -> None:
+        """Bring a component into a state: it exports its interfaces from its configuration on."""
+        component.state = state
+        exported = {name for name in component.system.state_names if self._owners[name] is component}
+        self._table.absent = self._table.absent - exported if component.available else self._table.absent | exported
 
     def owner(self, interface: str) -> Component | None:
         """The component that exports an interface."""
@@ -126,13 +132,13 @@ class HardwareSet:
         if component.state != state:
             if not component.available:
                 component.last_read_ns = None
-            component.state = state
+            self._enter(component, state)
             self._events.append(HardwareChanged(self._log.now_ns, name, state))
         return HardwareStateResponse(True, state)
 
     def fail(self, component: Component, reason: str) -> None:
         """A read or write returned an error: one that is handled leaves the component unconfigured, else finalized."""
-        component.state = "unconfigured" if self._disturbances.is_lost(component.name) else "finalized"
+        self._enter(component, "unconfigured" if self._disturbances.is_lost(component.name) else "finalized")
         component.last_read_ns = None
         self._log.error(_LOGGER, reason)
         self._events.append(HardwareChanged(self._log.now_ns, component.name, component.state, reason))

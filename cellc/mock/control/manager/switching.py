@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -30,10 +30,15 @@ class Strictness(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Switch:
-    """A checked switch; `activate` and `deactivate` in the order of the request."""
+    """A checked switch; `activate` and `deactivate` in the order of the request.
+
+    Attributes:
+        failing: controllers whose activation ends in an error, with its reason; the others are switched all the same.
+    """
 
     activate: tuple[str, ...]
     deactivate: tuple[str, ...]
+    failing: tuple[tuple[str, str], ...] = ()
 
 
 class _RefusedError(Exception):
@@ -68,8 +73,9 @@ class SwitchChecker:
         """
         strict = strictness is Strictness.STRICT
         if strictness is Strictness.AUTO:
-            text = "Controller Manager: AUTO is not currently implemented. Defaulting to BEST_EFFORT"
-            self._log.warn(NODE_NAME, text)
+            self._log.warn(
+                NODE_NAME, "Controller Manager: AUTO is not currently implemented. Defaulting to BEST_EFFORT"
+            )
         if strictness is Strictness.UNSPECIFIED:
             self._log.warn(
                 NODE_NAME,
@@ -89,7 +95,18 @@ class SwitchChecker:
             self._check_hardware(switch)
         except _RefusedError as refused:
             return ServiceResponse(False, str(refused)), None
+        if failing := tuple(self._failing(switch.activate)):
+            names = {name for name, _ in failing}
+            rest = tuple(name for name in switch.activate if name not in names)
+            answer = self._refuse(f"Failed to activate controller : {', '.join(sorted(names))}")
+            return ServiceResponse(False, str(answer)), Switch(rest, switch.deactivate, failing)
         return ServiceResponse(True, _success(switch, strict)), switch
+
+    def _failing(self, names: Sequence[str]) -> Iterator[tuple[str, str]]:
+        for name in names:
+            if error := self._registry.controllers[name].controller.activation_error():
+                self._log.error(name, error)
+                yield name, error
 
     def _refuse(self, text: str) -> _RefusedError:
         self._log.warn(NODE_NAME, text)
@@ -194,10 +211,6 @@ class SwitchChecker:
                         f"Unable to activate controller '{name}' since the state interface '{interface}' is not "
                         "available."
                     )
-            refusal = controller.activation_refusal()
-            if refusal:
-                self._log.error(name, refusal)
-                raise self._refuse(f"Failed to activate controller : {name}")
 
     def _usable(self, interface: str, switch: Switch) -> bool:
         exporter = self._registry.exporter(interface)
@@ -283,6 +296,9 @@ class Switcher:
             self._limiter.reset([*start, *stop])
         for name in switch.deactivate:
             self.deactivate(self._registry.controllers[name], now_ns, "")
+        for name, error in switch.failing:
+            self._registry.controllers[name].state = "unconfigured"
+            self._events.append(ControllerChanged(now_ns, name, "unconfigured", error))
         for loaded in reversed([c for c in self._registry.in_update_order() if c.name in switch.activate]):
             self._activate(loaded, switch, now_ns)
 
