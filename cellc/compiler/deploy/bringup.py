@@ -214,8 +214,11 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
         )
-    read = {None, *(device.name for device in devices)}  # a broadcaster of no device reads those of all
-    readers = [reader for reader in _readers(cell, manager, target) if devices and reader.device in read]
+    readers = [
+        reader
+        for reader in _readers(cell, manager, target)
+        if any(device in devices for device in _read(cell, manager, reader, target))
+    ]
     restarted = tuple(reader.name for reader in readers if _is_exported(cell, manager, reader, target))
     first = tuple(reader.name for reader in readers if reader.name not in restarted)
     if restarted:
@@ -251,8 +254,17 @@ def _is_exported(cell: Cell, manager: ControllerManager, reader: Controller, tar
     activation with an error, and the manager refuses any other controller.
     Source: https://github.com/ros-controls/ros2_controllers/blob/5.17.0/joint_state_broadcaster/src/joint_state_broadcaster.cpp
     """
-    read = [one for one in _components(cell, manager, target) if reader.device in (None, one.name)]
+    read = _read(cell, manager, reader, target)
     return not read or any(device.comes_up != "unconfigured" for device in read)
+
+
+def _read(cell: Cell, manager: ControllerManager, reader: Controller, target: Target) -> tuple[Device, ...]:
+    """Return the components that a controller reads; joint_state_broadcaster reads all, whatever its device is."""
+    components = tuple(_components(cell, manager, target))
+    if reader.behaviour is Behaviour.JOINT_STATE_BROADCASTER or reader.device is None:
+        named = {interface.rpartition("/")[0] for interface in reader.state_interfaces}
+        return tuple(one for one in components if not named or named & {joint.name for joint in one.joints})
+    return tuple(one for one in components if one.name == reader.device)
 
 
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
