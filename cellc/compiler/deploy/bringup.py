@@ -10,16 +10,27 @@ mode. Starting the processes is discovery; what follows waits for proof, whateve
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.frame import WORLD, FrameKind
-from cellc.compiler.cell.interface import TARGETS, InterfaceKind, Node
+from cellc.compiler.cell.frame import WORLD
+from cellc.compiler.cell.interface import InterfaceKind, Node
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, motion_clients
+from cellc.compiler.deploy.readiness import (
+    activated_later,
+    components_of,
+    components_read,
+    is_claiming,
+    is_exported,
+    is_on,
+    measured_in,
+    readers_of,
+    started_active,
+    waits_for_hardware,
+)
 from cellc.compiler.deploy.versions import compared_on
-from cellc.compiler.graph.claims import crosses_a_joint, crosses_an_adapter
+from cellc.compiler.graph.claims import crosses_an_adapter
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.bring_up import (
@@ -47,7 +58,7 @@ from cellc.contract.bring_up import (
     Transition,
     Watch,
 )
-from cellc.contract.vocabulary import PASSIVE, Behaviour, BringUpPhase, Moment, Need
+from cellc.contract.vocabulary import Behaviour, BringUpPhase, Moment, Need
 
 WATCH = "watch"
 """What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
@@ -75,22 +86,6 @@ def phases(plan: BringUp, target: Target, host: str | None = None) -> tuple[Brin
     return tuple(phase for phase in BringUpPhase if phase in found)
 
 
-def silent_until_activation(cell: Cell) -> frozenset[str]:
-    """Return the full names of controllers and managed nodes that run only once a person has activated hardware."""
-    readers = (
-        reader.full_name
-        for manager in cell.managers
-        for reader in _readers(cell, manager, "real")
-        if not _is_exported(cell, manager, reader, "real")
-    )
-    nodes = (
-        node.full_name
-        for node in cell.nodes
-        if node.lifecycle and not asks_for_motion(cell, node) and _waits_for_hardware(cell, node, "real")
-    )
-    return frozenset((*readers, *nodes))
-
-
 def activation(node: Node) -> str:
     """Return the command with which a person activates a managed node that asks for motion."""
     return f"ros2 lifecycle set {node.full_name} activate"
@@ -103,7 +98,7 @@ def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
     for manager in cell.managers:
         yield from _observe(cell, manager, target)
     activated = [node for node in managed if not asks_for_motion(cell, node)]
-    late = [node for node in activated if _waits_for_hardware(cell, node, target)]
+    late = [node for node in activated if waits_for_hardware(cell, node, target)]
     yield from (_activate(cell, node, target, BringUpPhase.START) for node in activated if node not in late)
     for manager in cell.managers:
         yield from _activate_hardware(cell, manager, target)
@@ -146,46 +141,24 @@ def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase) -> Br
         [
             *_mocked(cell, target),
             _lifecycle(node, "inactive"),
-            *(tf for parent in _measured_in(cell, node) for tf in _transforms(cell, target, WORLD, parent)),
+            *(tf for parent in measured_in(cell, node) for tf in _transforms(cell, target, WORLD, parent)),
         ],
         Transition(kind="transition", node=node.full_name, transition="activate"),
         [_lifecycle(node, "active")],
     )
 
 
-def _measured_in(cell: Cell, node: Node) -> tuple[str, ...]:
-    """Return the frames in which a node publishes others."""
-    published = (frame for frame in cell.frames if frame.kind is FrameKind.DYNAMIC and frame.authority == node.name)
-    return tuple(dict.fromkeys(frame.parent for frame in published))
-
-
-def _waits_for_hardware(cell: Cell, node: Node, target: Target) -> bool:
-    """Whether a transform that a node needs is shown only once a person has activated hardware."""
-    return any(is_shown_late(cell, WORLD, parent, target) for parent in _measured_in(cell, node))
-
-
-def is_shown_late(cell: Cell, parent: str, child: str, target: Target = "real") -> bool:
-    """Whether a transform goes over joints whose states show only once hardware has been activated."""
-    later = {
-        device.name
-        for manager in cell.managers
-        for device in _components(cell, manager, target)
-        if device.comes_up == "unconfigured"
-    }
-    return crosses_a_joint(cell, parent, child, later)
-
-
 def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     """Yield the step that activates what reads states; of hardware that a person activates there are none yet."""
     spawned = [controller.name for controller in manager.controllers if target in controller.targets]
-    later = _activated_later(cell, manager, target)
+    later = activated_later(cell, manager, target)
     observing = tuple(
-        reader.name for reader in _readers(cell, manager, target) if _is_exported(cell, manager, reader, target)
+        reader.name for reader in readers_of(cell, manager, target) if is_exported(cell, manager, reader, target)
     )
     if spawned:
         components = (
             _hardware(manager, device, "active")
-            for device in _components(cell, manager, target)
+            for device in components_of(cell, manager, target)
             if device not in later  # or a person was faster
         )
         yield _step(
@@ -204,7 +177,7 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
 
 def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     """Yield what takes hardware to active that moves by it, and then reads it: what read the rest is restarted."""
-    devices = _activated_later(cell, manager, target)
+    devices = activated_later(cell, manager, target)
     for device in devices:
         yield _step(
             BringUpPhase.ACTIVATE,
@@ -216,10 +189,10 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
         )
     readers = [
         reader
-        for reader in _readers(cell, manager, target)
-        if any(device in devices for device in _read(cell, manager, reader, target))
+        for reader in readers_of(cell, manager, target)
+        if any(device in devices for device in components_read(cell, manager, reader, target))
     ]
-    restarted = tuple(reader.name for reader in readers if _is_exported(cell, manager, reader, target))
+    restarted = tuple(reader.name for reader in readers if is_exported(cell, manager, reader, target))
     first = tuple(reader.name for reader in readers if reader.name not in restarted)
     if restarted:
         yield _step(
@@ -241,35 +214,11 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
         )
 
 
-def _readers(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Controller]:
-    """Yield the controllers of a target that read states or answer services, and are active before any claim."""
-    later = _activated_later(cell, manager, target)
-    return (reader for reader in _active(manager, target) if not _claims(cell, reader, later))
-
-
-def _is_exported(cell: Cell, manager: ControllerManager, reader: Controller, target: Target) -> bool:
-    """Whether an interface that a controller reads exists before a person activates hardware.
-
-    A component exports its interfaces from its configuration on. Without one, joint_state_broadcaster ends its
-    activation with an error, and the manager refuses any other controller.
-    Source: https://github.com/ros-controls/ros2_controllers/blob/5.17.0/joint_state_broadcaster/src/joint_state_broadcaster.cpp
-    """
-    read = _read(cell, manager, reader, target)
-    return not read or any(device.comes_up != "unconfigured" for device in read)
-
-
-def _read(cell: Cell, manager: ControllerManager, reader: Controller, target: Target) -> tuple[Device, ...]:
-    """Return the components that a controller reads; joint_state_broadcaster reads all, whatever its device is."""
-    components = tuple(_components(cell, manager, target))
-    if reader.behaviour is Behaviour.JOINT_STATE_BROADCASTER or reader.device is None:
-        named = {interface.rpartition("/")[0] for interface in reader.state_interfaces}
-        return tuple(one for one in components if not named or named & {joint.name for joint in one.joints})
-    return tuple(one for one in components if one.name == reader.device)
-
-
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
-    later = _activated_later(cell, manager, target)
-    claiming = tuple(controller.name for controller in _active(manager, target) if _claims(cell, controller, later))
+    later = activated_later(cell, manager, target)
+    claiming = tuple(
+        controller.name for controller in started_active(manager, target) if is_claiming(cell, controller, later)
+    )
     if claiming:
         yield _step(
             BringUpPhase.CLAIM,
@@ -277,7 +226,7 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
             manager.host,
             [
                 *_mocked(cell, target),
-                *(_hardware(manager, device, "active") for device in _components(cell, manager, target)),
+                *(_hardware(manager, device, "active") for device in components_of(cell, manager, target)),
                 *(_controller(manager, name, "inactive") for name in claiming),
                 *_joint_states(cell, manager),
                 *(tf for group in cell.groups for tf in _transforms(cell, target, group.base_link, group.tip_frame)),
@@ -298,8 +247,8 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     claimed = (
         _controller(manager, controller.name, "active")
         for manager in cell.managers
-        for controller in _active(manager, target)
-        if _claims(cell, controller, ())
+        for controller in started_active(manager, target)
+        if is_claiming(cell, controller, ())
     )
     adapted = tuple(adapter.action for adapter in cell.adapters)
     asked = (
@@ -318,7 +267,7 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
 def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
     """Yield the proofs that one cell answers, and on the mock that it is the mock.
 
-    The mock and the real cell have the same names and domain, so that one of them that nobody ended hears every request
+    The mock and the real cell have the same names and domain, so that one that was not ended hears every request
     of the other: what is asked, and what describes the robot, is there once.
     """
     describing = tuple(description_nodes(cell))
@@ -326,7 +275,7 @@ def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
     if nodes := tuple(dict.fromkeys((*describing, *asked))):
         yield AloneProof(kind="alone", nodes=nodes)
     if target == "mock":
-        hardware = (device.hardware for device in cell.devices if _on(device, "mock"))
+        hardware = (device.hardware for device in cell.devices if is_on(device, "mock"))
         plugins = tuple(sorted({item.plugins["mock"] for item in hardware if item is not None}))
         yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in describing)
 
@@ -345,39 +294,10 @@ def _step(
     )
 
 
-def _active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
-    return (controller for controller in manager.controllers if controller.active and target in controller.targets)
-
-
-def _claims(cell: Cell, controller: Controller, later: tuple[Device, ...]) -> bool:
-    """Whether a controller is activated with those that command joints, not before them.
-
-    One that answers services is wanted before anybody claims: it says what mode the robot is in. It waits where its
-    hardware starts later, or where it claims a joint itself, whatever its kind is called.
-    """
-    joints = {joint.name for device in cell.devices for joint in device.joints}
-    served_early = controller.behaviour in PASSIVE and controller.device not in {device.name for device in later}
-    moves = any(interface.rpartition("/")[0] in joints for interface in controller.command_interfaces)
-    return bool(controller.command_interfaces) and (moves or not served_early)
-
-
-def _components(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Device]:
-    return (device for device in map(cell.device, manager.devices) if _on(device, target))
-
-
-def _on(device: Device, target: str) -> bool:
-    return device.hardware is not None and target in device.hardware.targets
-
-
-def _activated_later(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
-    """Return what does not start active: its activation moves something, or must be one call, or the spec says so."""
-    return tuple(component for component in _components(cell, manager, target) if component.comes_up != "active")
-
-
 def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device, TopicProof]]:
     """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
     telling = manager.by_kind()
-    for device in _components(cell, manager, "real"):
+    for device in components_of(cell, manager, "real"):
         for told in () if device.hardware is None else device.hardware.heard_before_a_claim:
             for controller in telling.get((told.controller_kind, device.name), ()):
                 topic = f"{controller.full_name}/{told.topic}"
@@ -411,7 +331,7 @@ def watches(cell: Cell) -> Iterator[Watch]:
             claiming = tuple(
                 owner.name
                 for owner in manager.controllers
-                if _claims(cell, owner, ())
+                if is_claiming(cell, owner, ())
                 if own & set(owner.joints) or (owner.behaviour is Behaviour.OWN_MOTION and owner.device == device.name)
             )
             yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
@@ -435,7 +355,7 @@ def _lifecycle(node: Node, state: ManagedState) -> LifecycleProof:
 
 
 def _transforms(cell: Cell, target: Target, parent: str, child: str) -> Iterator[TransformProof]:
-    """Yield the proof of a transform; on the mock none over joints behind an adapter, whose states nobody says."""
+    """Yield the proof of a transform; on the mock not over joints behind an adapter, without states."""
     if target == "real" or not crosses_an_adapter(cell, parent, child):
         yield TransformProof(kind="transform", parent=parent, child=child)
 
@@ -450,30 +370,3 @@ def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof
 
 def _managed_nodes(cell: Cell) -> Iterator[LifecycleProof]:
     return (_lifecycle(node, "active") for node in cell.nodes if node.lifecycle and not asks_for_motion(cell, node))
-
-
-@dataclass(frozen=True, slots=True)
-class Spawning:
-    """What one spawner loads and configures; alternates too.
-
-    Args:
-        controllers: all that the spawner is given.
-        only: the one target on which they are spawned; None for every target. On the others their hardware is no
-            component, or lacks what they need, and a spawner would fail.
-    """
-
-    controllers: tuple[str, ...]
-    only: str | None
-
-
-def spawnings(manager: ControllerManager) -> Iterator[Spawning]:
-    """Yield what the spawners of a manager are given, in order; the first failure in a list stops the rest of it."""
-    for only in (None, *TARGETS):
-        controllers = tuple(controller.name for controller in manager.controllers if _only_target(controller) == only)
-        if controllers:
-            yield Spawning(controllers, only)
-
-
-def _only_target(controller: Controller) -> str | None:
-    """Return the one target on which a controller is spawned, or None for one that is spawned on every target."""
-    return controller.targets[0] if len(controller.targets) == 1 else None

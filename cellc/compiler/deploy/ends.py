@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
-from cellc.compiler.deploy.bringup import silent_until_activation, watches
+from cellc.compiler.deploy.bringup import watches
+from cellc.compiler.deploy.readiness import silent_until_activation
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import CLAIM_WATCH
 
@@ -34,7 +35,7 @@ def silent(graph: CellGraph) -> frozenset[str]:
 
 
 def is_late(graph: CellGraph, interface: Interface) -> bool:
-    """Whether nobody publishes or serves an interface before a person has activated hardware."""
+    """Whether no node publishes or serves an interface before a person has activated hardware."""
     late = graph.once(silent)
     return bool(interface.sources) and all(end.full_name in late for end in interface.sources)
 

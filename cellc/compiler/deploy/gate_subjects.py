@@ -10,7 +10,6 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface, InterfaceKind
 from cellc.compiler.cell.site import UNKNOWN
-from cellc.compiler.deploy.bringup import is_shown_late
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.ends import ends_on_real, is_late, silent
 from cellc.compiler.deploy.files import is_servo
@@ -29,6 +28,7 @@ from cellc.compiler.deploy.gate_motion import (
     unguarded,
 )
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
+from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_mock, start_real
 from cellc.compiler.deploy.versions import installed_parts

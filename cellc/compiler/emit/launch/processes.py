@@ -13,7 +13,6 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.interface import Node, NodeSource
 from cellc.compiler.cell.robot import HostProgram
-from cellc.compiler.deploy.bringup import spawnings
 from cellc.compiler.deploy.files import (
     QOS_OVERRIDES,
     REQUIRED_PROGRAM,
@@ -29,6 +28,7 @@ from cellc.compiler.deploy.files import (
     servo_files,
 )
 from cellc.compiler.deploy.labels import TF_RATE_HZ
+from cellc.compiler.deploy.spawning import spawnings
 from cellc.compiler.formats.escape import launch_text, launch_words
 from cellc.compiler.formats.numbers import decimal
 from cellc.compiler.formats.parameter_file import qos_parameters

@@ -16,9 +16,9 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.interface import NodeSource
-from cellc.compiler.deploy.bringup import spawnings
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.first_goal import NODE, first_goal
+from cellc.compiler.deploy.spawning import spawnings
 from cellc.compiler.emit.security.rights import (
     Profile,
     bring_up_process,
