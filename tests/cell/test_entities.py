@@ -119,3 +119,11 @@ def test_linking_fills_every_section_that_some_spec_states() -> None:
         cell = linked(path)
         unfilled = {name for name in unfilled if getattr(cell, name) == getattr(empty, name)}
     assert unfilled == set()
+
+
+def test_joint_of_a_device_is_the_one_of_that_name() -> None:
+    arm = linked(COMPLETE).device("arm")
+    assert [arm.joint(joint.name) for joint in arm.joints] == list(arm.joints)
+    assert {joint.name for joint in arm.actuated_joints} >= {"arm_joint_1", "arm_joint_6"}
+    with pytest.raises(KeyError):
+        arm.joint("joint_1")

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from cellc.compiler.formats.markdown_table import table
-from tests.cells import spec_text
+from tests.cells import CORPUS, graph_of, spec_text
 from tests.cli.run import MINIMAL, PICK, run
-from tests.emit.cells import CELLS, artifacts_of, contract_data, emitted
+from tests.emit.cells import CELLS, artifacts_of, contract_data, emitted, emitted_graph
+from tests.foreign_yaml import safe_load
 
 
 def section(text: str, title: str) -> list[list[str]]:
@@ -134,3 +135,13 @@ def test_audit_says_where_the_planner_knows_nothing_around_the_devices(tmp_path:
     told = "`scene` is empty, so paths are planned through table and fence"
     assert told in emitted(tmp_path, text.replace(scene, ""))["audit.md"]
     assert told not in artifacts_of("ur5e_pick")["audit.md"]
+
+
+AUDIT: dict[str, list[list[str]]] = safe_load((Path(__file__).parent / "audit.yaml").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("title", AUDIT)
+def test_section_says_what_the_spec_means(title: str) -> None:
+    text = emitted_graph(graph_of(CORPUS / "valid" / "complete.yaml"))["audit.md"]
+    assert section(text, title) == AUDIT[title]
+    assert ("None." in text.split(f"\n## {title}\n")[1].split("\n## ")[0]) is (AUDIT[title] == [])

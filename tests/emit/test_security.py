@@ -130,3 +130,14 @@ def test_hardware_has_no_node_on_humble() -> None:
     nodes = {profile.get("node") for profile in _policy("ur5e_pick", "humble").iter("profile")}
     assert "arm_hardware" not in nodes
     assert "controller_manager" in nodes
+
+
+def test_rviz_asks_for_the_planning_scene_of_a_cell_that_plans() -> None:
+    """rviz_default_plugins shows the robot; moveit_rviz_plugin's PlanningScene asks move_group for the whole scene."""
+    for cell, plans in (("ur5e_pick", True), ("minimal", False)):
+        profiles = [each for each in _policy(cell).iter("profile") if each.attrib["node"] == "rviz"]
+        assert len(profiles) == 2  # of the operator and of commissioning
+        for profile in profiles:
+            assert "/robot_description" in _named(profile, "topics", "subscribe")
+            assert ("/monitored_planning_scene" in _named(profile, "topics", "subscribe")) is plans
+            assert ("/get_planning_scene" in _named(profile, "services", "request")) is plans

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cellc.compiler.cell.control import Controller, ControllerManager, ControllerSwitch
-from cellc.compiler.graph.claims import ClaimGraph, can_switch, explore
+from cellc.compiler.graph.claims import ClaimGraph, WrittenParameter, can_switch, explore
 from cellc.contract.diagnostics import Span
 from cellc.contract.vocabulary import Behaviour
 
@@ -79,3 +79,10 @@ def test_strict_switch_is_refused_as_the_controller_manager_does() -> None:
     assert not can_switch(frozenset({"a"}), switch("x", (), ("b",)))
     assert not can_switch(frozenset({"a"}), switch("x", ("a",)))
     assert can_switch(frozenset({"a"}), switch("x", ("a",), ("a",)))
+
+
+def test_items_of_a_parameter_are_those_of_its_list_or_itself() -> None:
+    of_list = WrittenParameter(controller("a"), "joints", ("left", "right"), ("parameters", "joints"))
+    assert list(of_list.items()) == [(("parameters", "joints", 0), "left"), (("parameters", "joints", 1), "right")]
+    of_text = WrittenParameter(controller("a"), "joint", "left", ("parameters", "joint"))
+    assert list(of_text.items()) == [(("parameters", "joint"), "left")]
