@@ -55,21 +55,24 @@ _STATED = {
     "simulated_joints",
     "limit_shares",
 }
-# Resolved field → key that the user writes, where dropping the unit's suffix does not give it.
+# Resolved field → keys of which the user writes one, where dropping the unit's suffix does not give it.
 _KEYS = {
-    "transform_to_parent": "xyz",
-    "transform_root_to_parent": "mount",
-    "parent_frame": "mount",
-    "transform_tip_to_frame": "xyz",
-    "base_link": "base",
-    "tip_frame": "tip",
-    "authority": "published_by",
-    "size": "box",
-    "package": "run",
-    "executable": "run",
-    "kind": "type",
-    "velocity": "limits",
-    "acceleration": "limits",
+    "transform_to_parent": ("xyz",),
+    "transform_root_to_parent": ("mount",),
+    "parent_frame": ("mount",),
+    "transform_tip_to_frame": ("xyz",),
+    "base_link": ("base",),
+    "tip_frame": ("tip",),
+    "authority": ("published_by",),
+    "size": ("box",),
+    "package": ("run",),
+    "executable": ("run",),
+    "kind": ("type", "topic", "service", "action"),
+    "type": ("topic", "service", "action"),
+    "sources": ("from", "server"),
+    "sinks": ("to", "client"),
+    "velocity": ("limits",),
+    "acceleration": ("limits",),
 }
 _FROM_CATALOG = {
     Device: {"root_link", "frames", "joints", "hardware", "tool_frame"},
@@ -210,7 +213,8 @@ def _written(cell: Cell, path: YamlPath) -> str:
 
 
 def _origin(cell: Cell, entity: Entity, field: str) -> str:
-    key = _KEYS.get(field) or _key(field)
+    keys = _KEYS.get(field) or (_key(field),)
+    key = next((key for key in keys if cell.states(*entity.path, key)), keys[0])
     path = (*entity.path, key)
     catalog = f"catalog {_catalog_entry(cell, entity)}"
     if isinstance(entity, DeviceJoint):
@@ -221,6 +225,8 @@ def _origin(cell: Cell, entity: Entity, field: str) -> str:
         return f"{_written(cell, entity.path)} with {catalog}"
     if cell.states(*path):
         return _written(cell, path)
+    if isinstance(entity, Frame) and entity.device is None and field in _FROM_CATALOG[Frame]:
+        return _written(cell, entity.path)  # a frame of the spec is what its entry makes it
     known = next((names for kind, names in _FROM_CATALOG.items() if isinstance(entity, kind)), set[str]())
     derived = field in known or getattr(entity, "derived", False)
     return catalog if derived else "default"
