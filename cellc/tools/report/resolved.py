@@ -274,7 +274,7 @@ def _step(tree: Tree, name: str, part: str) -> Iterator[tuple[Tree, str]]:
         yield tree, name
         return
     for key, value in tree.items():
-        if part in (key, _key(key), _KEYS.get(key), key.partition(".")[0]):
+        if part in (key, _key(key), *_KEYS.get(key, ()), key.partition(".")[0]):
             yield value, f"{name}.{key}" if name else key
 
 
