@@ -249,3 +249,12 @@ def test_cancelled_goal_has_its_latency_among_the_figures(written: Written) -> N
     by_hand = (cancels[0].held_ns - cancels[0].requested_ns) / 1e9
     assert figures["cancel_s"]["value"] == by_hand
     assert figures["cancel_s"]["met"] == (by_hand <= 0.2)
+
+
+@pytest.mark.parametrize("name", ["pick_and_place", "cancelled"])
+def test_undisturbed_runs_have_no_owner_that_the_contract_does_not_state(written: Written, name: str) -> None:
+    content = json.loads((written.folder / f"{name}.kpis.json").read_text(encoding="utf-8"))
+    figures = {figure["name"]: figure for figure in content["kpis"]}
+    of_owners = figures["wrong_owner_events"]
+    assert (of_owners["value"], of_owners["met"]) == (0, True)
+    assert (figures["missed_cycles"]["value"], figures["protective_stops"]["value"]) == (0, 0)

@@ -7,7 +7,8 @@ from functools import partial
 
 import pytest
 
-from cellc.contract.vocabulary import AttemptOutcome
+from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock import MockCell
 from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder
@@ -157,3 +158,22 @@ def test_signature_changes_with_any_evidence(pick: MockCell, rehearsed: Runs) ->
     assert gate("G2", pick.folder, rehearsed[:-1]).signature != signed
     reseeded = next(each for each in sign_gates(pick.folder, rehearsed, 1) if each.gate == "G2")
     assert reseeded.signature != signed
+
+
+_ACTIONS = ("/arm_trajectory/follow_joint_trajectory", "/gripper_action/gripper_cmd", "/move_action")
+
+
+@pytest.mark.parametrize(
+    ("target", "shown"),
+    [("arm_trajectory", _ACTIONS[:1]), ("gripper_action", _ACTIONS[1:2]), ("move_group", _ACTIONS[2:]), ("camera", ())],
+)
+def test_missing_responder_is_shown_by_a_fault_of_its_server(
+    target: str, shown: tuple[str, ...], pick: MockCell, rehearsed: Runs
+) -> None:
+    good = run(rehearsed, "pick_and_place")
+    fault = FaultEntry(kind=FaultKind.UNRESPONSIVE, target=target, at_s=0.0, event=None, phase=None)
+    ended = replace(good.result, outcome=AttemptOutcome.GOAL_REJECTION)
+    runs = (replace(good, entry=good.entry.model_copy(update={"faults": (fault,)}), result=ended),)
+    of = {name: line(gate("S2", pick.folder, runs), f"{name} (action): a missing responder") for name in _ACTIONS}
+    assert {name for name, check in of.items() if check.verdict is PASSED} == set(shown)
+    assert {check.verdict for check in of.values()} <= {PASSED, UNKNOWN}

@@ -128,3 +128,13 @@ def test_page_of_no_rehearsal_is_no_success(cell: MockCell, tmp_path: Path) -> N
     write_evidence(empty, tmp_path / "out")
     words = " ".join(Page((tmp_path / "out" / "report.html").read_text(encoding="utf-8")).words.split())
     assert "✗ FAILED 0 of 0 rehearsals ended as expected" in words
+
+
+def test_parts_of_the_tuple_that_are_unknown_come_first_and_are_marked(cell: MockCell, text: str) -> None:
+    """The spec of the cell pins all but the serials and two of the gripper's parts."""
+    rows = re.findall(r"<dt>([^<]+)</dt><dd class=\"(unknown|plain)\">([^<]*)</dd>", text)
+    assert {name: version for name, _, version in rows} == dict(cell.contract.version_tuple)
+    assert all((style == "unknown") is (version == "UNKNOWN") for _, style, version in rows)
+    styles = [style for _, style, _ in rows]
+    assert styles == sorted(styles, reverse=True)
+    assert {"unknown", "plain"} == set(styles)
