@@ -61,6 +61,8 @@ def test_value_with_its_unit(value: Leaf, unit: str, text: str) -> None:
         (0.0, 0.2, "s", "+200 ms"),
         (3.0, 4.0, "", "+33.3 %"),
         (1, 2, "", ""),
+        (1, 2.5, "kg", "+150 %"),
+        (2.5, 2, "kg", "-20 %"),
         (True, 2.0, "", ""),
         (1.0, "word", "", ""),
         (None, 1.0, "m", ""),

@@ -282,3 +282,12 @@ def test_a_browser_draws_the_page_without_a_word_on_its_console(written: Path) -
     assert "pick_and_place" in drawn.text
     assert "fixture_A" in drawn.text
     assert "arm gripper camera all drawn as visual shapes" in drawn.text
+
+
+def test_the_page_leads_to_each_of_its_sections(page: Page, of_folder: Content) -> None:
+    for shown in (page, Page(to_html(of_folder, three_js()))):
+        links = [attributes["href"] for tag, attributes in shown.elements if tag == "a"]
+        sections = [f"#{attributes['id']}" for tag, attributes in shown.elements if tag == "section"]
+        assert set(links) <= set(sections)
+        assert {"#rehearsals", "#interfaces", "#graph", "#gates"} <= set(links)
+        assert ("#findings" in links) is (shown is page)
