@@ -136,6 +136,13 @@ def test_device_of_the_user_with_a_wrong_value_is_reported_on_its_line(tmp_path:
     assert "30 mm" in lines[found.span.line - 1]
 
 
+@pytest.mark.parametrize("text", ["", "# nothing\n", "\n\n"])
+def test_device_of_the_user_that_holds_no_data_is_reported_at_its_first_line(tmp_path: Path, text: str) -> None:
+    (tmp_path / "device.yaml").write_text(text, encoding="utf-8")
+    (found,) = load_device_folder(tmp_path, tmp_path).diagnostics
+    assert (found.code, found.span.line, found.span.column) == ("empty-file", 1, 1)
+
+
 def test_device_of_the_user_with_a_frame_that_its_description_lacks_is_reported(tmp_path: Path) -> None:
     facts = (
         "format: 1\nmodel: box\nvendor: own\nsummary: a box\nkind: camera\nas_of: 2026-07-01\nsources: [own]\n"

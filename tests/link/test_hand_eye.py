@@ -101,9 +101,10 @@ def cell(folder: Path, file: str, text: str, mount: str = "calibration", more: s
         ("camera_pose.launch.py", LAUNCH),
         ("matrix.json", MATRIX),
         ("wxyz.yaml", PLAIN),
+        ("rounded.json", MATRIX.replace("[0, 0, 1, 0.05]", "[0, 0, 1.0009, 0.05]")),  # squared, 1.0018
         ("backwards.json", BACKWARDS),
     ],
-    ids=["easy_handeye2", "moveit", "matrix", "quaternion", "names the other way round"],
+    ids=["easy_handeye2", "moveit", "matrix", "quaternion", "rounded", "names the other way round"],
 )
 def test_a_camera_stands_where_the_tool_has_measured_it(file: str, text: str, tmp_path: Path) -> None:
     found = cell(tmp_path, file, text)
@@ -134,6 +135,7 @@ def test_a_camera_stands_where_the_tool_has_measured_it(file: str, text: str, tm
         (LAUNCH.replace('"--frame-id"', '"--frame"'), "", "invalid", "`--frame-id`"),
         (PLAIN.replace("wxyz", "quaternion"), "", "invalid", "whether w is first or last"),
         (MATRIX.replace("[0, 0, 1, 0.05]", "[0, 0, -1, 0.05]"), "", "invalid", "right-handed"),
+        (MATRIX.replace("[0, 0, 1, 0.05]", "[0, 0, 1.00125, 0.05]"), "", "invalid", "right-handed"),  # squared, 1.0025
         (MATRIX.replace("[0, 0, 0, 1]]", "[0.01, 0, 0, 1]]"), "", "invalid", "last row"),
         (MATRIX.replace(f"{NAMES}, ", ""), "", "other-frames", "names no frames"),
         (MATRIX.replace("arm_tool0", "arm_wrist_2_link"), "", "other-frames", "must be rigid"),

@@ -20,7 +20,7 @@ from cellc.robot.planning import (
     RobotModel,
 )
 
-from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_tool_to_base
+from .arm import ADJACENT, GROUP, HOME, JOINTS, LIMITS, arm_urdf, dh_singular_values, dh_tool_to_base
 
 DOWN = (math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0)
 LEFT = Pose((-0.45, -0.35, 0.25), DOWN)
@@ -175,3 +175,10 @@ def test_targets_are_in_the_frame_of_the_base_link(scene: CollisionScene) -> Non
     seen = Planner(scene.model, wrist, LIMITS, scene).tip_pose(HOME).position
     expected = dh_tool_to_base(np.array(HOME))[:3, 3] + (0.3, 0.0, 0.02)
     np.testing.assert_allclose(seen, expected, atol=1e-12)
+
+
+def test_distance_from_a_singularity_is_the_least_singular_value(planner: Planner) -> None:
+    for configuration in (HOME, (0.3, -1.2, 0.4, -1.0, -1.2, 0.4)):
+        values = dh_singular_values(np.array(configuration))
+        assert planner.min_singular_value(configuration) == pytest.approx(values[-1], abs=1e-6)
+    assert planner.min_singular_value((0.3, -1.2, 0.0, -1.0, -1.2, 0.4)) == pytest.approx(0.0, abs=1e-6)  # stretched
