@@ -307,9 +307,11 @@ def judged(mutant: Mutant, tree: Path, reached: Reached) -> dict[str, str]:
     file.write_bytes(mutant.applied((ROOT / mutant.file).read_bytes()))
     _mark_as_new(file)
     try:
-        for some in (tests[:_FEW], tests[_FEW:]):
-            if some:
-                end, by = _run(some, mutant, tree, reached)
+        at_import = _at_import(mutant, reached)
+        # What a test calls may be called by an import, too, as what makes a function a rule: loaded anew at the end.
+        for some, anew in ((tests[:_FEW], at_import), (tests[_FEW:], at_import), (tests[:_FEW], not at_import)):
+            if some and (anew or not at_import):
+                end, by = _run(some, mutant, tree, reached, anew=anew)
                 if end != "survived":
                     return {"end": end, "by": by}
         return {"end": "survived", "by": f"{len(tests)} tests"}
@@ -317,15 +319,19 @@ def judged(mutant: Mutant, tree: Path, reached: Reached) -> dict[str, str]:
         shutil.copy2(ROOT / mutant.file, file)
 
 
-def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached) -> tuple[str, str]:
-    """Run tests in this order up to the first that fails; return how that ended, and which noticed it."""
+def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached, *, anew: bool) -> tuple[str, str]:
+    """Run tests in this order up to the first that fails; return how that ended, and which noticed it.
+
+    Args:
+        anew: load all of cellc with the mutant, instead of changing one function of what is loaded.
+    """
     told = tree.parent / "failed.txt"
     told.write_text("", encoding="utf-8")
     files = sorted({test.partition("::")[0] for test in tests})
     plugin = Chosen({test: at for at, test in enumerate(tests)}, told)
 
     def work() -> int:
-        if not _at_import(mutant, reached):
+        if not anew:
             source = (ROOT / mutant.file).read_bytes()
             swap(tree / mutant.file, source, mutant.applied(source))
         else:
