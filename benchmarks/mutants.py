@@ -308,10 +308,10 @@ def judged(mutant: Mutant, tree: Path, reached: Reached) -> dict[str, str]:
     _mark_as_new(file)
     try:
         at_import = _at_import(mutant, reached)
-        # What a test calls may be called by an import, too, as what makes a function a rule: loaded anew at the end.
-        for some, anew in ((tests[:_FEW], at_import), (tests[_FEW:], at_import), (tests[:_FEW], not at_import)):
-            if some and (anew or not at_import):
-                end, by = _run(some, mutant, tree, reached, anew=anew)
+        # What a test calls may be called by an import, too, as what makes a function a rule: loaded again at the end.
+        for some, reloaded in ((tests[:_FEW], at_import), (tests[_FEW:], at_import), (tests[:_FEW], not at_import)):
+            if some and (reloaded or not at_import):
+                end, by = _run(some, mutant, tree, reached, reloaded=reloaded)
                 if end != "survived":
                     return {"end": end, "by": by}
         return {"end": "survived", "by": f"{len(tests)} tests"}
@@ -319,11 +319,11 @@ def judged(mutant: Mutant, tree: Path, reached: Reached) -> dict[str, str]:
         shutil.copy2(ROOT / mutant.file, file)
 
 
-def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached, *, anew: bool) -> tuple[str, str]:
+def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached, *, reloaded: bool) -> tuple[str, str]:
     """Run tests in this order up to the first that fails; return how that ended, and which noticed it.
 
     Args:
-        anew: load all of cellc with the mutant, instead of changing one function of what is loaded.
+        reloaded: load all of cellc again with the mutant, instead of changing one function of what is loaded.
     """
     told = tree.parent / "failed.txt"
     told.write_text("", encoding="utf-8")
@@ -331,7 +331,7 @@ def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached, *, anew
     plugin = Chosen({test: at for at, test in enumerate(tests)}, told)
 
     def work() -> int:
-        if not anew:
+        if not reloaded:
             source = (ROOT / mutant.file).read_bytes()
             swap(tree / mutant.file, source, mutant.applied(source))
         else:
