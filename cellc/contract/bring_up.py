@@ -156,6 +156,7 @@ class BringUpStep(ContractModel):
     name: str = Field(description="Name of the step.")
     phase: BringUpPhase = Field(description="Phase that a person or the launch file releases.")
     host: str = Field(description="Computer that takes it; empty where the cell names none.")
+    release: str = Field("", description="Device that a person releases by it, alone; empty where its phase has one.")
     proof: tuple[Proof, ...] = Field(description="What must show before it.")
     request: Request | None = Field(None, description="What is asked for; null where only the proof counts.")
     effect: tuple[Proof, ...] = Field((), description="What must show after it; checked when the proof holds, too.")

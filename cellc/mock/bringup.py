@@ -47,7 +47,7 @@ def activate(
     """Activate those of some controllers that are not active, one by one; return the problems, in the manager's words.
 
     Args:
-        again: they are active, and are deactivated by the same request, to read interfaces that are new.
+        again: those that are active are deactivated by the same request, to read interfaces that are new.
     """
     manager = plant.control.managers[manager_name]
     problems: list[str] = []
@@ -56,7 +56,8 @@ def activate(
         if before.get(controller) == "active" and not again:
             continue
         mark = LogMark(manager)
-        response = manager.switch_controllers([controller], [controller] if again else [])
+        was_active = before.get(controller) == "active"
+        response = manager.switch_controllers([controller], [controller] if was_active else [])
         until_ns = plant.now_ns + _SETTLE_CYCLES * manager.period_ns
         while plant.now_ns < until_ns:
             yield Wait(until_ns)

@@ -15,6 +15,7 @@ from xml.etree.ElementTree import fromstring
 
 import pytest
 
+from tests.cells import built
 from tests.consumers.matrix import Build, build, every_build
 from tests.consumers.stand_in_graph import StandIn, messages_of, program
 from tests.consumers.starting import (
@@ -94,7 +95,10 @@ def test_real_target_is_claimed_by_a_person_alone(cell: str, distro: str) -> Non
     if claims:
         (argument,) = fromstring(texts["launch/claim.launch.xml"]).findall("arg")
         assert "default" not in argument.attrib
-        assert len(argument.findall("choice")) == 1
+        released = {step["release"] for step in claims}
+        words = [choice.attrib["value"] for choice in argument.findall("choice")]
+        named = {word.partition("_FOR_")[2] for word in words}
+        assert (len(words), named) == (len(released), released if len(released) > 1 else {""})
 
 
 @every_build
@@ -226,15 +230,15 @@ def graph() -> StandIn:
     return started()
 
 
-def run(graph: StandIn, tmp_path: Path, *words: str, wait_s: float = 20.0) -> int:
-    """Run the program of the pick cell on a graph, with its own plan."""
+def run(graph: StandIn, tmp_path: Path, *words: str, wait_s: float = 20.0, steps: str = "") -> int:
+    """Run the program of the pick cell on a graph, with its own plan or that of another cell."""
     module = graph.module
     module.Graph = lambda name, enclave: graph
     module.LOOK_S = 0.0
     module.ANSWER_S = 0.0
     module.PATIENCE_S = wait_s
     file = tmp_path / "bring_up.json"
-    file.write_text(json.dumps(plan("ur5e_pick", "jazzy")))
+    file.write_text(steps or json.dumps(plan("ur5e_pick", "jazzy")))
     ended = module.main(["--plan", str(file), *words])
     assert isinstance(ended, int)
     return ended
@@ -285,6 +289,28 @@ def test_hardware_that_moves_as_it_is_activated_waits_for_a_person(graph: StandI
     assert run(graph, tmp_path, "--target", "real", "activate", wait_s=0.05) == 1  # a program plays
     activated_by_people(graph, tmp_path)
     assert run(graph, tmp_path, "--target", "real", "claim") == 0
+
+
+def test_release_of_one_arm_activates_that_arm_alone_in_any_order(tmp_path: Path) -> None:
+    """Nothing can be read before the first arm is active; then what reads states is restarted to read the other."""
+    steps = built("openarm_bimanual").texts["config/bring_up.json"]
+    graph = started()
+    graph.nodes_ = {"/robot_state_publisher": "", "/controller_manager": ""}
+    controllers = ("joint_states", "left_trajectory", "right_trajectory", "left_gripper", "right_gripper")
+    graph.controllers = dict.fromkeys(controllers, "inactive")
+    graph.hardware = {f"openarm_{side}_hardware_interface": "unconfigured" for side in ("left", "right")}
+    graph.frames = {f"openarm_{side}_{name}" for side in ("left", "right") for name in ("base_link", "grasp")}
+    assert run(graph, tmp_path, "--target", "real", "start", steps=steps) == 0
+    assert set(graph.controllers.values()) == {"inactive"}
+    for side, restarted in (("right", []), ("left", ["deactivate joint_states"])):
+        graph.log.clear()
+        assert run(graph, tmp_path, "--target", "real", "--release", side, "activate", steps=steps) == 0
+        activated = f"activate openarm_{side}_hardware_interface"
+        assert graph.log == [activated, *restarted, "activate joint_states", "leave"]
+    for side in ("left", "right"):
+        graph.log.clear()
+        assert run(graph, tmp_path, "--target", "real", "--release", side, "claim", steps=steps) == 0
+        assert graph.log == [f"activate {side}_trajectory", f"activate {side}_gripper", "leave"]
 
 
 def test_ur_is_claimed_while_its_program_runs_and_loses_the_claim_when_it_stops(

@@ -120,25 +120,28 @@ def test_each_controller_finds_its_interfaces(cell: str, distro: str, target: st
     assert list(_refused(_files(cell, distro), target)) == []
 
 
-@pytest.mark.parametrize("cell", ["openarm_bimanual", "hybrid_sdk"])
-def test_what_reads_hardware_that_a_person_activates_is_activated_after_it(cell: str) -> None:
+@pytest.mark.parametrize(("cell", "devices"), [("openarm_bimanual", ("left", "right")), ("hybrid_sdk", ("gripper",))])
+def test_what_reads_hardware_that_a_person_activates_is_activated_after_it(cell: str, devices: tuple[str, ...]) -> None:
     plan = json.loads(_files(cell, "")["config/bring_up.json"])
     for target in ("mock", "real"):
-        names = [step["name"] for step in plan[target]]
-        activated = [at for at, name in enumerate(names) if name.startswith("activate_")]
-        assert names.index("observe_control_activated") > max(activated)
-        first = next(step for step in plan[target] if step["name"] == "observe_control")
-        assert (first.get("request"), first.get("effect", [])) == (None, [])
+        steps = {step["name"]: step for step in plan[target]}
+        activating = [name for name, step in steps.items() if step["phase"] == "activate"]
+        assert activating == [f"{verb}" for device in devices for verb in _steps_of(device)]
+        assert (steps["observe_control"].get("request"), steps["observe_control"].get("effect", [])) == (None, [])
+
+
+def _steps_of(device: str) -> tuple[str, str]:
+    return f"activate_{device}", f"observe_{device}_again"
 
 
 def test_plan_that_reads_nothing_yet_is_told() -> None:
     files = dict(_files("openarm_bimanual", ""))
     plan = json.loads(files["config/bring_up.json"])
-    observed = next(step for step in plan["real"] if step["name"] == "observe_control_activated")
+    observed = next(step for step in plan["real"] if step["name"] == "observe_left_again")
     plan["real"].remove(observed)
     plan["real"].insert(0, observed)
     files["config/bring_up.json"] = json.dumps(plan)
-    assert list(_refused(files, "real")) == ["observe_control_activated: joint_states needs any interface"]
+    assert list(_refused(files, "real")) == ["observe_left_again: joint_states needs any interface"]
 
 
 def test_node_that_needs_a_transform_over_joints_waits_for_their_hardware(tmp_path: Path) -> None:
@@ -153,7 +156,7 @@ def test_node_that_needs_a_transform_over_joints_waits_for_their_hardware(tmp_pa
             step["name"]: step["phase"] for step in json.loads(_files("ur5e_pick", "")["config/bring_up.json"])[target]
         }
         assert (own["activate_perception"], phases["activate_perception"]) == ("start", "activate")
-        assert list(phases).index("activate_perception") > list(phases).index("observe_control_activated")
+        assert list(phases).index("activate_perception") > list(phases).index("observe_arm_again")
         assert list(_refused(files, target)) == []
     checklist = files["gates/promotion.md"]
     idle, enabled = (checklist.split(f"\n## {gate} ")[1].split("\n## ")[0] for gate in ("G4", "G5"))

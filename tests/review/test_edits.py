@@ -235,7 +235,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             f"lost lifecycle /perception active, {ALONE}, /perception; "
             f"new action /arm_trajectory/follow_joint_trajectory, {ALONE}",
             f"dangerous start order | observe_control | precondition | 9 entries -> 9 entries | {LESS_ALONE}",
-            f"dangerous start order | observe_control_again | precondition | {ALONE}, /perception, "
+            f"dangerous start order | observe_gripper_again | precondition | {ALONE}, /perception, "
             f"{STATES} -> {ALONE}, {STATES} | {LESS_ALONE}",
             "review control | /arm_trajectory/follow_joint_trajectory move_group | client removed | present -> None",
             "review control | /watcher | node added | None -> cell_tasks",

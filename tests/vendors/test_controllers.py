@@ -221,5 +221,5 @@ def test_errors_of_joints_without_an_end_count_the_shorter_way_round(case: Case)
 def test_what_reads_the_arm_alone_goes_on_while_the_gripper_is_activated(case: Case) -> None:
     # A broadcaster that is restarted leaves a hole in the record of the arm; joint states are those of both devices.
     steps = {step["name"]: step for step in real_target(case).yaml("config/bring_up.json")["real"]}
-    assert steps["observe_control_again"]["request"]["controllers"] == ["joint_states"]
+    assert steps["observe_gripper_again"]["request"]["controllers"] == ["joint_states"]
     assert "arm_speed" in steps["observe_control"]["request"]["controllers"]

@@ -21,13 +21,14 @@ from cellc.compiler.deploy.readiness import (
     activated_later,
     components_of,
     components_read,
+    hardware_before,
     is_claiming,
     is_exported,
     is_on,
     measured_in,
+    moved_with,
     readers_of,
     started_active,
-    waits_for_hardware,
 )
 from cellc.compiler.deploy.versions import compared_on
 from cellc.compiler.graph.claims import crosses_an_adapter
@@ -86,6 +87,12 @@ def phases(plan: BringUp, target: Target, host: str | None = None) -> tuple[Brin
     return tuple(phase for phase in BringUpPhase if phase in found)
 
 
+def releases(plan: BringUp, phase: BringUpPhase) -> tuple[str, ...]:
+    """Return what a person releases in a phase of the real target, one after the other; one or none needs no name."""
+    named = tuple(dict.fromkeys(step.release for step in plan.real if step.phase is phase and step.release))
+    return named if len(named) > 1 else ()
+
+
 def activation(node: Node) -> str:
     """Return the command with which a person activates a managed node that asks for motion."""
     return f"ros2 lifecycle set {node.full_name} activate"
@@ -98,11 +105,13 @@ def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
     for manager in cell.managers:
         yield from _observe(cell, manager, target)
     activated = [node for node in managed if not asks_for_motion(cell, node)]
-    late = [node for node in activated if waits_for_hardware(cell, node, target)]
-    yield from (_activate(cell, node, target, BringUpPhase.START) for node in activated if node not in late)
+    late = {node.full_name: hardware_before(cell, node, target) for node in activated}
+    yield from (_activate(cell, node, target, BringUpPhase.START) for node in activated if not late[node.full_name])
     for manager in cell.managers:
         yield from _activate_hardware(cell, manager, target)
-    yield from (_activate(cell, node, target, BringUpPhase.ACTIVATE) for node in late)
+    for node in activated:
+        if devices := late[node.full_name]:
+            yield _activate(cell, node, target, BringUpPhase.ACTIVATE, devices[-1])
     for manager in cell.managers:
         yield from _claim(cell, manager, target)
     if motion_clients(cell):
@@ -133,7 +142,7 @@ def _configure(cell: Cell, node: Node, target: Target) -> BringUpStep:
     )
 
 
-def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase) -> BringUpStep:
+def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase, release: str = "") -> BringUpStep:
     return _step(
         phase,
         f"activate_{node.name}",
@@ -145,6 +154,7 @@ def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase) -> Br
         ],
         Transition(kind="transition", node=node.full_name, transition="activate"),
         [_lifecycle(node, "active")],
+        release,
     )
 
 
@@ -176,9 +186,8 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
 
 
 def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
-    """Yield what takes hardware to active that moves by it, and then reads it: what read the rest is restarted."""
-    devices = activated_later(cell, manager, target)
-    for device in devices:
+    """Yield what takes hardware to active that moves by it, one device a release, and then restarts what reads it."""
+    for device in activated_later(cell, manager, target):
         yield _step(
             BringUpPhase.ACTIVATE,
             f"activate_{device.name}",
@@ -186,55 +195,49 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             [*_mocked(cell, target), *(_silent(cell, device) if target == "real" else ())],
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
+            device.name,
         )
-    readers = [
-        reader
-        for reader in readers_of(cell, manager, target)
-        if any(device in devices for device in components_read(cell, manager, reader, target))
-    ]
-    restarted = tuple(reader.name for reader in readers if is_exported(cell, manager, reader, target))
-    first = tuple(reader.name for reader in readers if reader.name not in restarted)
-    if restarted:
-        yield _step(
-            BringUpPhase.ACTIVATE,
-            f"observe_{manager.name}_again",
-            manager.host,
-            [*_mocked(cell, target), *(_controller(manager, name, "active") for name in restarted)],
-            Restart(kind="restart", manager=manager.node, controllers=restarted),
-            [_controller(manager, name, "active") for name in restarted],
+        reading = tuple(
+            reader.name
+            for reader in readers_of(cell, manager, target)
+            if device in components_read(cell, manager, reader, target)
         )
-    if first:
-        yield _step(
-            BringUpPhase.ACTIVATE,
-            f"observe_{manager.name}_activated",
-            manager.host,
-            [*_mocked(cell, target), *(_controller(manager, name, "inactive") for name in first)],
-            Activation(kind="controllers", manager=manager.node, controllers=first),
-            [_controller(manager, name, "active") for name in first],
-        )
+        if reading:
+            yield _step(
+                BringUpPhase.ACTIVATE,
+                f"observe_{device.name}_again",
+                manager.host,
+                [*_mocked(cell, target), *(_controller(manager, name, "inactive") for name in reading)],
+                Restart(kind="restart", manager=manager.node, controllers=reading),
+                [_controller(manager, name, "active") for name in reading],
+                device.name,
+            )
 
 
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
+    """Yield the steps that give command interfaces their owners: one for each arm with what it carries."""
     later = activated_later(cell, manager, target)
-    claiming = tuple(
-        controller.name for controller in started_active(manager, target) if is_claiming(cell, controller, later)
-    )
-    if claiming:
+    claiming: dict[str, list[str]] = {}
+    for controller in started_active(manager, target):
+        if is_claiming(cell, controller, later):
+            claiming.setdefault(moved_with(cell, controller.device), []).append(controller.name)
+    for released, names in claiming.items():
         yield _step(
             BringUpPhase.CLAIM,
-            f"claim_{manager.name}",
+            f"claim_{manager.name}" if len(claiming) == 1 else f"claim_{manager.name}_of_{released}",
             manager.host,
             [
                 *_mocked(cell, target),
                 *(_hardware(manager, device, "active") for device in components_of(cell, manager, target)),
-                *(_controller(manager, name, "inactive") for name in claiming),
+                *(_controller(manager, name, "inactive") for name in names),
                 *_joint_states(cell, manager),
                 *(tf for group in cell.groups for tf in _transforms(cell, target, group.base_link, group.tip_frame)),
                 *_managed_nodes(cell),
                 *(_heard(cell, manager) if target == "real" else ()),
             ],
-            Activation(kind="controllers", manager=manager.node, controllers=claiming),
-            [_controller(manager, name, "active") for name in claiming],
+            Activation(kind="controllers", manager=manager.node, controllers=tuple(names)),
+            [_controller(manager, name, "active") for name in names],
+            released,
         )
 
 
@@ -281,9 +284,16 @@ def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
 
 
 def _step(
-    phase: BringUpPhase, name: str, host: str, proof: list[Proof], request: Request | None, effect: list[Proof]
+    phase: BringUpPhase,
+    name: str,
+    host: str,
+    proof: list[Proof],
+    request: Request | None,
+    effect: list[Proof],
+    release: str = "",
 ) -> BringUpStep:
     return BringUpStep(
+        release=release,
         name=name,
         phase=phase,
         host=host,

@@ -8,7 +8,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.site import FirstMotion
-from cellc.compiler.deploy.bringup import bring_up, phases
+from cellc.compiler.deploy.bringup import bring_up, phases, releases
 from cellc.compiler.deploy.first_goal import first_goal
 from cellc.compiler.deploy.processes import past_controllers
 from cellc.compiler.deploy.releases import GOAL, Release, release_once
@@ -73,9 +73,11 @@ def stop_reasons(graph: CellGraph) -> Iterator[Values]:
 
 
 def released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterator[Values]:
-    """Yield the one command of a release, where the real target has a step in its phase."""
-    if phase in phases(bring_up(graph.cell), "real"):
-        yield (release_once(graph.cell, release),)
+    """Yield the command of a release, where the real target has a step in its phase: one for each of its devices."""
+    plan = bring_up(graph.cell)
+    if phase in phases(plan, "real"):
+        for device in releases(plan, phase) or ("",):
+            yield f"{device}: " if device else "", release_once(graph.cell, release, device)
 
 
 def cancels(graph: CellGraph) -> Iterator[Values]:

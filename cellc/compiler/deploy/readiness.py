@@ -79,20 +79,24 @@ def measured_in(cell: Cell, node: Node) -> tuple[str, ...]:
     return tuple(dict.fromkeys(frame.parent for frame in published))
 
 
-def waits_for_hardware(cell: Cell, node: Node, target: Target) -> bool:
-    """Whether a transform that a node needs is shown only once a person has activated hardware."""
-    return any(is_shown_late(cell, WORLD, parent, target) for parent in measured_in(cell, node))
+def hardware_before(cell: Cell, node: Node, target: Target) -> tuple[str, ...]:
+    """Return the devices that a person activates before a transform that a node needs is shown."""
+    return tuple(
+        device
+        for device in _unconfigured(cell, target)
+        if any(crosses_a_joint(cell, WORLD, parent, {device}) for parent in measured_in(cell, node))
+    )
 
 
 def is_shown_late(cell: Cell, parent: str, child: str, target: Target = "real") -> bool:
     """Whether a transform goes over joints whose states show only once hardware has been activated."""
-    later = {
-        device.name
-        for manager in cell.managers
-        for device in components_of(cell, manager, target)
-        if device.comes_up == "unconfigured"
-    }
-    return crosses_a_joint(cell, parent, child, later)
+    return crosses_a_joint(cell, parent, child, _unconfigured(cell, target))
+
+
+def _unconfigured(cell: Cell, target: Target) -> tuple[str, ...]:
+    """Return the devices whose components come up without their interfaces."""
+    found = (device for manager in cell.managers for device in components_of(cell, manager, target))
+    return tuple(device.name for device in found if device.comes_up == "unconfigured")
 
 
 def silent_until_activation(cell: Cell) -> frozenset[str]:
@@ -106,6 +110,21 @@ def silent_until_activation(cell: Cell) -> frozenset[str]:
     nodes = (
         node.full_name
         for node in cell.nodes
-        if node.lifecycle and not asks_for_motion(cell, node) and waits_for_hardware(cell, node, "real")
+        if node.lifecycle and not asks_for_motion(cell, node) and hardware_before(cell, node, "real")
     )
     return frozenset((*readers, *nodes))
+
+
+def moved_with(cell: Cell, device: str | None) -> str:
+    """Return the device that a person releases with another: the arm that carries it, or what all of it hangs on."""
+    devices = {each.name: each for each in cell.devices}
+    frames = {frame.name: frame for frame in cell.frames}
+    found = device or ""
+    while found in devices and devices[found].kind != "arm":
+        below = frames.get(devices[found].parent_frame)
+        while below is not None and below.device is None:
+            below = frames.get(below.parent)
+        if below is None or below.device is None:
+            break
+        found = below.device
+    return found

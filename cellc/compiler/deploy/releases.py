@@ -25,6 +25,10 @@ class Release:
     word: str
     about: str
 
+    def word_for(self, device: str) -> str:
+        """Return what opens it for one of several devices; the word itself where there is one."""
+        return f"{self.word}_FOR_{device}" if device else self.word
+
 
 START = Release(
     "cell",
@@ -83,9 +87,9 @@ def _on_hosts(command: str, hosts: tuple[str, ...]) -> Iterator[tuple[str, str]]
         yield "", command
 
 
-def release_once(cell: Cell, release: Release) -> str:
+def release_once(cell: Cell, release: Release, device: str = "") -> str:
     """Return the command that a person runs once, on one host: it asks, proves and ends."""
-    return f"ros2 launch {cell.name} {release.file}.launch.xml {release.argument}:={release.word}"
+    return f"ros2 launch {cell.name} {release.file}.launch.xml {release.argument}:={release.word_for(device)}"
 
 
 def move_mock(cell: Cell) -> tuple[str, ...]:

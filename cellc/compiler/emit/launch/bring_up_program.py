@@ -2,6 +2,7 @@
 """Runs the steps of config/bring_up.json: waits for the proof of each, sends its request once, checks the effect.
 
     bring_up --plan FILE --target mock|real [--host HOST] PHASE...        run the steps of these phases
+    bring_up --plan FILE --target real --release DEVICE PHASE             run those of one device, released by a person
     bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...   prove, then run PROGRAM while claims hold
     bring_up --plan FILE --target real watch                              deactivate claims when the robot ignores them
 
@@ -239,8 +240,8 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
         service, name = "controller_manager_msgs/srv/SetHardwareComponentState", "set_hardware_component_state"
         done = graph.ask(service, f"{wanted.manager}/{name}", answer_s, name=wanted.component, target_state=state).ok
         return "" if done else f"{wanted.manager} could not activate hardware {wanted.component}"
-    stopped = wanted.controllers if wanted.kind == "restart" else []
     active = active_of(graph, wanted)
+    stopped = active if wanted.kind == "restart" else []
     started = [name for name in wanted.controllers if name in stopped or name not in active]
     done = not started or switch(graph, wanted.manager, started, stopped, STRICT, answer_s)
     return "" if done else f"{wanted.manager} refused to activate {', '.join(started)}"
@@ -373,6 +374,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
     parser.add_argument("--target", choices=("mock", "real"), required=True)
     parser.add_argument("--host", default="", help="run only the steps of this computer")
+    parser.add_argument("--release", default="", help="run only the steps of this device")
     stated = os.environ.get("CELL_WAIT_S") or "0"
     parser.add_argument("--wait", type=seconds, default=stated, help="seconds that replace all deadlines (CELL_WAIT_S)")
     parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
@@ -381,6 +383,7 @@ def main(arguments: Sequence[str]) -> int:
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
     hosts = (read.host, "") if read.host else {step.host for step in getattr(plan, read.target)}
     steps = [step for step in getattr(plan, read.target) if step.phase in read.phases and step.host in hosts]
+    steps = [step for step in steps if read.release in ("", getattr(step, "release", ""))]
     graph = Graph("claim_watch" if "watch" in read.phases else f"bring_up_{read.phases[-1]}", plan.enclave)
     try:
         if "watch" in read.phases:

@@ -15,7 +15,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.deploy.bringup import phases
+from cellc.compiler.deploy.bringup import phases, releases
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.first_goal import NODE, FirstGoal, first_goal
 from cellc.compiler.deploy.processes import started_by_a_person
@@ -54,7 +54,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     released = phases(plan.bring_up, "real")
     for release, phase in ((ACTIVATE, BringUpPhase.ACTIVATE), (CLAIM, BringUpPhase.CLAIM)):
         if phase in released:
-            yield _file(plan.header, f"launch/{release.file}.launch.xml", _released(cell, release, phase))
+            path, devices = f"launch/{release.file}.launch.xml", releases(plan.bring_up, phase)
+            yield _file(plan.header, path, _released(cell, release, phase, devices))
     if (goal := first_goal(cell)) is not None:
         yield _file(plan.header, f"launch/{GOAL.file}.launch.xml", _sending(cell, goal))
     if plan.motion_clients:
@@ -70,12 +71,17 @@ def _gate_file(release: Release) -> str:
     return f"launch/{'real' if release is START else release.file}_gate.launch.xml"
 
 
-def _released(cell: Cell, release: Release, phase: BringUpPhase) -> Iterator[Element]:
-    yield _gate_argument(release)
+def _released(cell: Cell, release: Release, phase: BringUpPhase, devices: tuple[str, ...]) -> Iterator[Element]:
+    """Yield what a person releases: all of a phase, or of several devices the one that the word names."""
+    yield _argument(release.argument, None, release.about, *(release.word_for(name) for name in devices or ("",)))
     yield comment(
         "proves preconditions, sends the request once, checks the effect and ends; run on one computer for all"
     )
-    yield bring_up(cell, "real", [phase], conditional=False)
+    if not devices:
+        yield bring_up(cell, "real", [phase], when={})
+    for name in devices:
+        said = f"'$(var {release.argument})' == '{release.word_for(name)}'"
+        yield bring_up(cell, "real", [phase], release=name, when={"if": f'$(eval "{said}")'})
 
 
 def _host_file(host: str) -> str:

@@ -8,7 +8,7 @@ of its steps enables a drive or asks for motion.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -69,14 +69,16 @@ def bring_up(
     taken: Sequence[str],
     host: str | None = None,
     *,
-    conditional: bool = True,
+    release: str = "",
+    when: Mapping[str, str] | None = None,
     required: bool = False,
 ) -> Element:
-    """Return the process that takes phases on a target, started on that target alone unless the file is for one.
+    """Return the process that takes phases on a target, started on that target alone, or by ``when``.
 
     Where it is required, the launch ends with it: nothing else takes claims from a robot that no longer listens.
     """
-    words = [*_words(cell, target), *([] if host is None else ["--host", host]), *taken]
+    named = [*([] if host is None else ["--host", host]), *(["--release", release] if release else [])]
+    words = [*_words(cell, target), *named, *taken]
     return element(
         "node",
         {
@@ -86,7 +88,7 @@ def bring_up(
             "output": "both",
             **(ends_launch(cell) if required else {}),
             **enclave(bring_up_enclave(cell)),
-            **(only_on(target) if conditional else {}),
+            **(only_on(target) if when is None else when),
         },
     )
 

@@ -1,0 +1,85 @@
+"""One release of a person moves one device: each activation and each claim of an arm has a word of its own."""
+
+from __future__ import annotations
+
+import json
+from xml.etree import ElementTree
+
+import pytest
+
+from tests.cells import EVERY_CELL, built
+
+_WORDS = {
+    "activate": "I_HAVE_PASSED_GATES_G0_TO_G4_AND_THE_AREA_IS_EMPTY",
+    "claim": "I_HAVE_PASSED_GATES_G0_TO_G6",
+}
+# By the devices of each spec: OpenArm's arms and Robotiq's gripper move as they are activated; what an arm carries is
+# claimed with it. No hardware for
+# real of rail_arm has the rail, so that nothing claims there.
+_RELEASES = {
+    "dual_ur": {"claim": ("loader", "unloader")},
+    "fr3_hand": {"claim": ("",)},
+    "gen3_2f": {"claim": ("",)},
+    "hybrid_sdk": {"activate": ("",), "claim": ("",)},
+    "minimal": {"activate": ("",), "claim": ("",)},
+    "openarm_bimanual": {"activate": ("left", "right"), "claim": ("left", "right")},
+    "rail_arm": {},
+    "ur5e_pick": {"activate": ("",), "claim": ("",)},
+}
+_CLAIMS = {
+    ("openarm_bimanual", "left"): {"left_trajectory", "left_gripper"},
+    ("openarm_bimanual", "right"): {"right_trajectory", "right_gripper"},
+    ("dual_ur", "loader"): {"loader_trajectory"},
+    ("dual_ur", "unloader"): {"unloader_trajectory"},
+    ("ur5e_pick", "arm"): {"arm_trajectory", "gripper_action"},
+}
+
+
+def test_every_cell_is_listed() -> None:
+    assert set(_RELEASES) == set(EVERY_CELL)
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_each_device_has_a_word_and_a_process_of_its_own(cell: str) -> None:
+    texts = built(cell).texts
+    for phase, word in _WORDS.items():
+        path = f"launch/{phase}.launch.xml"
+        assert (path in texts) is (phase in _RELEASES[cell])
+        if path not in texts:
+            continue
+        launch = ElementTree.fromstring(texts[path])
+        (argument,) = launch.findall("arg")
+        words = {name: f"{word}_FOR_{name}" if name else word for name in _RELEASES[cell][phase]}
+        assert "default" not in argument.attrib
+        assert [choice.attrib["value"] for choice in argument.findall("choice")] == list(words.values())
+        for name, node in zip(_RELEASES[cell][phase], launch.findall("node"), strict=True):
+            released = f"--release {name} " if name else ""
+            assert node.attrib["args"].endswith(f"--target real {released}{phase}")
+            said = f"$(eval \"'$(var {argument.attrib['name']})' == '{words[name]}'\")" if name else None
+            assert node.attrib.get("if") == said
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_no_step_of_a_release_touches_the_device_of_another(cell: str) -> None:
+    texts = built(cell).texts
+    contract = json.loads(texts["contract.json"])
+    components = {name: device.get("hardware_component") for name, device in contract["devices"].items()}
+    for step in json.loads(texts["config/bring_up.json"])["real"]:
+        asked = step.get("request") or {}
+        if step["phase"] == "activate" and asked.get("kind") == "hardware":
+            assert asked["component"] == components[step["release"]]
+        if step["phase"] == "claim" and (cell, step["release"]) in _CLAIMS:
+            assert set(asked["controllers"]) == _CLAIMS[cell, step["release"]]
+
+
+def test_gates_release_one_device_a_line() -> None:
+    gates = built("openarm_bimanual").texts["gates/promotion.md"]
+    for phase, word in _WORDS.items():
+        for name in ("left", "right"):
+            command = f"ros2 launch openarm_bimanual {phase}.launch.xml confirm_{_ARGUMENT[phase]}:={word}_FOR_{name}\n"
+            assert gates.count(command) == 1
+    assert "- [ ] left: Authorize hardware that moves on activation." in gates
+    assert "- [ ] right: Authorize the claims." in gates
+
+
+_ARGUMENT = {"activate": "activation", "claim": "claim"}
