@@ -16,7 +16,7 @@ _WORDS = {
 # By the devices of each spec: OpenArm's arms and Robotiq's gripper move as they are activated; what an arm carries is
 # claimed with it. No hardware for
 # real of rail_arm has the rail, so that nothing claims there.
-_RELEASES = {
+_RELEASES: dict[str, dict[str, tuple[str, ...]]] = {
     "dual_ur": {"claim": ("loader", "unloader")},
     "fr3_hand": {"claim": ("",)},
     "gen3_2f": {"claim": ("",)},

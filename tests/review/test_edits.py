@@ -22,7 +22,7 @@ OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", ")
 LOOKED_AT = "in arm_tool0"
 # The bring-up asks a node of a lifecycle, and what is asked must be there once.
 ALONE = "only nodes /robot_state_publisher, /controller_manager"
-STATES = "controller /controller_manager joint_states active"
+STATES = "controller /controller_manager joint_states inactive"
 STOPPED = "topic /arm_io/robot_program_running std_msgs/msg/Bool data value False"
 LESS_ALONE = f"lost {ALONE}, /perception; new {ALONE}"
 STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, expect: stale_state}"

@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 """Runs the steps of config/bring_up.json: waits for the proof of each, sends its request once, checks the effect.
 
-    bring_up --plan FILE --target mock|real [--host HOST] PHASE...        run the steps of these phases
-    bring_up --plan FILE --target real --release DEVICE PHASE             run those of one device, released by a person
+    bring_up --plan FILE --target mock|real [--host HOST] [--release DEVICE] PHASE...      run the steps of these phases
     bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...   prove, then run PROGRAM while claims hold
     bring_up --plan FILE --target real watch                              deactivate claims when the robot ignores them
 
-A step that fails prints what is missing and ends this with 1. It enables no drive. What was deactivated stays inactive
-until a person authorizes the claim again.
+A step that fails prints what is missing and ends this with 1. It enables no drive, and restores no claim by itself.
 """
 
 from __future__ import annotations
@@ -240,10 +238,9 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
         service, name = "controller_manager_msgs/srv/SetHardwareComponentState", "set_hardware_component_state"
         done = graph.ask(service, f"{wanted.manager}/{name}", answer_s, name=wanted.component, target_state=state).ok
         return "" if done else f"{wanted.manager} could not activate hardware {wanted.component}"
-    active = active_of(graph, wanted)
-    stopped = active if wanted.kind == "restart" else []
-    started = [name for name in wanted.controllers if name in stopped or name not in active]
-    done = not started or switch(graph, wanted.manager, started, stopped, STRICT, answer_s)
+    active, again = active_of(graph, wanted), wanted.kind == "restart"
+    started = [name for name in wanted.controllers if again or name not in active]
+    done = not started or switch(graph, wanted.manager, started, active if again else [], STRICT, answer_s)
     return "" if done else f"{wanted.manager} refused to activate {', '.join(started)}"
 
 
@@ -382,8 +379,8 @@ def main(arguments: Sequence[str]) -> int:
     PATIENCE_S, MANIFEST = read.wait or PATIENCE_S, read.plan.parent.parent / "manifest.json"
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
     hosts = (read.host, "") if read.host else {step.host for step in getattr(plan, read.target)}
-    steps = [step for step in getattr(plan, read.target) if step.phase in read.phases and step.host in hosts]
-    steps = [step for step in steps if read.release in ("", getattr(step, "release", ""))]
+    released = [step for step in getattr(plan, read.target) if read.release in ("", getattr(step, "release", ""))]
+    steps = [step for step in released if step.phase in read.phases and step.host in hosts]
     graph = Graph("claim_watch" if "watch" in read.phases else f"bring_up_{read.phases[-1]}", plan.enclave)
     try:
         if "watch" in read.phases:
