@@ -42,6 +42,17 @@ FOLDERS = {
     "adapter": "mock/adapter",
     "artifact.py": "output",
     "cell": "cell link",
+    "cli/campaign.py": "mock/campaign cli",
+    "cli/catalog.py": "browse cli",
+    "cli/compare.py": "report/test_comparison.py cli",
+    "cli/diagnose.py": "cli/test_diagnose.py diagnose",
+    "cli/diff.py": "review",
+    "cli/gates.py": "mock/gates cli",
+    "cli/import_.py": "foreign cli",
+    "cli/init.py": "catalog/test_starter.py cli",
+    "cli/sweep.py": "mock/sweep cli",
+    "cli/upgrade.py": "review",
+    "cli/view.py": "view",
     "compiler": "report",
     "compute": "compute",
     "contract": "spec mock",
@@ -59,6 +70,7 @@ FOLDERS = {
     "pipeline.py": "cli",
     "printing.py": "printing",
     "robot": "description",
+    "report/text_report.py": "report cli/test_diagnose.py",
     "rules": "rules corpus",
     "signals.py": "cli",
     "store": "store",
@@ -67,7 +79,10 @@ FOLDERS = {
     "version.py": "cli",
     "vocabulary.py": "mock",
 }
-"""The nearest tests of a stage, or of one of its files, where they are others than the folder of its name."""
+"""The nearest tests of a stage, or of one of its files, where they are others than the folder of its name.
+
+A command is tested where its subject is, by the command line: `cellc diff` among the reviews.
+"""
 _LOADED = "numpy pydantic networkx yaml jsonschema click hypothesis xdist pinocchio ruckig xacro yourdfpy lxml.etree"
 _QUIET = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-o", "addopts=")
 _LONGEST_S = 60.0

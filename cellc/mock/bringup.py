@@ -16,6 +16,7 @@ from cellc.mock.plant import Plant
 from cellc.mock.proofs import Proofs
 from cellc.mock.result import StageEvidence
 from cellc.mock.tf.buffer import Transform
+from cellc.mock.tf.sources import LATEST
 
 _LEVELS = ("WARN", "ERROR", "FATAL")
 
@@ -217,8 +218,7 @@ def _missing_frames(plant: Plant) -> list[str]:
     for name, frame in plant.contract.frames.items():
         if frame.kind == "dynamic" or name == root:
             continue
-        latest_ns = plant.task.buffer.latest_ns(root, name)
-        answer = plant.task.buffer.lookup(root, name, 0 if latest_ns is None else latest_ns)
+        answer = plant.task.buffer.lookup(root, name, LATEST)
         if not isinstance(answer, Transform):
             problems.append(f"frame `{name}`: {answer.text.strip()}")
     return problems

@@ -15,6 +15,7 @@ import pytest
 
 from cellc.compiler.pipeline import check
 from cellc.mock.command.campaign import pace
+from cellc.mock.command.options import Live, RehearsalOptions
 from cellc.tools.cli.main import cellc
 from tests.cells import ROOT
 from tests.cli.run import MINIMAL, PICK, run
@@ -204,3 +205,24 @@ def test_progress_of_many_runs_has_their_rate_and_what_is_left(done: int, second
 def test_options_of_a_view_that_do_not_go_together_are_told(options: str, said: str) -> None:
     ran = run("mock", "nowhere", *options.split())
     assert (ran.code, said in ran.err) == (2, True), ran.err
+
+
+@pytest.mark.parametrize(
+    ("options", "live"),
+    [
+        ("", None),
+        ("--live", Live("127.0.0.1:8765", 1.0)),  # the port of Foxglove's own servers, in real time
+        ("--live --speed 2.5", Live("127.0.0.1:8765", 2.5)),
+        ("--live --listen 127.0.0.1:1", Live("127.0.0.1:1", 1.0)),
+    ],
+)
+def test_options_of_a_view_have_defaults(options: str, live: Live | None, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[RehearsalOptions] = []
+
+    def noted(given: RehearsalOptions) -> int:
+        asked.append(given)
+        return 0
+
+    monkeypatch.setattr("cellc.mock.command.rehearsals.run_rehearsals", noted)
+    assert run("mock", "nowhere", *options.split()).code == 0
+    assert [one.live for one in asked] == [live]

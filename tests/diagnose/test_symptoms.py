@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import pytest
+from pydantic import TypeAdapter, ValidationError
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.pipeline import check
 from cellc.tools.diagnose.diagnose import classify, diagnose
 from cellc.tools.diagnose.log_lines import length
-from cellc.tools.diagnose.symptoms import knowledge
+from cellc.tools.diagnose.symptoms import Phrase, Symptom, Template, knowledge
 from cellc.tools.diagnose.words import Words
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
@@ -137,3 +138,29 @@ def test_causes_with_something_to_look_at_in_the_cell_come_first(hand: Cell) -> 
     shown = [cause.text for cause in diagnose(name, hand)[0].causes]
     assert of_camera
     assert shown == [cause for cause in written if cause not in of_camera] + of_camera
+
+
+@pytest.mark.parametrize(
+    ("text", "near"),
+    [
+        ("the robot", [0, 2]),  # of two that are as near, the one that is listed first
+        ("a late plan", [1]),
+        ("the robot fails", [2, 0]),  # one phrase has both words
+        ("stops and fails", [0, 2]),
+        ("coffee", []),
+        ("", []),
+    ],
+)
+def test_the_nearest_share_a_word_and_stand_in_order(text: str, near: list[int]) -> None:
+    words = Words({}, [["robot stops"], ["plan late"], ["robot fails"]])
+    assert words.nearest(text) == near
+
+
+@pytest.mark.parametrize(
+    ("kind", "longest"), [(Phrase, 100), (Template, 300)], ids=["a phrase", "a text of a log line"]
+)
+def test_a_text_of_a_symptom_is_no_longer_than(kind: object, longest: int) -> None:
+    adapter = TypeAdapter[str](kind, config=Symptom.model_config)
+    assert adapter.validate_python("a" * longest) == "a" * longest
+    with pytest.raises(ValidationError, match=f"at most {longest} characters"):
+        adapter.validate_python("a" * (longest + 1))

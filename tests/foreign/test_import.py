@@ -289,6 +289,9 @@ def test_meshes_of_collision_shapes_come_along_and_no_others(here: Path) -> None
     lock = json.loads((here / "mine" / "import.lock.json").read_text(encoding="utf-8"))
     assert sorted(lock["files"]) == ["robot.urdf", "vendor_description/meshes/hull.stl"]
     assert "license BSD" in (here / "mine" / "device.yaml").read_text(encoding="utf-8")
+    written = [file for file in (here / "mine").rglob("*") if file.is_file()]
+    assert len(written) == 4
+    assert [file for file in written if file.stat().st_mode & 0o111] == []  # nothing of a stranger's can be run
 
 
 @pytest.mark.parametrize("named", ["hull.stl", "meshes/hull.stl", "assets/left/hull.stl"])

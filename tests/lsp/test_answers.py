@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import pytest
 
 from cellc.compiler.catalog.compiled import device_file
+from cellc.compiler.source.compose import compose
 from cellc.tools.lsp.answers import Known, completions, definition, hover
 from cellc.tools.lsp.cells import Cells
-from tests.cells import spec_of
+from cellc.tools.lsp.cursor import Here, here
+from cellc.tools.lsp.parts import place_of_part
+from tests.cells import CORPUS, spec_of
 
 _BROKEN = {
     "a key on a line of its own": ("devices:\n  arm:\n    model: ur5e\n    mou^\n    tcp: x\n", "mount"),
@@ -75,3 +79,78 @@ def test_file_of_a_device_is_checked_by_itself() -> None:
     found, _ = Cells().check(file, {file: "format: 1\nmodel: my_arm\nkind: arn\n"})
     kinds = [one for one in found if one.yaml_path == ("kind",)]
     assert [(one.code, one.span.line) for one in kinds] == [("catalog-entry-invalid", 3)]
+
+
+_SPOTS = """\
+cell: line
+devices:
+  arm: {model: ur5e}
+empty: {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "column", "path", "is_key", "text"),
+    [
+        (1, 1, ("cell",), True, "cell"),
+        (1, 5, ("cell",), True, "cell"),  # behind its last letter, where a cursor stands that has written it
+        (1, 7, ("cell",), False, "line"),
+        (1, 11, ("cell",), False, "line"),
+        (2, 3, ("devices",), True, "devices"),
+        (3, 4, ("devices", "arm"), True, "arm"),
+        (3, 10, ("devices", "arm", "model"), True, "model"),
+        (3, 17, ("devices", "arm", "model"), False, "ur5e"),
+    ],
+)
+def test_what_is_at_a_place(line: int, column: int, path: tuple[str, ...], is_key: bool, text: str) -> None:
+    found = _here(line, column)
+    assert found is not None
+    assert (found.path, found.is_key, found.text) == (path, is_key, text)
+
+
+@pytest.mark.parametrize(("line", "column"), [(1, 6), (1, 12), (3, 2), (3, 8), (4, 8), (9, 1)])
+def test_nothing_is_between_keys_and_values(line: int, column: int) -> None:
+    assert _here(line, column) is None
+
+
+def _here(line: int, column: int) -> Here | None:
+    root = compose("cell.yaml", _SPOTS).value
+    assert root is not None
+    return here(root, line, column)
+
+
+_STAGE = """\
+format: 1
+cell: line
+summary: a stage alone
+hosts: {control_pc: {scheduling: generic}}
+versions: {ros: jazzy}
+devices:
+  stage: {model: ./stage, mount: {parent: world, xyz: 0 0 250 mm}}
+control:
+  update_rate: 100 Hz
+  controllers:
+    joint_states: {type: joint_state_broadcaster}
+"""
+
+
+@pytest.mark.parametrize(
+    ("kinds", "written"), [(("frame",), '<link name="carriage"/>'), (("joint",), '<joint name="carriage" ')]
+)
+def test_of_a_link_and_a_joint_of_one_name_the_one_that_is_meant_is_found(
+    kinds: tuple[str, ...], written: str, tmp_path: Path
+) -> None:
+    shutil.copytree(CORPUS / "invalid/base/stage", tmp_path / "stage")
+    urdf = tmp_path / "stage" / "stage.urdf"
+    for file in (urdf, tmp_path / "stage" / "device.yaml"):
+        file.write_text(file.read_text(encoding="utf-8").replace("slide", "carriage"), encoding="utf-8")
+    spec = tmp_path / "cell.yaml"
+    spec.write_text(_STAGE, encoding="utf-8")
+    cells = Cells()
+    cells.check(spec.as_posix(), {})
+    known = cells.known(spec.as_posix())
+    assert known.cell is not None
+    place = place_of_part(known.cell, "stage/carriage", kinds)
+    assert place is not None
+    assert Path(place.file) == urdf
+    assert written in urdf.read_text(encoding="utf-8").split("\n")[place.line - 1]

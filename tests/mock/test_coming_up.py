@@ -17,6 +17,7 @@ from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind, Moment, Need, Unmet
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
+from cellc.mock.effects import Effects
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult
@@ -174,3 +175,38 @@ def test_claim_in_the_first_phase_comes_before_anybody_opened_the_brakes(fr3: Ge
         return step.model_copy(update={"phase": BringUpPhase.START}) if claims else step
 
     assert brought_up(with_steps(fr3, early))[0].outcome == "claim_failure"
+
+
+@pytest.mark.parametrize(
+    ("cell", "held_s"),
+    [
+        ("ur5e_pick", {"gripper_hardware": 3.0}),  # until its fingers have come to an end of their stroke
+        ("fr3_hand", {}),  # nothing of it moves or waits as it is activated
+    ],
+)
+def test_activation_takes_as_long_as_the_driver_holds_its_manager(
+    cell: str, held_s: dict[str, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    taken: dict[str, int] = {}
+    activate = Effects.activate
+
+    def timed(effects: Effects, component: str) -> int:
+        taken[component] = activate(effects, component)
+        return taken[component]
+
+    monkeypatch.setattr(Effects, "activate", timed)
+    folder = load(generated(cell)).folder
+    brought_up(folder)
+    assert taken == {name: round(held_s.get(name, 0.0) * 1e9) for name in taken}
+    assert {*held_s} <= {*taken}
+    assert taken
+
+
+def test_cycle_of_an_uncommanded_motion_is_counted_from_the_start_of_its_manager(ur5e: GeneratedFolder) -> None:
+    def early(step: BringUpStep) -> BringUpStep:
+        moved = isinstance(step.request, HardwareActivation)
+        return step.model_copy(update={"phase": BringUpPhase.START}) if moved else step
+
+    _, plant = brought_up(with_steps(ur5e, early))
+    (motion,) = plant.effects.motions
+    assert motion.cycle == motion.stamp_ns // 2_000_000  # 500 Hz

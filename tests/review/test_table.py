@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
+from cellc.tools.review.compare import _row, _unexplained, area_of_file
 from cellc.tools.review.grading import grade
-from cellc.tools.review.leaves import Delta, Leaf
+from cellc.tools.review.leaves import Delta, Leaf, Path
 from cellc.tools.review.rows import ROWS
 from cellc.tools.review.rules import APPROVAL, REPEATED, THINGS, Rule
 from cellc.tools.review.sides import Package
@@ -75,3 +78,76 @@ def test_the_first_gate_of_an_area_is_the_one_that_looks_at_it() -> None:
 )
 def test_a_rule_grades(main: Package, rule: Rule, before: Leaf | None, after: Leaf | None, expected: Grade) -> None:
     assert grade(rule, Delta(("any",), before, after), main.facts, main.facts).grade is expected
+
+
+@pytest.mark.parametrize(
+    ("path", "area", "subject", "of"),
+    [
+        (("file", "config/mine.yaml", "node", "rate"), ReviewArea.CONTROL, ("config/mine.yaml",), ("node", "rate")),
+        (("file", "config/moveit/mine.yaml", "a"), ReviewArea.MOTION, ("config/moveit/mine.yaml",), ("a",)),
+        (("file", "gates/mine.md"), ReviewArea.GATES, ("gates/mine.md",), ()),
+        (("file", "docs/mine.md", "a"), ReviewArea.DOCUMENTS, ("docs/mine.md",), ("a",)),
+        (("mine",), ReviewArea.DOCUMENTS, ("mine",), ()),
+        (("mine", "security/a", "b"), ReviewArea.DOCUMENTS, ("mine",), ("security/a", "b")),
+    ],
+)
+def test_what_no_row_names_is_looked_at_under_the_area_of_its_file(
+    path: Path, area: ReviewArea, subject: Path, of: Path
+) -> None:
+    row, fit = _row(path)
+    assert (row.area, row.rule, row.quantity) == (area, Rule.REVIEW, "value")
+    assert (fit.subject, fit.of) == (subject, of)
+
+
+@pytest.mark.parametrize(
+    ("file", "area"),
+    [
+        ("middleware/profile.xml", ReviewArea.NETWORK),
+        ("security/keystore", ReviewArea.NETWORK),
+        ("launch/real.launch.py", ReviewArea.START_ORDER),
+        ("scripts/check", ReviewArea.START_ORDER),
+        ("sources.repos", ReviewArea.VERSIONS),
+        ("package.xml", ReviewArea.VERSIONS),
+        ("urdf/a.urdf", ReviewArea.MODEL),
+        ("README.md", ReviewArea.DOCUMENTS),
+    ],
+)
+def test_area_of_a_file(file: str, area: ReviewArea) -> None:
+    assert area_of_file(file) is area
+
+
+def test_what_other_parties_rely_on_breaks_them_where_it_goes() -> None:
+    # A frame that they look up, an interface that they are bound to, who publishes what they read or answers their
+    # calls. A client or a reader less breaks nobody.
+    assert {thing.pattern for thing in THINGS if thing.breaking} == {
+        "contract frames {frame}",
+        "interface {interface}",
+        "interface {interface} publishers {node}",
+        "interface {interface} servers {node}",
+    }
+
+
+@pytest.mark.parametrize(
+    ("path", "before", "after", "shown"),
+    [
+        (("cells", "delay_s"), 0.25, 0.5, ("250 ms", "500 ms")),
+        (("cells", "rate_hz"), 30, 60, ("30 Hz", "60 Hz")),
+        (("reach_m", "cells"), 0.5, 1.5, ("0.5", "1.5")),  # the name of the value has the unit, no other part does
+        (("length_m",), 0.5, None, ("500 mm", None)),
+    ],
+)
+def test_unit_of_a_value_that_no_file_shows_is_in_its_name(
+    monkeypatch: pytest.MonkeyPatch,
+    main: Package,
+    path: Path,
+    before: Leaf,
+    after: Leaf | None,
+    shown: tuple[str, str | None],
+) -> None:
+    monkeypatch.setattr("cellc.tools.review.compare.differences", lambda *_: [Delta(path, before, after)])
+    manifest = main.facts.manifest
+    inputs = manifest.configuration_inputs.model_copy(update={"cell_sha256": "0" * 64})
+    other = replace(main.facts, manifest=manifest.model_copy(update={"configuration_inputs": inputs}))
+    (change,) = _unexplained(main.facts, other)
+    assert (change.before, change.after) == shown
+    assert change.subject == " ".join(path)

@@ -13,12 +13,15 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.diagnostics import Severity
+from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.tools.view.content import Content, before_of, content_of
 from cellc.tools.view.page import three_js, to_html
 from cellc.tools.view.subject import read_subject
 from tests.cells import ROOT, spec_text
 from tests.cells import written as written_spec
 from tests.cli.run import PICK, Ran, run
+from tests.report.findings import finding
 from tests.view.page import Page
 
 HOSTILE = "</script><script>alert(1)</script><!--<script>\u2028<img src=x onerror=alert(1)>\"'&lt;"
@@ -291,3 +294,23 @@ def test_the_page_leads_to_each_of_its_sections(page: Page, of_folder: Content) 
         assert set(links) <= set(sections)
         assert {"#rehearsals", "#interfaces", "#graph", "#gates"} <= set(links)
         assert ("#findings" in links) is (shown is page)
+
+
+@pytest.mark.parametrize(
+    ("severities", "told"),
+    [
+        ((), "no findings"),
+        ((Severity.AUDIT, Severity.AUDIT), "2 audit items"),
+        ((Severity.ERROR,), "1 error"),
+        ((Severity.WARNING, Severity.ERROR, Severity.ERROR), "2 errors, 1 warning"),
+        ((Severity.WARNING, Severity.BLOCKER), "1 blocker, 1 warning"),
+    ],
+)
+def test_page_counts_what_the_check_found(of_folder: Content, severities: tuple[Severity, ...], told: str) -> None:
+    found = Findings("cell.yaml", {}, tuple(finding(severity=severity) for severity in severities))
+    html = to_html(replace(of_folder, subject=replace(of_folder.subject, findings=found)), three_js())
+    assert f"<dt>findings</dt><dd>{told}</dd>" in html
+
+
+def test_page_of_a_folder_says_nothing_of_findings(of_folder: Content) -> None:
+    assert "<dt>findings</dt>" not in to_html(of_folder, three_js())

@@ -65,12 +65,12 @@ class Words:
     def nearest(self, text: str) -> list[int]:
         """Return the numbers of the symptoms that share a word with a text, the nearest first."""
         said = self._meanings(text)
-        weights = [
-            (max(self._weight(phrase & said) for phrase in phrases), self._weight(every & said))
-            for phrases, every in zip(self._phrases, self._all, strict=True)
-        ]
-        order = sorted(range(len(weights)), key=lambda one: [-weight for weight in weights[one]])
-        return [number for number in order if weights[number][0]]
+        near = [number for number, every in enumerate(self._all) if every & said]
+        return sorted(near, key=lambda number: self._nearness(number, said), reverse=True)
+
+    def _nearness(self, number: int, said: Meanings) -> tuple[int, int]:
+        most = max(self._weight(phrase & said) for phrase in self._phrases[number])
+        return most, self._weight(self._all[number] & said)
 
     def _best_of(self, phrases: Sequence[Meanings], said: Meanings) -> Meanings:
         return max((phrase for phrase in phrases if phrase <= said), key=self._weight, default=_NOTHING)

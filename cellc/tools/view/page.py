@@ -15,9 +15,9 @@ from io import BytesIO
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
-from cellc.contract.diagnostics import Severity
+from cellc.contract.diagnostics.diagnostic import counted
 from cellc.contract.store.regular_file import own_bytes, own_text
-from cellc.mock.report_page.html import Child, count, tag, to_page
+from cellc.mock.report_page.html import Child, tag, to_page
 from cellc.tools.view.content import Content
 from cellc.tools.view.scene import Scene
 from cellc.tools.view.sections import (
@@ -155,8 +155,7 @@ def _header(content: Content) -> Element:
     subject, folder = content.subject, content.subject.folder
     contract = None if folder is None else folder.contract
     facts = [] if contract is None else [("configuration", contract.configuration_id), ("ROS 2", contract.distro.value)]
-    found = [] if subject.findings is None else [diagnostic.severity for diagnostic in subject.findings.diagnostics]
-    facts += [("findings", ", ".join(_counted(found)) or "none")] if subject.findings is not None else []
+    facts += [] if subject.findings is None else [("findings", counted(subject.findings.diagnostics))]
     notes = [*(() if folder is None else folder.notes), *_drawn_less(content)]
     return tag(
         "header",
@@ -179,10 +178,6 @@ def _drawn_less(content: Content) -> Iterator[str]:
         yield "nothing is drawn: an error keeps the cell from being linked"
     else:
         yield "errors keep the package from being made; what can be linked without them is drawn, and nothing is run"
-
-
-def _counted(found: Sequence[Severity]) -> Iterator[str]:
-    return (count(found.count(severity), severity.value) for severity in Severity if severity in found)
 
 
 def _places(content: Content) -> Iterator[tuple[str, str]]:

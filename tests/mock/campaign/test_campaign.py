@@ -157,3 +157,20 @@ def test_refusal_of_a_worker_arrives_as_it_was_said() -> None:
     refusal = MockError("contract.json", "names nothing")
     arrived = pickle.loads(pickle.dumps(refusal))
     assert (str(arrived), arrived.file, arrived.reason) == (str(refusal), "contract.json", "names nothing")
+
+
+def test_progress_is_told_after_each_run_with_those_that_failed(
+    cells: dict[str, MockCell], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def raising(self: task_context.TaskContext) -> None:
+        raise ZeroDivisionError("by hand")
+
+    cell, told = cells["minimal"], list[tuple[int, int, int]]()
+    plan, baselines = make_plan(cell, possible_faults(cell.contract), 0)
+    runs = tuple(plan.singles())[:3]
+    for step, count in ((raising, 3), (task_context.TaskContext.check_cell, 0)):
+        told.clear()
+        with monkeypatch.context() as patch:
+            patch.setattr(task_context.TaskContext, "check_cell", step)
+            conduct(cell, runs, baselines, seed=0, factory=None, progress=lambda *one: told.append(one))
+        assert told == [(done, 3, min(done, count)) for done in (1, 2, 3)]

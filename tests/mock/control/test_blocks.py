@@ -252,3 +252,29 @@ def test_stories_end_as_their_names_say() -> None:
     assert 0 in ends["motion"]
     assert -4 in ends["stuck"]
     assert 0 in ends["speed scaling"]
+
+
+def test_cycles_in_which_nothing_is_decided_are_computed_in_blocks() -> None:
+    singly: list[int] = []
+    run_single = CycleRunner._run_single
+
+    def counted(runner: CycleRunner) -> int:
+        singly.append(runner.next_ns)
+        return run_single(runner)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(CycleRunner, "_run_single", counted)
+        _play(STORIES["motion"], lambda now_ns: now_ns + 100 * S)
+    # 2.6 s at 250 Hz are 650 cycles, of which a few begin, decide or end something.
+    assert 0 < len(singly) < 65
+
+
+@pytest.mark.parametrize("start_ns", [0, 5 * S, 5 * S + 1])
+def test_first_cycle_is_at_the_start(start_ns: int) -> None:
+    manager = ControllerManager(_urdf(""), _parameters(""), start_ns=start_ns)
+    assert manager.spawn(["joints"]).ok
+    manager.subscribe_joint_states("joints")
+    manager.advance(start_ns + 40 * MS)
+    (block,) = manager.take_joint_states("joints")
+    assert isinstance(block, JointStateBlock)
+    assert [int(stamp) - start_ns for stamp in block.stamps_ns[:3]] == [0, 4 * MS, 8 * MS]

@@ -8,6 +8,7 @@ import pytest
 
 from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell
+from cellc.mock.faults.registry import possible_faults
 from tests.mock.faults.conftest import Rehearse, during
 
 PAN = "arm_shoulder_pan_joint"
@@ -86,3 +87,34 @@ def test_half_the_speed_takes_twice_as_long_from_there(run: Rehearse) -> None:
 def test_record_says_what_the_speed_was_scaled_to(run: Rehearse) -> None:
     done = run(during(2, FaultKind.SCALE_SPEED, "arm", factor=0.25, when="started", after_s=0.0))
     assert [done.attempt(number).speed_scaling for number in (1, 3)] == [1.0, 0.25]
+
+
+@pytest.mark.parametrize(
+    ("kind", "changed", "expected"),
+    [
+        # A tenth of the range, and at most 0.5 rad; so much also where no range is known.
+        (FaultKind.DISPLACE, {"lower": 0.0, "upper": 1.0}, 0.1),
+        (FaultKind.DISPLACE, {"lower": -2.0, "upper": 1.0}, 0.3),
+        (FaultKind.DISPLACE, {"lower": -3.0, "upper": 3.0}, 0.5),
+        (FaultKind.DISPLACE, {"lower": None, "upper": 1.0}, 0.5),
+        (FaultKind.DISPLACE, {"lower": 0.0, "upper": None}, 0.5),
+        (FaultKind.DISPLACE, None, 0.5),
+        # A hundredth of the limit, and 0.01 rad/s where there is none.
+        (FaultKind.SLOW, {"velocity": 2.5}, 0.025),
+        (FaultKind.SLOW, None, 0.01),
+    ],
+)
+def test_cases_disturb_a_joint_by_a_share_of_its_limits(
+    cell: MockCell, kind: FaultKind, changed: dict[str, float | None] | None, expected: float
+) -> None:
+    contract = cell.contract
+    limits = {
+        joint: limit.model_copy(update=changed or {})
+        for joint, limit in contract.joint_limits.items()
+        if changed is not None
+    }
+    cases = possible_faults(contract.model_copy(update={"joint_limits": limits}))
+    entries = [case.entry for case in cases if case.entry.kind == kind]
+    found = [entry.displacement if kind is FaultKind.DISPLACE else entry.velocity for entry in entries]
+    assert found
+    assert found == pytest.approx([expected] * len(found))

@@ -50,3 +50,12 @@ def test_link_with_two_authorities_concerns_goals_that_are_looked_up_through_it(
     doubled = "arm_forearm_link"
     assert run(during(1, FaultKind.DOUBLE_FRAME, doubled, when="started", after_s=0.0)).failed.step == "move pick"
     assert run(during(4, FaultKind.DOUBLE_FRAME, doubled, when="started", after_s=0.0)).result.outcome == "succeeded"
+
+
+@pytest.mark.parametrize("frame", ["object", "arm_forearm_link"])  # of a perception, and of the robot's description
+@pytest.mark.parametrize(("lasting_s", "outcome"), [(0.5, "succeeded"), (None, "tf_failure")])
+def test_frame_that_is_published_again_lets_the_cell_go_on(
+    run: Rehearse, frame: str, lasting_s: float | None, outcome: str
+) -> None:
+    fault = during(3, FaultKind.DROP_FRAME, frame, when="started", after_s=0.0, lasting_s=lasting_s)
+    assert run(fault, steps=(HOME, DETECT, wait(2.0), DETECT, PICK)).result.outcome == outcome

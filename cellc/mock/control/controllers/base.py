@@ -233,7 +233,7 @@ class GoalMonitor:
     def __init__(self, goal_id: int, accepted_ns: int, period_ns: int, listened: bool) -> None:
         self.goal_id = goal_id
         self.listened = listened
-        self._accepted_ns = accepted_ns
+        self.accepted_ns = accepted_ns
         self._period_ns = period_ns
         self._last_tick_ns = accepted_ns
         self._result: Callable[[int], ControlEvent] | None = None
@@ -255,8 +255,8 @@ class GoalMonitor:
         if self._result is None and not self.listened:
             return None
         earliest = max(self._decided_ns if self._result is not None else 0, self._last_tick_ns + 1)
-        ticks = -((self._accepted_ns - earliest) // self._period_ns)
-        return self._accepted_ns + max(ticks, 1) * self._period_ns
+        ticks = -((self.accepted_ns - earliest) // self._period_ns)
+        return self.accepted_ns + max(ticks, 1) * self._period_ns
 
     def tick(self, now_ns: int) -> ControlEvent | None:
         """Take the result if it is known."""

@@ -147,7 +147,8 @@ def assemble(
     switcher = Switcher(registry, hardware, table, limiter, checker, log, events)
     cycles = None
     if hardware is not None:
-        cycles = CycleRunner(registry, hardware, switcher, table, limiter, disturbances, log, period_ns, rate)
-        cycles.next_ns = options.start_ns
+        cycles = CycleRunner(
+            registry, hardware, switcher, table, limiter, disturbances, log, period_ns, rate, options.start_ns
+        )
     late.hardware, late.cycles = hardware, cycles
     return Stack(log, events, table, disturbances, registry, checker, hardware, cycles, period_ns, rate, reason)

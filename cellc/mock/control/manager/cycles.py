@@ -35,6 +35,7 @@ class CycleRunner:
         log: the log.
         period_ns: period of the manager.
         rate: rate of the manager (Hz).
+        start_ns: time of the first cycle.
     """
 
     def __init__(
@@ -48,6 +49,7 @@ class CycleRunner:
         log: Log,
         period_ns: int,
         rate: int,
+        start_ns: int,
     ) -> None:
         self._registry = registry
         self._hardware = hardware
@@ -62,7 +64,7 @@ class CycleRunner:
         self._next_alone = False
         self._pending: Switch | None = None
         self._skipped = 0
-        self.next_ns = 0
+        self.next_ns = start_ns
 
     def request(self, switch: Switch) -> None:
         """Carry out a switch at the end of the next cycle."""

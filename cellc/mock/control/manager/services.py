@@ -50,7 +50,7 @@ class GoalDesk:
             return self._send_trajectory(controller, found, goal, now_ns, listened)
         if isinstance(found, GripperController) and isinstance(goal, GripperGoal):
             return self._send_gripper(controller, found, goal, now_ns)
-        return GoalResponse(False, 0, f"no action server for this goal at '{controller}'")
+        return GoalResponse(False, log_reason=f"no action server for this goal at '{controller}'")
 
     def _send_trajectory(
         self, name: str, controller: JointTrajectoryController, goal: TrajectoryGoal, now_ns: int, listened: bool
@@ -60,7 +60,7 @@ class GoalDesk:
         reason = _CANNOT_ACCEPT if state != "active" else refusal(goal.trajectory(), controller.rules(), now_ns)
         if reason:
             self._log.error(name, reason)
-            return GoalResponse(False, 0, reason)
+            return GoalResponse(False, log_reason=reason)
         self._log.info(name, "Accepted new action goal")
         goal_id = self._number(name)
         controller.goals.accept(goal_id, goal, now_ns, listened)
@@ -69,11 +69,11 @@ class GoalDesk:
 
     def _send_gripper(self, name: str, controller: GripperController, goal: GripperGoal, now_ns: int) -> GoalResponse:
         if not controller.active:
-            return GoalResponse(False, 0, f"the action server of '{name}' exists only while it is active")
+            return GoalResponse(False, log_reason=f"the action server of '{name}' exists only while it is active")
         reason = controller.refusal(goal)
         if reason:
             self._log.error(name, reason)
-            return GoalResponse(False, 0, reason)
+            return GoalResponse(False, log_reason=reason)
         self._log.info(name, "Received & accepted new action goal")
         goal_id = self._number(name)
         controller.accept(goal_id, goal, now_ns)

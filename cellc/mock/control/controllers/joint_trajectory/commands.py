@@ -46,23 +46,25 @@ class JointCommands:
         """Command one cycle."""
         spline, ahead = motion.spline, (samples.next_reached, samples.next_into)
         if self._pids:
-            self._write_pid(samples, spline.velocities(*ahead)[0], measured, cycle)
+            (velocity,) = spline.velocities(*ahead)
+            self._write_pid(samples, velocity, measured, cycle)
             return
         for kind, columns in self._interfaces.commands.items():
             if kind == "position":
-                wanted = samples.next[0]
+                (wanted,) = samples.next
             elif kind == "velocity":
-                wanted = spline.velocities(*ahead)[0]
+                (wanted,) = spline.velocities(*ahead)
             elif kind == "acceleration":
-                wanted = spline.accelerations(*ahead)[0]
+                (wanted,) = spline.accelerations(*ahead)
             else:
                 wanted = np.zeros(len(columns))
             for column, value in zip(columns.tolist(), wanted.tolist(), strict=False):
                 self._context.command(column, value)
 
     def _write_pid(self, samples: Samples, velocity: Array, measured: StartState, cycle: Cycle) -> None:
-        error = self._interfaces.difference(samples.desired[0], measured.position)
-        rate = samples.desired_velocity[0] - (0.0 if measured.velocity is None else measured.velocity)
+        (desired,), (desired_velocity,) = samples.desired, samples.desired_velocity
+        error = self._interfaces.difference(desired, measured.position)
+        rate = desired_velocity - (0.0 if measured.velocity is None else measured.velocity)
         for index, column in enumerate(self.columns().tolist()):
             pid = self._pids[index]
             correction = pid.command(float(error[index]), float(rate[index]), cycle.period_ns / 1e9)

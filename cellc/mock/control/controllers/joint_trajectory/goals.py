@@ -39,7 +39,6 @@ class GoalBook:
         self.tolerances = defaults
         self._period_ns = context.parameters.period_ns("action_monitor_rate")
         self._active: GoalMonitor | None = None
-        self._accepted_ns = 0
         self._waiting: list[GoalMonitor] = []
 
     @property
@@ -63,7 +62,6 @@ class GoalBook:
             self._emit(self._ended(preempted, now_ns, GoalStatus.ABORTED, -1, text, now_ns))
         self.tolerances = goal_tolerances(self.defaults, goal, self._joints, self._context.log, self._context.name)
         self._active = GoalMonitor(goal_id, now_ns, self._period_ns, listened)
-        self._accepted_ns = now_ns
 
     def succeed(self, now_ns: int) -> None:
         """Decide that the running goal succeeded."""
@@ -119,7 +117,7 @@ class GoalBook:
         monitor_active = self._active
         if monitor_active is not None and monitor_active.listened and monitor_active.next_ns() == now_ns:
             monitor_active.tick(now_ns)
-            if last.samples is not None and motion is not None and last.time_ns >= self._accepted_ns:
+            if last.samples is not None and motion is not None and last.time_ns >= monitor_active.accepted_ns:
                 self._emit(self._feedback(monitor_active, now_ns, last, last.samples, motion, interfaces))
 
     def _feedback(
