@@ -159,8 +159,8 @@ def test_the_nearest_share_a_word_and_stand_in_order(text: str, near: list[int])
 @pytest.mark.parametrize(
     ("kind", "longest"), [(Phrase, 100), (Template, 300)], ids=["a phrase", "a text of a log line"]
 )
-def test_a_text_of_a_symptom_is_no_longer_than(kind: object, longest: int) -> None:
-    adapter = TypeAdapter[str](kind, config=Symptom.model_config)
+def test_a_text_of_a_symptom_is_no_longer_than(kind: type[str], longest: int) -> None:
+    adapter = TypeAdapter(kind, config=Symptom.model_config)
     assert adapter.validate_python("a" * longest) == "a" * longest
     with pytest.raises(ValidationError, match=f"at most {longest} characters"):
         adapter.validate_python("a" * (longest + 1))

@@ -14,7 +14,7 @@ import pytest
 
 from cellc.contract.bring_up import Activation, BringUpStep, HardwareActivation
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
-from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind, Moment, Need, Unmet
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind, ManagerLock, Moment, Need, Unmet
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.effects import Effects
@@ -178,14 +178,14 @@ def test_claim_in_the_first_phase_comes_before_anybody_opened_the_brakes(fr3: Ge
 
 
 @pytest.mark.parametrize(
-    ("cell", "held_s"),
+    ("lock", "held_s"),
     [
-        ("ur5e_pick", {"gripper_hardware": 3.0}),  # until its fingers have come to an end of their stroke
-        ("fr3_hand", {}),  # nothing of it moves or waits as it is activated
+        (ManagerLock.SECONDS, 3.0),  # until its fingers have come to an end of their stroke
+        (ManagerLock.NONE, 0.0),
     ],
 )
 def test_activation_takes_as_long_as_the_driver_holds_its_manager(
-    cell: str, held_s: dict[str, float], monkeypatch: pytest.MonkeyPatch
+    lock: ManagerLock, held_s: float, ur5e: GeneratedFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     taken: dict[str, int] = {}
     activate = Effects.activate
@@ -195,11 +195,12 @@ def test_activation_takes_as_long_as_the_driver_holds_its_manager(
         return taken[component]
 
     monkeypatch.setattr(Effects, "activate", timed)
-    folder = load(generated(cell)).folder
-    brought_up(folder)
-    assert taken == {name: round(held_s.get(name, 0.0) * 1e9) for name in taken}
-    assert {*held_s} <= {*taken}
-    assert taken
+    gripper = ur5e.contract.devices["gripper"]
+    effect = gripper.effects[Moment.ACTIVATE].model_copy(update={"lock": lock})
+    held = gripper.model_copy(update={"effects": {**gripper.effects, Moment.ACTIVATE: effect}})
+    devices = {**ur5e.contract.devices, "gripper": held}
+    brought_up(replace(ur5e, contract=ur5e.contract.model_copy(update={"devices": devices})))
+    assert taken == {"arm_hardware": 0, "gripper_hardware": round(held_s * 1e9)}
 
 
 def test_cycle_of_an_uncommanded_motion_is_counted_from_the_start_of_its_manager(ur5e: GeneratedFolder) -> None:

@@ -84,6 +84,11 @@ def test_gripper_takes_one_position() -> None:
 
 def test_goals_of_all_controllers_are_counted_from_one_and_refused_ones_are_not() -> None:
     manager = bench()
-    sent = [("arm", _ARM_GOAL), ("arm", TrajectoryGoal(_JOINTS, ())), ("hand", _HAND_GOAL), ("arm", _ARM_GOAL)]
+    sent: list[tuple[str, TrajectoryGoal | GripperGoal]] = [
+        ("arm", _ARM_GOAL),
+        ("arm", TrajectoryGoal(_JOINTS, ())),
+        ("hand", _HAND_GOAL),
+        ("arm", _ARM_GOAL),
+    ]
     answers = [manager.send_goal(controller, goal) for controller, goal in sent]
     assert [(each.accepted, each.goal_id) for each in answers] == [(True, 1), (False, 0), (True, 2), (True, 3)]
