@@ -156,6 +156,11 @@ def test_the_nearest_share_a_word_and_stand_in_order(text: str, near: list[int])
     assert words.nearest(text) == near
 
 
+def test_of_two_that_are_as_near_the_one_with_more_in_all_its_phrases_comes_first() -> None:
+    words = Words({}, [["fails"], ["stops", "late"]])
+    assert words.nearest("it fails, stops, is late") == [1, 0]
+
+
 @pytest.mark.parametrize(
     ("kind", "longest"), [(Phrase, 100), (Template, 300)], ids=["a phrase", "a text of a log line"]
 )

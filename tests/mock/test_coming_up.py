@@ -201,13 +201,3 @@ def test_activation_takes_as_long_as_the_driver_holds_its_manager(
     devices = {**ur5e.contract.devices, "gripper": held}
     brought_up(replace(ur5e, contract=ur5e.contract.model_copy(update={"devices": devices})))
     assert taken == {"arm_hardware": 0, "gripper_hardware": round(held_s * 1e9)}
-
-
-def test_cycle_of_an_uncommanded_motion_is_counted_from_the_start_of_its_manager(ur5e: GeneratedFolder) -> None:
-    def early(step: BringUpStep) -> BringUpStep:
-        moved = isinstance(step.request, HardwareActivation)
-        return step.model_copy(update={"phase": BringUpPhase.START}) if moved else step
-
-    _, plant = brought_up(with_steps(ur5e, early))
-    (motion,) = plant.effects.motions
-    assert motion.cycle == motion.stamp_ns // 2_000_000  # 500 Hz
