@@ -44,6 +44,14 @@ NEGATIVE, UNEQUAL = "a principal moment is negative", "one principal moment exce
         ((1.0, 1.0, 1.0), (0.4, 0.4, -0.4), ""),
         # The principal moments 1.5, 4.5 and 2 of products in one plane; then 1.5 + 2 < 4.5.
         ((3.0, 3.0, 2.0), (1.5, 0.0, 0.0), UNEQUAL),
+        # Small and large bodies are rounded alike: 0.25 and 2.5 millionths of half of the sum are in excess.
+        ((1e-4, 1e-4, 2.000001e-4), (0.0, 0.0, 0.0), ""),
+        ((1e-4, 1e-4, 2.00001e-4), (0.0, 0.0, 0.0), UNEQUAL),
+        ((100.0, 100.0, 200.0001), (0.0, 0.0, 0.0), ""),
+        ((100.0, 100.0, 200.001), (0.0, 0.0, 0.0), UNEQUAL),
+        # 1.6, 1.6 and -0.2 of a heavy and of a light body, as above.
+        ((1e-4, 1e-4, 1e-4), (-6e-5, -6e-5, -6e-5), NEGATIVE),
+        ((1e7, 1e7, 1e7), (-6e6, -6e6, -6e6), NEGATIVE),
     ],
 )
 def test_inertia_tensor_is_that_of_a_body(

@@ -19,7 +19,7 @@ class StandIn:
     node: str
     action: str
     action_type: str
-    unit: str | None = None
+    unit: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,13 +81,13 @@ class Controller(Entity):
     plugin_parameters: frozenset[str] = frozenset()
     device: str | None = None
     joints: tuple[str, ...] = ()
-    command_interfaces: tuple[str, ...] = ()
+    command_interfaces: tuple[str, ...]
     on_real: OnReal | None = None
     vendor: VendorCommand | None = None
     state_interfaces: tuple[str, ...] = ()
     parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
     written_parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
-    active: bool = True
+    active: bool
     client: str | None = None
     action: str | None = None
     action_type: str | None = None
@@ -120,8 +120,8 @@ class Controller(Entity):
 class ControllerSwitch(Entity):
     """A switch that the cell may make: deactivate, then activate."""
 
-    activate: tuple[str, ...] = ()
-    deactivate: tuple[str, ...] = ()
+    activate: tuple[str, ...]
+    deactivate: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,8 +135,8 @@ class ControllerManager(Entity):
     namespace: str = ""
     host: str = ""
     devices: tuple[str, ...] = ()
-    controllers: tuple[Controller, ...] = ()
-    switches: tuple[ControllerSwitch, ...] = ()
+    controllers: tuple[Controller, ...]
+    switches: tuple[ControllerSwitch, ...]
 
     @property
     def node(self) -> str:

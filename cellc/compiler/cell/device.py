@@ -104,10 +104,10 @@ class Connection:
     """How the real device is reached; texts as written, or the port of the tool connector that it goes ``through``."""
 
     host: str
-    nic: str | None = None
-    address: str | None = None
-    port: str | None = None
-    through: str | None = None
+    nic: str | None
+    address: str | None
+    port: str | None
+    through: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,9 +122,9 @@ class LimitShares:
 class Stamp:
     """What a sensor stamps (``source`` is hardware, driver, arrival or UNKNOWN), and the clock that it stamps with."""
 
-    source: str = UNKNOWN
-    clock: Clock = field(default_factory=lambda: Clock(domain=UNKNOWN))
-    exposure_s: float | None = None
+    source: str
+    clock: Clock
+    exposure_s: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,7 +142,7 @@ class SimulatedJoint(Entity):
     """What the mock adds to ``joints``; ``name`` is the key in the spec, ``*`` for every joint that is commanded."""
 
     joints: tuple[str, ...]
-    lag_s: float | None = None
+    lag_s: float | None
     noise: JointFigure | None = None
     velocity: JointFigure | None = None
 
@@ -222,7 +222,7 @@ class NetworkNeeds:
 
     dedicated_link: bool
     realtime: str
-    listens: tuple[int, ...] = ()
+    listens: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -21,7 +21,7 @@ class InterfaceGroup:
     state_interfaces: tuple[str, ...]
     initial: Mapping[str, float]
     real_only: bool
-    declared: bool = True
+    declared: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,11 +107,11 @@ class HardwareComponent:
     parameters: Mapping[str, Mapping[str, str]]
     sensors: tuple[InterfaceGroup, ...]
     gpios: tuple[InterfaceGroup, ...]
-    kinds: Mapping[str, str] = field(default_factory=dict)
+    kinds: Mapping[str, str]
     effects: Mapping[Moment, Effect] = field(default_factory=dict)
     initial_state: str = "active"
     at_once: bool = False
-    enforce_command_limits: bool | None = None
+    enforce_command_limits: bool | None
     command_timeout_s: float | None = None
     told: Mapping[Need, Told] = field(default_factory=dict)
     nodes: tuple[InnerNode, ...] = ()

@@ -43,7 +43,7 @@ class InnerNode:
 
     full_name: str
     endpoints: NodeEndpoints
-    parameters: bool = True
+    parameters: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,9 +71,9 @@ class Node(Entity):
     package: str
     executable: str
     namespace: str = ""
-    host: str = ""
+    host: str
     lifecycle: bool = False
-    owner: str = "UNKNOWN"
+    owner: str
     language: str = "UNKNOWN"
     clock: str | None = None
     respawn: bool = False

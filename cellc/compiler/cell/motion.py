@@ -105,7 +105,7 @@ class NamedPose(Entity):
     group: str
     joints: tuple[str, ...]
     positions: tuple[float, ...]
-    linear: tuple[bool, ...] = ()
+    linear: tuple[bool, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,16 +150,16 @@ class Fault(Entity):
 
     kind: str
     at_s: float | None
-    event: StepEvent | None = None
-    phase: str | None = None
-    lasting_s: float | None = None
-    cycles: int | None = None  # for skip_cycles
-    delay_s: float | None = None  # for delay
-    jump_s: float | None = None  # for jump_clock
-    displacement: float | None = None  # for displace and jog, rad or m
-    velocity: float | None = None  # for slow, rad/s or m/s
-    linear: bool = False  # whether either was written as a length
-    factor: float | None = None  # for scale_speed, 0 to 1
+    event: StepEvent | None
+    phase: str | None
+    lasting_s: float | None
+    cycles: int | None
+    delay_s: float | None
+    jump_s: float | None
+    displacement: float | None
+    velocity: float | None
+    linear: bool
+    factor: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -175,6 +175,6 @@ class Rehearsal(Entity):
     expect: str
     within_s: float | None
     timeout_s: float
-    bring_up: str = "mock"
-    success: float | None = None
-    confidence: float = 0.95
+    bring_up: str
+    success: float | None
+    confidence: float

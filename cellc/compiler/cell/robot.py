@@ -33,9 +33,9 @@ class Payload:
 
     mass_kg: float
     center_of_mass: Vector3
-    inertia: Moments6 | None = None
-    told_by: str = "installation"
-    load: Load | None = None
+    inertia: Moments6 | None
+    told_by: str
+    load: Load | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,8 +75,8 @@ class CartesianImpedance:
 class Impedance:
     """How stiff the robot's own controller holds what it is commanded; ``joint`` in N m/rad, None where unstated."""
 
-    joint: tuple[float, ...] | None = None
-    cartesian: CartesianImpedance | None = None
+    joint: tuple[float, ...] | None
+    cartesian: CartesianImpedance | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,9 +100,9 @@ class ToolSerial:
     baud_rate: int
     parity: str
     stop_bits: int
-    rx_idle_chars: float | None = None
-    tx_idle_chars: float | None = None
-    tcp_port: int | None = None
+    rx_idle_chars: float | None
+    tx_idle_chars: float | None
+    tcp_port: int | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,7 +110,7 @@ class ToolConnector:
     """What the connector at the tool frame gives."""
 
     voltage_v: float
-    serial: ToolSerial | None = None
+    serial: ToolSerial | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,7 +132,7 @@ class Plug:
     """What a device takes from the tool connector of a robot; ``serial`` are settings, None where it speaks none."""
 
     voltage_v: float
-    serial: Mapping[str, str | int] | None = None
+    serial: Mapping[str, str | int] | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,8 +142,8 @@ class HostProgram:
     name: str
     package: str
     program: str
-    arguments: tuple[str, ...] = ()
-    system: tuple[str, ...] = ()
+    arguments: tuple[str, ...]
+    system: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -76,7 +76,7 @@ class Host(Entity):
 
     scheduling: str = UNKNOWN
     clock: Clock = field(default_factory=Clock)
-    nics: Mapping[str, NetworkCard] = field(default_factory=dict)
+    nics: Mapping[str, NetworkCard]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,13 +140,13 @@ class Calibration(Entity):
     """
 
     revision: int
-    measured: str = UNKNOWN
-    measured_on: datetime.date | None = None
-    method: str = UNKNOWN
-    samples: int | None = None
-    residual_m: float | None = None
-    owner: str = UNKNOWN
-    file: CalibrationFile | None = None
+    measured: str
+    measured_on: datetime.date | None
+    method: str
+    samples: int | None
+    residual_m: float | None
+    owner: str
+    file: CalibrationFile | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-
-from cellc.compiler.cell.site import UNKNOWN
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,13 +34,13 @@ class Switched:
     states: Mapping[str, SwitchedState]
     signals: tuple[str, ...]
     starts: str
-    outputs: Mapping[str, str] = field(default_factory=dict)
-    inputs: Mapping[str, str] = field(default_factory=dict)
-    time_s: float = 0.0
-    within_s: float = 1.0
-    holds: str | None = None
-    power_lost: str = UNKNOWN
-    accepted_by: str | None = None
+    outputs: Mapping[str, str]
+    inputs: Mapping[str, str]
+    time_s: float
+    within_s: float
+    holds: str | None
+    power_lost: str
+    accepted_by: str | None
 
     @property
     def told_states(self) -> tuple[str, ...]:

@@ -13,8 +13,8 @@ class SafetyState:
 
     name: str
     stops: bool
-    reported: str | None = None
-    gate: GateCode = GateCode.G4
+    reported: str | None
+    gate: GateCode
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,7 +23,7 @@ class RecoveryProcedure:
 
     state: str
     steps: tuple[str, ...]
-    by: str | None = None
+    by: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,11 +62,11 @@ class CommissioningStep:
 
     gate: GateCode
     does: str
-    shows: bool = False
-    powers: bool = False
-    log: tuple[str, ...] = ()
-    run: tuple[str, ...] = ()
-    by: str | None = None
+    shows: bool
+    powers: bool
+    log: tuple[str, ...]
+    run: tuple[str, ...]
+    by: str | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,7 +80,7 @@ class RecordSource:
     """
 
     attempt_field: str
-    controller_kind: str | None = None
-    topic: str | None = None
-    field: str | None = None
-    read: str | None = None
+    controller_kind: str | None
+    topic: str | None
+    field: str | None
+    read: str | None

@@ -83,7 +83,7 @@ def queue_older_than_max_age(graph: CellGraph) -> Findings:
             passed = [pair for pair in passed_on.get(topic.name, ()) if _publishes(end, pair[0])]
             bounds = (topic, *(last for _, last in passed))
             stated = [(other.max_age_s, other) for other in bounds if other.max_age_s is not None]
-            if not stated or end.qos.history == "keep_all" or end.qos.depth == 1 or _is_a_backlog(topic, end):
+            if not stated or end.qos.history == "keep_all" or _is_a_backlog(topic, end):
                 continue
             if topic.wants == "every_sample" and not any((one.rate_hz or 0.0) < topic.rate_hz for one, _ in passed):
                 continue
@@ -95,7 +95,7 @@ def queue_older_than_max_age(graph: CellGraph) -> Findings:
                     f"a full queue must hold at most {max_age_s * 1e3:.4g} ms, the `max_age` of `{bound.name}`, "
                     f"got {oldest_s * 1e3:.4g} ms"
                 )
-                most = max(1, int(max_age_s * topic.rate_hz * _ROUNDING))
+                most = int(max_age_s * topic.rate_hz * _ROUNDING)  # one at least: no age is below a period
                 advice = f"use `depth: {most}`{' or less' if most > 1 else ''}, or allow a greater age"
                 place = graph.cell.locate(*bound.path, "max_age")
                 yield found(graph, end.path, message, advice, (Related("allowed here", place),))
