@@ -15,6 +15,7 @@ import pytest
 
 from cellc.contract.limits import DEFAULTS, in_force
 from cellc.robot.description import mesh_child
+from cellc.robot.description.confined_child import ChildEndedError, ask_child
 from cellc.robot.description.mesh_numbers import MeshNumbers, pack_numbers, read_answers, read_meshes
 from cellc.robot.description.meshes import (
     MeshError,
@@ -272,6 +273,35 @@ def test_bytes_and_triangles_are_bounded(tmp_path: Path) -> None:
     assert (read.code, str(read)) == ("mesh-too-large", "must have at most 1 triangles, got 2")
     with in_force(replace(DEFAULTS, mesh_bytes=183)):
         assert _refusal("part.stl", (), (tmp_path,)) == "mesh-too-large"
+
+
+def test_triangles_of_all_meshes_together_are_bounded(tmp_path: Path) -> None:
+    for name in ("a.stl", "b.stl"):
+        (tmp_path / name).write_bytes(_binary_stl(1, POINTS))
+    files = tuple(identify(f"file://{file}", (tmp_path,), ()) for file in sorted(tmp_path.iterdir()))
+    with in_force(replace(DEFAULTS, mesh_triangles_together=2)):
+        assert [len(read.triangles) for read in read_meshes(files) if isinstance(read, MeshNumbers)] == [1, 1]
+    with in_force(replace(DEFAULTS, mesh_triangles_together=1)):
+        first, second = read_meshes(files)
+    assert isinstance(first, MeshNumbers)
+    assert isinstance(second, MeshError)
+    assert str(second) == "must have at most 1 triangles with the meshes before it, got 2"
+    assert not second.certain
+
+
+def test_mesh_of_which_nothing_is_known_is_no_fault(tmp_path: Path) -> None:
+    mesh, (files, facts) = _facts(tmp_path, (0.0, 1.0, 1.0))
+    unread = Mesh("unread.stl", (1.0, 1.0, 1.0))
+    assert list(unusable([mesh], files, {})) == []
+    assert list(unusable([unread], files, facts)) == []
+    assert [one for one, _ in unusable([unread, mesh], files, facts)] == [mesh]
+
+
+def test_child_that_does_not_end_well_is_told_in_a_sentence() -> None:
+    with pytest.raises(ChildEndedError) as caught:
+        ask_child("cellc.robot.description.mesh_child", b"no request")
+    assert str(caught.value) == "takes more time or memory than it may use"
+    assert caught.value.answer == b""
 
 
 def test_mesh_that_ends_the_child_is_named_and_those_before_it_are_read(tmp_path: Path) -> None:
