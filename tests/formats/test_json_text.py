@@ -40,6 +40,29 @@ def test_what_does_not_fit_has_one_item_a_line() -> None:
     assert text.splitlines()[2:4] == ['  "words": [', '    "' + "long" * 10 + '0",']
 
 
+@pytest.mark.parametrize(("indent", "length"), [("  ", 119), ("    ", 119), ("      ", 119)])
+def test_line_that_fits_with_a_comma_behind_it_is_not_broken(indent: str, length: int) -> None:
+    """A line has at most 120 characters, and one that another follows ends in a comma."""
+
+    class Inner(BaseModel):
+        words: tuple[str, ...]
+
+    class Deep(BaseModel):
+        inner: Inner | None = None
+        deep: Deep | None = None
+
+    def rendered(letters: int) -> list[str]:
+        part = Deep(inner=Inner(words=("x" * letters, "")))
+        for _ in range(len(indent) // 2 - 1):
+            part = Deep(deep=part, inner=Inner(words=("x" * 200, "")))
+        return render(part).splitlines()
+
+    taken = len(f'{indent}"inner": {{"words": ["", ""]}}')
+    whole = [line for line in rendered(length - taken) if line.startswith(f'{indent}"inner": {{"words"')]
+    assert [len(line.rstrip(",")) for line in whole] == [length]
+    assert not any(line.startswith(f'{indent}"inner": {{"words"') for line in rendered(length - taken + 1))
+
+
 def test_only_item_of_a_list_shares_the_lines_of_its_brackets() -> None:
     class Outer(BaseModel):
         wholes: tuple[Whole, ...]
