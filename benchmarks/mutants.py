@@ -67,7 +67,7 @@ FOLDERS = {
     "limits.py": "description source",
     "link": "link corpus",
     "pins.py": "link",
-    "pipeline.py": "cli",
+    "pipeline.py": "cli project/test_package.py",
     "printing.py": "printing",
     "robot": "description",
     "report/text_report.py": "report cli/test_diagnose.py",

@@ -514,6 +514,32 @@ def test_fingers_run_while_no_program_plays_and_a_claim_waits_for_what_takes_it_
     assert {"kind": "node", "node": "/claim_watch"} in steps["claim_control"]
 
 
+@pytest.mark.parametrize(
+    ("edges", "parent", "child", "connected"),
+    [
+        ({"a": "world"}, "world", "a", True),
+        ({"a": "world"}, "a", "world", True),  # either way up the tree
+        ({"a": "world", "b": "a", "c": "b"}, "world", "c", True),
+        ({"a": "world", "b": "a", "c": "b", "d": "a"}, "c", "d", True),  # by way of a
+        ({"/a": "/world"}, "world", "a", True),  # tf2 strips a leading slash
+        ({"b": "a", "d": "c"}, "a", "d", False),
+        ({"b": "a"}, "a", "unheard", False),
+        ({}, "world", "world", False),
+        ({"a": "b", "b": "a", "d": "c"}, "a", "d", False),  # a circle ends
+    ],
+)
+def test_frames_are_connected_by_what_both_hang_on(
+    edges: dict[str, str], parent: str, child: str, connected: bool
+) -> None:
+    graph = object.__new__(program().Graph)
+    graph._parents, graph._listened = {}, {"/tf", "/tf_static"}
+    headers = {name: SimpleNamespace(frame_id=above) for name, above in edges.items()}
+    heard = [SimpleNamespace(child_frame_id=name, header=header) for name, header in headers.items()]
+    for edge in heard:  # one message each, as several publishers send them
+        graph._place(SimpleNamespace(transforms=[edge]))
+    assert graph.connects(parent, child) is connected
+
+
 def test_launch_ends_with_the_manager_and_with_the_stopper_of_claims_on_every_distribution() -> None:
     # Universal_Robots_ROS2_Driver issue 1084: with a dead stopper a claim outlives the program, and the arm jumps.
     for distro in ("humble", "jazzy"):

@@ -137,3 +137,22 @@ def test_no_artifact_rests_on_pairs_that_took_too_long_to_find(monkeypatch: pyte
         assert disabled_links(checked.graph).limit == "planning-seconds"
         compiled = compile_cell(checked)
     assert (compiled.value, [found.code for found in compiled.diagnostics]) == (None, ["geometry-too-large"])
+
+
+@pytest.mark.parametrize(
+    ("most", "refused"),
+    [
+        # Two bars, the hand and two boxes are 5 shapes: 4 + 3 + 2 + 1 pairs.
+        (10, ""),
+        (9, "the 5 collision shapes make 10 pairs, and must make at most 9"),
+    ],
+)
+def test_pairs_of_shapes_are_bounded(most: int, refused: str, tmp_path: Path) -> None:
+    box = {"parent": "world", "box": "20 20 20 mm"}
+    scene = {"near": {**box, "xyz": "600 300 0 mm"}, "far": {**box, "xyz": "600 600 0 mm"}}
+    graph = _graph(tmp_path, scene=scene, motion=_motion(poses={"stretched": {"bars": "0 0 0 deg"}}))
+    with in_force(replace(DEFAULTS, robot_pairs=most)):
+        motion, disabled = motion_answer(graph), disabled_links(graph)
+    assert (motion.refused, disabled.refused) == (refused, refused)
+    assert (motion.limit, disabled.limit) == (("robot-pairs",) * 2 if refused else ("", ""))
+    assert [pose.name for pose in motion.poses] == ([] if refused else ["stretched"])
