@@ -16,7 +16,8 @@ from tests.cells import CORPUS, graph_of, spec_of
         # The task commands the planner, and that the controllers; perception is heard by the task.
         (
             CORPUS / "valid" / "complete.yaml",
-            "perception / task / move_group / joint_states arm_trajectory gripper_action / arm gripper camera / safety_plc",
+            "perception / task / move_group / joint_states arm_trajectory gripper_action / arm gripper camera / "
+            "safety_plc",
         ),
         # There is no controller, and no column for any.
         (CORPUS / "valid" / "camera_only.yaml", "perception / camera / safety_plc"),
