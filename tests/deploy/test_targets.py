@@ -1,4 +1,4 @@
-"""A hand that one controller closes on the mock and its vendor's node on real hardware: what is said of which target."""
+"""A hand that a controller closes on the mock and its vendor's node on real hardware: what is said of which target."""
 
 from __future__ import annotations
 
