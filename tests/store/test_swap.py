@@ -47,10 +47,10 @@ def test_lock_of_a_staging_folder_goes_last(tmp_path: Path, monkeypatch: pytest.
     (staging / "record.txt").touch()
     before_it_goes = []
 
-    def removed(folder: Path, **options: bool) -> None:
+    def removed(folder: Path, *, ignore_errors: bool = False) -> None:
         if folder == staging:
             before_it_goes.append([path.name for path in staging.iterdir()])
-        remove(folder, **options)
+        remove(folder, ignore_errors=ignore_errors)
 
     remove = shutil.rmtree
     monkeypatch.setattr(shutil, "rmtree", removed)
