@@ -56,4 +56,4 @@ def test_a_name_that_a_shell_would_evaluate_is_no_word(shell: str, tmp_path: Pat
 )
 def test_a_damaged_journal_has_no_words(run: str, tmp_path: Path) -> None:
     (tmp_path / "journal").write_text(f"{{}}\n{run}\n", encoding="utf-8")
-    assert _completed("bash", "cellc mock x --journal journal --replay s", tmp_path).strip() == ""
+    assert _completed("bash", "cellc replay x --journal journal s", tmp_path).strip() == ""
