@@ -28,7 +28,7 @@ _ARITHMETIC: dict[type[ast.operator], type[ast.operator]] = {
 _DEFAULTS = {"bool": "False", "int": "0", "float": "0.0", "str": "''", "tuple": "()", "list": "[]", "dict": "{}"}
 _TEXT = (ast.JoinedStr, ast.List, ast.Tuple)
 _FORBIDDING = {"strict", "frozen", "slots", "repr"}
-_AS_THEY_ARE = {"isinstance", "issubclass", "cast", "dist", "gcd", "hypot", "isclose", "maximum", "minimum"}
+_AS_THEY_ARE = {"isinstance", "issubclass", "cast", "dist", "gcd", "hypot", "isclose", "maximum", "minimum", "suppress"}
 """Calls whose first two arguments no test can tell apart, or whose order mypy holds."""
 _NAMES = {"__all__", "__slots__", "model_config"}
 _PLATFORM = ("TYPE_CHECKING", "__name__", "sys.platform", "sys.version_info", "os.name")

@@ -141,3 +141,18 @@ def test_contract_says_what_the_spec_says() -> None:
     assert contract.devices["camera"].camera.exposure_s == 0.008
     assert contract.kpis.cancel_s == 0.2
     assert len(contract.attempt_fields) == 15  # the checkpoint of chapter 4 names fifteen
+
+
+@pytest.mark.parametrize("cell", CELLS)
+def test_launch_file_starts_one_publisher_of_the_robot_state(cell: str) -> None:
+    launch = ElementTree.fromstring(artifacts_of(cell)["launch/cell.launch.xml"])
+    hosts = [include.attrib["file"] for include in launch.iter("include")]
+    parts = [launch, *(ElementTree.fromstring(artifacts_of(cell)[path]) for path in _parts(cell, hosts))]
+    started = [
+        node.attrib for part in parts for node in part.iter("node") if node.get("pkg") == "robot_state_publisher"
+    ]
+    assert [node["exec"] for node in started] == ["robot_state_publisher"]
+
+
+def _parts(cell: str, included: list[str]) -> list[str]:
+    return [path for path in artifacts_of(cell) if any(file.endswith(f"/{path}") for file in included)]
