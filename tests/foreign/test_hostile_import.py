@@ -66,8 +66,8 @@ MESHES = {
     "the device's own file": 'filename="package://robot.urdf/a.stl"',
     "a link that leads out": 'filename="package://p/link.stl"',
     "a folder that leads out": 'filename="package://linked/secret.stl"',
-    "a link, from the folder above": 'filename="package://x/work/p/link.stl"',
-    "a link, from a folder above that is called as a package": 'filename="package://ABOVE/work/p/link.stl"',
+    "a link, from the folder above": 'filename="package://x/bench/p/link.stl"',
+    "a link, from a folder above that is called as a package": 'filename="package://ABOVE/bench/p/link.stl"',
     "a name with a quote": 'filename="package://p/&quot;&gt;&lt;x.stl"',
 }
 """What a mesh is named by; HOME is a folder outside of the import, ABOVE the name of the folder that holds both."""
@@ -108,7 +108,7 @@ def _state(folder: Path) -> dict[str, str]:
 @pytest.fixture(name="here")
 def here_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with the package of a robot, beside a folder of somebody else."""
-    here, home = tmp_path / "work", tmp_path / "home"
+    here, home = tmp_path / "bench", tmp_path / "home"
     (home / "folder").mkdir(parents=True)
     (home / "secret.stl").write_text(_SECRET, encoding="utf-8")
     (home / ".bashrc").write_text("home\n", encoding="utf-8")
@@ -134,7 +134,7 @@ def _imported(here: Path, text: str) -> tuple[int, str]:
     assert "bug of cellc" not in ran.out + ran.err
     assert _state(home) == before
     assert Path("/etc/passwd").stat().st_mtime_ns == passwd
-    assert sorted(path.name for path in here.parent.iterdir()) == ["home", "work"]
+    assert sorted(path.name for path in here.parent.iterdir()) == ["bench", "home"]
     known = {"arm.urdf", "cell.yaml", "linked", "odd_arm", "p", here.parts[1]}
     assert {path.name for path in here.iterdir()} <= known
     return ran.code, ran.out + ran.err

@@ -130,7 +130,7 @@ def run(command: Sequence[str], folder: Path, text: str = "", extra: Mapping[str
     """Run a program with the environment of a person who has no virtual environment active."""
     own = {"PIP_DISABLE_PIP_VERSION_CHECK": "1", **(extra or {})}
     kept = {key: value for key, value in os.environ.items() if key not in ("VIRTUAL_ENV", "PYTHONPATH")}
-    path = os.pathsep.join([str(Path(sys._base_executable).parent), kept["PATH"]])  # type: ignore[attr-defined]
+    path = os.pathsep.join([str(Path(sys.base_prefix, "bin")), kept["PATH"]])
     done = subprocess.run(
         command, cwd=folder, env=kept | own | {"PATH": path}, input=text, capture_output=True, text=True, check=False
     )

@@ -12,10 +12,10 @@ from cellc.contract.store.swap import link_above, link_on_the_way
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The current folder, with a link in it, behind a link of the user."""
-    (tmp_path / "disk" / "work" / "real").mkdir(parents=True)
+    (tmp_path / "disk" / "bench" / "real").mkdir(parents=True)
     (tmp_path / "home").symlink_to("disk", target_is_directory=True)
-    (tmp_path / "disk" / "work" / "linked").symlink_to("real", target_is_directory=True)
-    monkeypatch.chdir(tmp_path / "disk" / "work")
+    (tmp_path / "disk" / "bench" / "linked").symlink_to("real", target_is_directory=True)
+    monkeypatch.chdir(tmp_path / "disk" / "bench")
     return Path.cwd()
 
 
@@ -27,7 +27,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         ("real/out", None),
         ("{here}/linked/out", "{here}/linked"),  # the same, absolute
         ("{here}/real/out", None),
-        ("{above}/home/work/real/out", None),  # a link of the user, outside of the current folder
+        ("{above}/home/bench/real/out", None),  # a link of the user, outside of the current folder
         ("{above}/disk/elsewhere", None),
     ],
 )

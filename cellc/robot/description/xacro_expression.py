@@ -11,9 +11,9 @@ import ast
 import operator
 import re
 from collections import ChainMap
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
 from cellc.contract.errors import CellcError
 from cellc.contract.limits import limits, option
@@ -201,7 +201,8 @@ def _turns(
         turns[0] += 1
         if turns[0] > limits().xacro_items:
             raise ExpressionError(f"a comprehension of more than {limits().xacro_items} turns")
-        inner: Mapping[str, Any] = ChainMap(dict(_bound(first.target, item)), symbols)  # type: ignore[arg-type]
+        known = cast("MutableMapping[str, Any]", symbols)  # what is bound goes into the first map alone
+        inner = ChainMap(dict(_bound(first.target, item)), known)
         if all(_value(condition, inner) for condition in first.ifs):
             yield from _turns(node, generators[1:], inner, turns)
 

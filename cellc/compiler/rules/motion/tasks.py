@@ -54,18 +54,23 @@ _GOALS_WITH_A_PART = 2
 @rule(Severity.WARNING)
 def grip_before_arrival(graph: CellGraph) -> Findings:
     """Yield steps that close a gripper away from a goal and are followed by two goals before it opens."""
-    goals = {goal.name for goal in graph.cell.goals}
-    reported = set()
-    for rehearsal in graph.cell.rehearsals:
+    goals, reported = {goal.name for goal in graph.cell.goals}, set()
+    for step, before, after in _closings(graph.cell):
+        ahead = _goals_until_open(after, goals)
+        away = not before or before[-1] not in goals
+        if away and len(ahead) >= _GOALS_WITH_A_PART and step.path not in reported:
+            reported.add(step.path)
+            message = f"`{step.name}` must close at a goal, but it closes before the arm goes to `{ahead[0]}`"
+            yield found(graph, step.path, message)
+
+
+def _closings(cell: Cell) -> Iterator[tuple[Step, list[str], Sequence[Step]]]:
+    """Yield each step that closes a gripper, in each rehearsal, with the moves before it and the steps after it."""
+    for rehearsal in cell.rehearsals:
         for number, step in enumerate(rehearsal.steps):
-            if step.kind != "grip" or step.command != "close" or step.path in reported:
-                continue
-            before = [step.name for step in rehearsal.steps[:number] if step.kind == "move"]
-            ahead = _goals_until_open(rehearsal.steps[number + 1 :], goals)
-            if (not before or before[-1] not in goals) and len(ahead) >= _GOALS_WITH_A_PART:
-                reported.add(step.path)
-                message = f"`{step.name}` must close at a goal, but it closes before the arm goes to `{ahead[0]}`"
-                yield found(graph, step.path, message)
+            if step.kind == "grip" and step.command == "close":
+                before = [earlier.name for earlier in rehearsal.steps[:number] if earlier.kind == "move"]
+                yield step, before, rehearsal.steps[number + 1 :]
 
 
 def _goals_until_open(steps: Sequence[Step], goals: set[str]) -> list[str]:
@@ -82,21 +87,15 @@ def _goals_until_open(steps: Sequence[Step], goals: set[str]) -> list[str]:
 @rule(Severity.WARNING)
 def part_never_released(graph: CellGraph) -> Findings:
     """Yield steps that close a gripper which opens no more, although the arm visits another goal and leaves it."""
-    goals = {goal.name for goal in graph.cell.goals}
-    reported = set()
-    for rehearsal in graph.cell.rehearsals:
-        for number, step in enumerate(rehearsal.steps):
-            if step.kind != "grip" or step.command != "close" or step.path in reported:
-                continue
-            before = [step.name for step in rehearsal.steps[:number] if step.kind == "move"][-1:]
-            after = rehearsal.steps[number + 1 :]
-            opened = any(item.kind == "grip" and item.name == step.name for item in after)
-            moves = [step for step in after if step.kind == "move"]
-            left = next((move for move in moves[:-1] if move.name in goals and [move.name] != before), None)
-            if not opened and left is not None:
-                reported.add(step.path)
-                message = f"`{step.name}` must open at `{left.name}` or after it, and stays closed to the end"
-                yield found(graph, step.path, message, related=(Related("the arm leaves this goal", left.span),))
+    goals, reported = {goal.name for goal in graph.cell.goals}, set()
+    for step, before, after in _closings(graph.cell):
+        opened = any(item.kind == "grip" and item.name == step.name for item in after)
+        moves = [item for item in after if item.kind == "move"]
+        left = next((move for move in moves[:-1] if move.name in goals and [move.name] != before[-1:]), None)
+        if not opened and left is not None and step.path not in reported:
+            reported.add(step.path)
+            message = f"`{step.name}` must open at `{left.name}` or after it, and stays closed to the end"
+            yield found(graph, step.path, message, related=(Related("the arm leaves this goal", left.span),))
 
 
 _Inside = Mapping[str, frozenset[str]]
