@@ -5,6 +5,7 @@ from typing import TypeAlias, Union
 from pydantic import BaseModel, ConfigDict, Field
 
 from cellc.contract.quantities import Coordinate, UnitQuaternion
+from cellc.contract.transforms import Pose
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -22,6 +23,11 @@ class ContractPose(ContractModel):
 
     xyz: tuple[Coordinate, Coordinate, Coordinate] = Field(description="Position, m.")
     quaternion: UnitQuaternion = Field(description="Unit quaternion x, y, z, w.")
+
+    @property
+    def pose(self) -> Pose:
+        """The transform as what is composed."""
+        return Pose(self.xyz, self.quaternion)
 
 
 def contract_schema(model: type[BaseModel]) -> dict[str, Json]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Container
 from dataclasses import dataclass
 
 Vector3 = tuple[float, float, float]
@@ -76,6 +77,21 @@ def apart(first: Pose, second: Pose) -> tuple[float, float]:
 def identity() -> Pose:
     """Return the pose of a frame in itself."""
     return Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+
+
+def climb(frame: str, edge: Callable[[str], tuple[str, Pose] | None], tops: Container[str] = ()) -> tuple[str, Pose]:
+    """Return the frame at which the way up from a frame ends, and the pose of the frame in it.
+
+    It ends at one of ``tops``, and where there is no edge up or one would lead round again.
+
+    Args:
+        edge: the parent of a frame, and the pose of the frame in it; None where the way ends.
+    """
+    pose, seen = identity(), set[str]()
+    while frame not in tops and frame not in seen and (above := edge(frame)) is not None:
+        seen.add(frame)
+        frame, pose = above[0], above[1] @ pose
+    return frame, pose
 
 
 def from_xyz_rpy(xyz: Vector3, rpy: Vector3) -> Pose:

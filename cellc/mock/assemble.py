@@ -14,7 +14,7 @@ from cellc.contract.contract import (
     ContractFrame,
     ContractSimulatedJoint,
 )
-from cellc.contract.transforms import Pose
+from cellc.contract.transforms import Pose, identity
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind
 from cellc.mock.bus.qos import hears, middleware_of, task_node
@@ -256,7 +256,7 @@ def _add_object(
     """Place the object that a dynamic frame follows, with the node that sees it and the inbox of the task."""
     pose = frame.simulated_pose
     assert frame.simulated_parent is not None  # the caller asked
-    position = Pose((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0)) if pose is None else Pose(pose.xyz, pose.quaternion)
+    position = identity() if pose is None else pose.pose
     if displaced is not None:
         position = Pose(displaced.along, (0.0, 0.0, 0.0, 1.0)) @ _turned(position, displaced.turned)
     plant.world.place(name, frame.simulated_parent, position, 0)

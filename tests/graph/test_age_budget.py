@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.graph.data_flow import age_chains
-from tests.cells import COMPLETE, linked
+from tests.cells import COMPLETE, diagnose, linked
 
 
 @pytest.fixture(scope="module")
@@ -35,6 +37,17 @@ def test_pose_is_as_old_as_its_image_and_its_own_period(cell: Cell) -> None:
     image, pose = chain(cell, "/object_pose")
     assert image == ("/camera/camera/color/image_raw", pytest.approx(0.008 + 1 / 30))
     assert pose == ("/object_pose", pytest.approx(0.1))
+
+
+def test_exposure_of_the_catalog_counts_where_the_spec_states_none(tmp_path: Path) -> None:
+    # The 80 ms of the catalog and a period of 33.3 ms are more than the 100 ms that the image may be old.
+    shutil.copytree(COMPLETE.parent, tmp_path, dirs_exist_ok=True)
+    spec, device = (tmp_path / "parts" / name for name in ("devices_camera.yaml", "demo_camera/device.yaml"))
+    stated, camera = (file.read_text(encoding="utf-8") for file in (spec, device))
+    spec.write_text(stated.replace(" exposure: 8 ms,", ""), encoding="utf-8")
+    device.write_text(camera.replace("\ncamera:\n", "\ncamera:\n  exposure: 80 ms\n"), encoding="utf-8")
+    found = {finding.code: finding.message for finding in diagnose(tmp_path / COMPLETE.name)}
+    assert "must be at least 113.3 ms" in found["max-age-too-short"]
 
 
 def test_freshest_of_several_inputs_counts(cell: Cell) -> None:

@@ -41,6 +41,10 @@ class InterfaceEnd:
     serves: bool
 
 
+def _is_signed(statement: HardwareStatement | None) -> bool:
+    return statement is not None and statement.is_signed()
+
+
 # Without slots, so that what is asked for often is looked up once and kept.
 @dataclass(frozen=True, kw_only=True)
 class Cell:
@@ -52,7 +56,7 @@ class Cell:
         uncertainty: what sweeps draw; None where the cell says nothing of it.
         mock_plugins: hardware plugin → what the user says about it.
         mock_programs: package and executable of a device's node → what the user says about it.
-        harmless_plugins: plugins that the catalog or a signed statement knows to touch no hardware.
+        harmless_plugins: plugins that the catalog knows to touch no hardware.
         harmless_programs: the same of programs.
         hardware_packages: packages that the catalog knows to reach hardware.
         implied: what nodes have at the ROS graph by what they are.
@@ -113,6 +117,14 @@ class Cell:
     def text(self, *path: str | int) -> str:
         """Return the scalar at a YAML path as the user wrote it, such as ``5 deg``; empty where nothing is written."""
         return self.places.texts.get(path, "")
+
+    def is_harmless_plugin(self, name: str) -> bool:
+        """Whether the catalog or a signed statement says that a plugin touches no hardware."""
+        return name in self.harmless_plugins or _is_signed(self.mock_plugins.get(name))
+
+    def is_harmless_program(self, name: str) -> bool:
+        """Whether the catalog or a signed statement says that a program, ``package/executable``, touches none."""
+        return name in self.harmless_programs or _is_signed(self.mock_programs.get(name))
 
     def signed_for_mock(self) -> Iterator[tuple[Device, str, HardwareStatement]]:
         """Yield the plugins and programs that devices run on the mock, of which somebody in the spec says something."""
@@ -205,6 +217,10 @@ class Cell:
     def stamp_of(self, name: str) -> Stamp | None:
         """Return what a device stamps; None of a node, which is no device."""
         return self._devices[name].stamp if name in self._devices else None
+
+    def exposure_of(self, name: str) -> float:
+        """Return the exposure time of a device, s; zero of a node, which is no device."""
+        return self._devices[name].exposure_s if name in self._devices else 0.0
 
     @cached_property
     def _devices(self) -> Mapping[str, Device]:

@@ -124,7 +124,6 @@ class Stamp:
 
     source: str
     clock: Clock
-    exposure_s: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -187,10 +186,9 @@ class CameraStream:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Camera:
-    """A camera; the exposure is that of the spec, else of the catalog, else zero."""
+    """A camera by what it publishes."""
 
     streams: tuple[CameraStream, ...]
-    exposure_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -253,6 +251,7 @@ class Device(Entity):
         carries: devices mounted on this one, directly or on a frame of it.
         host: the computer that runs its driver; empty where the cell names none.
         versions, connection, initial_state, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
+        exposure_s: exposure time of what it measures: of the spec, else of the catalog, else zero.
         payload, tcp, program, collision, impedance: what its own controller gets, and who starts the program there.
         robot: what its own controller can be told.
         tool_connector: what the connector at its tool frame gives; None where the spec says nothing.
@@ -301,6 +300,7 @@ class Device(Entity):
     host: str = ""
     limit_shares: LimitShares = field(default_factory=LimitShares)
     stamp: Stamp | None = None
+    exposure_s: float = 0.0
     payload: Payload | None = None
     tcp: str | None = None
     program: RobotProgram | None = None

@@ -10,6 +10,7 @@ from enum import Enum
 from typing import Any
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
@@ -70,7 +71,10 @@ def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> obj
         told = {field.name: getattr(value, field.name) for field in fields(value) if field.name not in left_out}
         place = "path" if isinstance(told.get("path"), tuple) else None  # a stop has a path too, and that is a text
         stated = {name: one for name, one in told.items() if name != place and one != _default(value, name)}
-        return {name: _settled(one) if name in _IN_ORDER else _unordered(_settled(one)) for name, one in stated.items()}
+        settled = {
+            name: _settled(one) if name in _IN_ORDER else _unordered(_settled(one)) for name, one in stated.items()
+        }
+        return _as_first_taken(settled) if isinstance(value, Device) else settled
     if isinstance(value, Mapping):
         return {str(name): _settled(one) for name, one in value.items()}
     if isinstance(value, frozenset):
@@ -82,6 +86,16 @@ def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> obj
     if isinstance(value, Enum):
         return str(value.value)
     return value if isinstance(value, (str, int)) or value is None else str(value)
+
+
+def _as_first_taken(device: dict[str, object]) -> dict[str, object]:
+    """Return a device in the form over which the first ids were taken: evidence of a cell rests on its id."""
+    exposure_s = device.pop("exposure_s", None)
+    if isinstance(stamp := device.get("stamp"), dict):
+        stamp["exposure_s"] = exposure_s
+    if isinstance(camera := device.get("camera"), dict) and exposure_s is not None:
+        camera["exposure_s"] = exposure_s
+    return device
 
 
 def _unordered(value: object) -> object:

@@ -14,7 +14,7 @@ from cellc.compiler.formats.urdf.robot import manager_description, start_positio
 from cellc.compiler.formats.xml_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.frame_tree import FrameTree
-from cellc.contract.transforms import Pose, Vector3, identity
+from cellc.contract.transforms import Pose, Vector3, climb
 
 Positions = tuple[tuple[str, float], ...]
 """Joint names with rad or m."""
@@ -198,9 +198,11 @@ def _before(tip: Pose, approach: Vector3) -> Pose:
 
 def _tip(frames: FrameTree, name: str) -> tuple[str, Pose]:
     """Return the link of a device that carries a frame, and the pose of the frame in it."""
-    pose = identity()
-    for frame in frames.chain(name):
-        if frame.kind is not FrameKind.FIXED or frame.transform_to_parent is None:
-            return frame.name, pose
-        pose = frame.transform_to_parent @ pose
-    return name, identity()
+
+    def edge(child: str) -> tuple[str, Pose] | None:
+        frame = frames.get(child)
+        if frame is None or frame.kind is not FrameKind.FIXED or frame.transform_to_parent is None:
+            return None
+        return frame.parent, frame.transform_to_parent
+
+    return climb(name, edge)

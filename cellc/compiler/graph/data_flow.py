@@ -166,7 +166,7 @@ def age_chains(cell: Cell) -> Mapping[str, tuple[AgeShare, ...]]:
     by all. Topics that only feed each other in a circle observe nothing and stand alone.
     """
     topics = {topic.name: topic for topic in cell.interfaces if topic.kind is InterfaceKind.TOPIC and topic.rate_hz}
-    shares = {name: _share(cell, topic) for name, topic in topics.items()}
+    shares = {name: age_share(cell, topic) for name, topic in topics.items()}
     passed_on = _passed_on(cell, topics)
     observing = {name for names in passed_on.values() for name in names}
     queue = [(share.total_s, name, "") for name, share in shares.items() if name not in observing]
@@ -199,14 +199,11 @@ def _passed_on(cell: Cell, topics: Mapping[str, Interface]) -> Mapping[str, list
     return passed_on
 
 
-def _share(cell: Cell, topic: Interface) -> AgeShare:
+def age_share(cell: Cell, topic: Interface) -> AgeShare:
+    """Return how old a sample of one topic may be by its own period, transport and exposure."""
     period_s = 1.0 / topic.rate_hz if topic.rate_hz else 0.0
-    return AgeShare(topic.name, period_s, topic.transport_s or 0.0, _exposure_s(cell, topic))
-
-
-def _exposure_s(cell: Cell, topic: Interface) -> float:
-    found = (cell.stamp_of(source.node) for source in topic.sources)
-    return max((stamp.exposure_s for stamp in found if stamp is not None and stamp.exposure_s is not None), default=0.0)
+    exposures = (cell.exposure_of(source.node) for source in topic.sources)
+    return AgeShare(topic.name, period_s, topic.transport_s or 0.0, max(exposures, default=0.0))
 
 
 def is_state_on_change(topic: Interface) -> bool:

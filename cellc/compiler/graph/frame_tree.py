@@ -11,7 +11,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Frame
 from cellc.contract.diagnostics import Span, YamlPath
-from cellc.contract.transforms import Pose, identity
+from cellc.contract.transforms import Pose, climb
 from cellc.robot.description.model import Joint, Link
 
 if TYPE_CHECKING:
@@ -74,30 +74,31 @@ class FrameTree:
         Returns:
             None for a frame that a joint moves, and for a dynamic frame without a simulated pose.
         """
-        pose = identity()
-        seen: set[str] = set()
-        while (frame := self.get(name)) is not None and name not in seen:
-            seen.add(name)
-            if not frame.parent:
-                return pose
-            if frame.simulated_pose is not None:
-                pose, name = frame.simulated_pose.pose @ pose, frame.simulated_pose.parent
-            elif frame.moving or frame.transform_to_parent is None:
-                return None
-            else:
-                pose, name = frame.transform_to_parent @ pose, frame.parent
-        return None
 
-    def pose_in(self, name: str, ancestor: str) -> Pose | None:
-        """Return the pose of a frame in one that it hangs on, joints at zero; None where it hangs on another."""
-        pose = identity()
-        for frame in self.chain(name):
-            if frame.name == ancestor:
-                return pose
-            if frame.transform_to_parent is None:
-                return None
-            pose = frame.transform_to_parent @ pose
-        return None
+        def edge(child: str) -> tuple[str, Pose] | None:
+            frame = self.get(child)
+            if frame is not None and frame.simulated_pose is not None:
+                return frame.simulated_pose.parent, frame.simulated_pose.pose
+            return self._edge(child, rigid=True)
+
+        top, pose = climb(name, edge)
+        frame = self.get(top)
+        return None if frame is None or frame.parent else pose
+
+    def pose_in(self, name: str, ancestor: str, *, rigid: bool = False) -> Pose | None:
+        """Return the pose of a frame in one that it hangs on, joints at zero; None where it hangs on another.
+
+        Args:
+            rigid: None where a joint lies between the two, too.
+        """
+        top, pose = climb(name, lambda child: self._edge(child, rigid=rigid), (ancestor,))
+        return pose if top == ancestor and name in self else None
+
+    def _edge(self, name: str, *, rigid: bool) -> tuple[str, Pose] | None:
+        frame = self.get(name)
+        if frame is None or not frame.parent or frame.transform_to_parent is None or (rigid and frame.moving):
+            return None
+        return frame.parent, frame.transform_to_parent
 
     def _parents(self) -> dict[str, tuple[str, ...]]:
         return {name: tuple(frame.parent for frame in frames if frame.parent) for name, frames in self.edges.items()}

@@ -79,7 +79,8 @@ def with_catalog(
         controller_kinds=tuple(facts.controllers),
         speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
         gripper=_gripper(facts, prefix),
-        camera=_camera(facts, written, known, prefix),
+        camera=_camera(facts, known, prefix),
+        exposure_s=_exposure_s(facts, written),
         offers=tuple(offered_interfaces(facts, nodes, known, distro)),
         starts=started_nodes(nodes, known, distro),
         network=_network_needs(facts, known),
@@ -149,7 +150,7 @@ def _stamp(written: DeviceSpec) -> Stamp | None:
     stamp = written.stamp
     if stamp is None:
         return None
-    return Stamp(source=stamp.source, clock=bind_clock(stamp, stamp.clock), exposure_s=si(stamp.exposure))
+    return Stamp(source=stamp.source, clock=bind_clock(stamp, stamp.clock))
 
 
 def _adapter(written: DeviceSpec) -> Adapter | None:
@@ -214,13 +215,17 @@ def _joint_speed(gripper: GripperFacts) -> float | None:
     return gripper.max_speed.si * way / stroke or None if stroke > 0.0 else None
 
 
-def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Camera | None:
-    """Return the camera that the device is; an exposure of the spec counts before the catalog's."""
+def _exposure_s(facts: DeviceModel, written: DeviceSpec) -> float:
+    """Return the exposure time of the spec, else of the catalog; zero where neither states one."""
+    stated = (None if source is None else source.exposure for source in (written.stamp, facts.camera))
+    return next((exposure.si for exposure in stated if exposure is not None), 0.0)
+
+
+def _camera(facts: DeviceModel, known: Placeholders, prefix: str) -> Camera | None:
+    """Return the camera that the device is."""
     camera = facts.camera
     if camera is None:
         return None
-    stamp = written.stamp
-    exposure = (None if stamp is None else stamp.exposure) or camera.exposure
     return Camera(
         streams=tuple(
             CameraStream(
@@ -234,7 +239,6 @@ def _camera(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix
             )
             for stream in camera.streams.values()
         ),
-        exposure_s=0.0 if exposure is None else exposure.si,
     )
 
 

@@ -23,7 +23,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import PlacementSpec
 from cellc.compiler.spec.frames import CalibrationSpec, FrameSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, did_you_mean
-from cellc.contract.transforms import Pose, apart, identity
+from cellc.contract.transforms import Pose, apart, climb, identity
 
 _FRAMES = "hand-eye-of-other-frames"
 _DIFFERS = "hand-eye-differs"
@@ -174,11 +174,12 @@ def _frame(name: str | None, names: FrameNames) -> str | None:
 
 def _climb(frame: str, edges: Mapping[str, _Edge], cut: str) -> tuple[str, Pose]:
     """Return the frame at which what is rigid with a frame begins, and the pose of the frame in it; ``cut`` is one."""
-    found, seen = identity(), {frame}
-    while frame != cut and (edge := edges.get(frame)) is not None and edge.rigid and edge.parent not in seen:
-        found, frame = edge.pose @ found, edge.parent
-        seen.add(frame)
-    return frame, found
+
+    def rigid(child: str) -> tuple[str, Pose] | None:
+        edge = edges.get(child)
+        return (edge.parent, edge.pose) if edge is not None and edge.rigid else None
+
+    return climb(frame, rigid, (cut,))
 
 
 def _moves(top: str, edges: Mapping[str, _Edge]) -> bool:

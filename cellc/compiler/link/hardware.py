@@ -15,12 +15,13 @@ from cellc.compiler.catalog.device_interfaces import (
 )
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.effects import EffectFacts
-from cellc.compiler.cell.device import Device, DeviceDriver, OfferedInterface
+from cellc.compiler.cell.device import DeviceDriver, OfferedInterface
 from cellc.compiler.cell.hardware import CommandModes, Effect, HardwareComponent, InterfaceGroup, Told
 from cellc.compiler.cell.interface import InterfaceKind, ParameterValue
 from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.programs import inner_nodes
+from cellc.compiler.spec.devices import DeviceSpec
 from cellc.contract.pins import older
 from cellc.contract.vocabulary import Distro, Unmet
 
@@ -129,16 +130,16 @@ def run_nodes(facts: DeviceModel, known: Placeholders, firmware: str) -> tuple[N
     )
 
 
-def camera_parameters(facts: DeviceModel, device: Device) -> dict[str, ParameterValue]:
+def camera_parameters(facts: DeviceModel, written: DeviceSpec) -> dict[str, ParameterValue]:
     """Return what the node of a camera gets of the exposure and the serial that the spec states."""
-    camera, serial = facts.camera, device.versions.serial
+    camera, serial = facts.camera, written.serial
     if camera is None:
         return {}
     told: dict[str, ParameterValue] = {}
-    exposure = None if device.stamp is None else device.stamp.exposure_s
+    exposure = None if written.stamp is None else written.stamp.exposure
     if exposure is not None:
         told |= dict.fromkeys(camera.auto_exposure_parameters, False)
-        told |= {name: round(exposure / unit.si) for name, unit in camera.exposure_parameters.items()}
+        told |= {name: round(exposure.si / unit.si) for name, unit in camera.exposure_parameters.items()}
     if camera.serial_parameter is not None and serial != UNKNOWN:
         told[camera.serial_parameter] = f"_{serial}"
     return told

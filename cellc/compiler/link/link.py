@@ -44,7 +44,6 @@ from cellc.compiler.link.site import (
     bind_statements,
     bind_targets,
     bind_versions,
-    harmless,
 )
 from cellc.compiler.link.switched import link_switched
 from cellc.compiler.link.uncertainty import link_uncertainty
@@ -232,8 +231,8 @@ def _surroundings(
         targets=bind_targets(spec),
         mock_plugins=plugins,
         mock_programs=programs,
-        harmless_plugins=harmless(table.harmless_plugins, plugins),
-        harmless_programs=harmless(table.harmless_programs, programs),
+        harmless_plugins=frozenset(table.harmless_plugins),
+        harmless_programs=frozenset(table.harmless_programs),
         hardware_packages=frozenset(table.hardware_packages),
         implied=implied_endpoints(distro),
     )

@@ -180,7 +180,7 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 device=device.name,
                 parameters={
                     **known.fill_parameters(entry.parameters),
-                    **camera_parameters(bound.facts, device),
+                    **camera_parameters(bound.facts, spec.devices[device.name]),
                     **node_parameters(bound.facts, spec.devices[device.name], entry.name),
                 },
                 remaps=driver_remaps(bound.facts, entry, known),

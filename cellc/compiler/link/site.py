@@ -5,7 +5,7 @@ Defaults, ``standard`` lists and units are decided here.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.entity import Places
@@ -208,11 +208,6 @@ def bind_recording(spec: CellSpec) -> Recording:
 def bind_statements(written: Mapping[str, HardwareStatementSpec]) -> Mapping[str, HardwareStatement]:
     """Return what the user says of plugins, or of programs, that run on the mock."""
     return {name: HardwareStatement(one.touches_no_hardware, one.by, one.date) for name, one in written.items()}
-
-
-def harmless(known: Iterable[str], statements: Mapping[str, HardwareStatement]) -> frozenset[str]:
-    """Return what may run on the mock: what the catalog knows, and what somebody signs for."""
-    return frozenset((*known, *(name for name, statement in statements.items() if statement.is_signed())))
 
 
 def bind_targets(spec: CellSpec) -> Mapping[str, Target]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
-from cellc.contract.transforms import Pose, Vector3, identity
+from cellc.contract.transforms import Pose, Vector3, climb
 from cellc.mock.errors import MockError
 from cellc.mock.world.world import LinkTree, link_tree
 from cellc.robot.description.meshes import absent, without_shapes
@@ -124,16 +124,15 @@ def _limits(joints: tuple[str, ...], limits: list[ContractJointLimits]) -> Joint
 
 def _link_of(frame: str, contract: Contract, robot: RobotModel) -> tuple[str, Pose]:
     """Return the nearest link above a frame, and the pose of the frame in it."""
-    pose = identity()
-    for _ in range(len(contract.frames) + 1):
-        if frame in robot.links:
-            return frame, pose
-        entry = contract.frames.get(frame)
-        if entry is None or entry.pose is None:
-            break
-        pose = Pose(entry.pose.xyz, entry.pose.quaternion) @ pose
-        frame = entry.parent
-    raise ModelError(f"frame `{frame}` is no link of the robot description and not fixed to one")
+
+    def edge(child: str) -> tuple[str, Pose] | None:
+        entry = contract.frames.get(child)
+        return None if entry is None or entry.pose is None else (entry.parent, entry.pose.pose)
+
+    link, pose = climb(frame, edge, robot.links)
+    if link in robot.links:
+        return link, pose
+    raise ModelError(f"frame `{link}` is no link of the robot description and not fixed to one")
 
 
 @dataclass(frozen=True, slots=True)

@@ -244,7 +244,7 @@ def _really(plant: Plant, frame: str) -> Pose | None:
     if frame in plant.planner.links or entry is None:
         return plant.world.link_pose(frame, plant.now_ns)
     above = None if entry.pose is None else _really(plant, entry.parent)
-    return None if above is None or entry.pose is None else above @ Pose(entry.pose.xyz, entry.pose.quaternion)
+    return None if above is None or entry.pose is None else above @ entry.pose.pose
 
 
 def _planning_time(

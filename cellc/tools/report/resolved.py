@@ -45,6 +45,7 @@ _STATED = {
     "connection",
     "initial_state",
     "stamp",
+    "exposure_s",
     "payload",
     "tcp",
     "program",
@@ -170,7 +171,7 @@ def _stamp(cell: Cell, device: Device) -> Tree:
         return _section(cell, None, path)
     clock = _section(cell, replace(stamp.clock, domain=""), path)
     assert isinstance(clock, dict)
-    shown = {"source": stamp.source, "clock": stamp.clock.domain, "exposure": stamp.exposure_s}
+    shown = {"source": stamp.source, "clock": stamp.clock.domain, "exposure": device.exposure_s}
     return {key: _section(cell, value, (*path, key)) for key, value in shown.items()} | {
         key: value for key, value in clock.items() if key != "domain"
     }

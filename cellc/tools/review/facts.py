@@ -20,7 +20,7 @@ from cellc.contract.errors import CellcError
 from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import Rehearsals
-from cellc.contract.transforms import Pose, identity
+from cellc.contract.transforms import identity
 from cellc.robot.description.model import Box, Collision, Cylinder, Description, Joint, Sphere
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xml_tree import read_xml
@@ -223,7 +223,7 @@ def _of_placements(contract: Contract, description: Description) -> Iterator[tup
         yield ("placement", joint.child), joint.pose
     for name, frame in contract.frames.items():
         if frame.pose is not None:
-            yield ("placement", name), Pose(frame.pose.xyz, frame.pose.quaternion)
+            yield ("placement", name), frame.pose.pose
 
 
 def _of_description(target: str, description: Description) -> Iterator[tuple[Path, Leaf]]:

@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from cellc.contract.base import ContractPose
-from cellc.contract.transforms import Pose, apart, identity
+from cellc.contract.transforms import Pose, apart, climb
 from cellc.robot.description.model import Joint
 from cellc.tools.review.facts import Facts
 
@@ -61,7 +60,7 @@ def goals(facts: Facts) -> dict[str, Pose]:
     for name, goal in facts.contract.goals.items():
         frame = place(facts, goal.frame, {})
         if frame is not None:
-            found[name] = frame @ _pose(goal.pose)
+            found[name] = frame @ goal.pose.pose
     return found
 
 
@@ -80,21 +79,19 @@ def place(facts: Facts, frame: str, positions: Mapping[str, float]) -> Pose | No
     Args:
         positions: joint positions, rad or m; a joint that is not among them is at zero.
     """
-    pose, seen = identity(), set[str]()
-    while frame != facts.contract.root_frame:
-        if frame in seen:
-            return None
-        seen.add(frame)
-        joint, stated = facts.joints.get(frame), facts.contract.frames.get(frame)
+
+    def edge(child: str) -> tuple[str, Pose] | None:
+        joint, stated = facts.joints.get(child), facts.contract.frames.get(child)
         if joint is not None:
-            pose, frame = _carried(joint, positions) @ pose, joint.parent
-        elif stated is not None and stated.pose is not None:
-            pose, frame = _pose(stated.pose) @ pose, stated.parent
-        elif stated is not None and stated.simulated_pose is not None and stated.simulated_parent is not None:
-            pose, frame = _pose(stated.simulated_pose) @ pose, stated.simulated_parent
-        else:
-            return None
-    return pose
+            return joint.parent, _carried(joint, positions)
+        if stated is not None and stated.pose is not None:
+            return stated.parent, stated.pose.pose
+        if stated is not None and stated.simulated_pose is not None and stated.simulated_parent is not None:
+            return stated.simulated_parent, stated.simulated_pose.pose
+        return None
+
+    top, pose = climb(frame, edge, (facts.contract.root_frame,))
+    return pose if top == facts.contract.root_frame else None
 
 
 def _carried(joint: Joint, positions: Mapping[str, float]) -> Pose:
@@ -107,7 +104,3 @@ def _carried(joint: Joint, positions: Mapping[str, float]) -> Pose:
         return joint.pose @ Pose((x * position, y * position, z * position), (0.0, 0.0, 0.0, 1.0))
     sine = math.sin(position / 2.0)
     return joint.pose @ Pose((0.0, 0.0, 0.0), (x * sine, y * sine, z * sine, math.cos(position / 2.0)))
-
-
-def _pose(stated: ContractPose) -> Pose:
-    return Pose(stated.xyz, stated.quaternion)

@@ -9,7 +9,7 @@ from cellc.compiler.cell.device import FieldOfView
 from cellc.contract.transforms import Pose
 from cellc.robot.description.model import Box, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 from cellc.tools.view.meshes import DrawnMesh, Meshes, meshes_at_hand, meshes_of
-from cellc.tools.view.skeleton import Held, Skeleton, pose_of
+from cellc.tools.view.skeleton import Held, Skeleton
 from cellc.tools.view.standing import Standing
 
 Numbers = tuple[float, ...]
@@ -205,7 +205,7 @@ def _goals(standing: Standing, skeleton: Skeleton) -> Iterator[GoalMark]:
     for name, goal in standing.goals.items():
         held = skeleton.frames.get(goal.frame)
         if held is not None:
-            pose, tip = held.pose @ pose_of(goal.pose), standing.groups[goal.group].tip_frame
+            pose, tip = held.pose @ goal.pose.pose, standing.groups[goal.group].tip_frame
             yield GoalMark(held.group, numbers(pose), name, tip, goal.frame, goal.approach or ())
 
 

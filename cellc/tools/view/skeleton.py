@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from cellc.contract.base import ContractPose
 from cellc.contract.contract import ContractFrame
-from cellc.contract.transforms import Pose, identity
+from cellc.contract.transforms import Pose, climb
 from cellc.mock.world.world import LinkTree, link_tree
 from cellc.robot.description.model import Description
 from cellc.tools.view.standing import Standing
@@ -41,7 +40,7 @@ class Skeleton:
         self._links = tuple(link.name for link in description.links)
         roots = [name for name in self._links if name in moved or name not in self._tree.joints]
         self._placed: Carried = {
-            name: (frame.simulated_parent, pose_of(frame.simulated_pose))
+            name: (frame.simulated_parent, frame.simulated_pose.pose)
             for name, frame in standing.frames.items()
             if frame.simulated_parent in self._links and frame.simulated_pose is not None
         }
@@ -65,31 +64,25 @@ class Skeleton:
 
     def held(self, link: str) -> Held:
         """Return where a link is held."""
-        pose = identity()
-        while link not in self._numbers:
-            joint = self._tree.joints[link]
-            pose, link = joint.origin @ pose, joint.parent
-        return Held(self._numbers[link], pose)
+
+        def edge(child: str) -> tuple[str, Pose]:
+            joint = self._tree.joints[child]
+            return joint.parent, joint.origin
+
+        top, pose = climb(link, edge, self._numbers)
+        return Held(self._numbers[top], pose)
 
     def _frames(self, frames: Mapping[str, ContractFrame]) -> Iterator[tuple[str, Held]]:
         for name in frames:
-            found = self._frame(name, frames, 0)
-            if found is not None:
-                yield name, found
-
-    def _frame(self, name: str, frames: Mapping[str, ContractFrame], depth: int) -> Held | None:
-        if name in self._links or name in self._placed:
-            return self.held(name)
-        frame = frames.get(name)
-        if frame is None or frame.pose is None or depth > len(frames):
-            return None
-        parent = self._frame(frame.parent, frames, depth + 1)
-        return None if parent is None else Held(parent.group, parent.pose @ pose_of(frame.pose))
+            top, pose = climb(name, lambda child: _edge(frames, child), {*self._links, *self._placed})
+            if top in self._links or top in self._placed:
+                held = self.held(top)
+                yield name, Held(held.group, held.pose @ pose)
 
 
-def pose_of(written: ContractPose) -> Pose:
-    """Return a pose of the contract."""
-    return Pose(written.xyz, written.quaternion)
+def _edge(frames: Mapping[str, ContractFrame], name: str) -> tuple[str, Pose] | None:
+    frame = frames.get(name)
+    return None if frame is None or frame.pose is None else (frame.parent, frame.pose.pose)
 
 
 def _start_positions(description: Description) -> Iterable[tuple[str, float]]:

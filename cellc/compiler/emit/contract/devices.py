@@ -110,7 +110,7 @@ def _camera(cell: Cell, device: Device) -> ContractCamera | None:
         topic=topic,
         frame=(None if used is None else used.frame) or stream.frame,
         rate_hz=(None if used is None else used.rate_hz) or stream.rate_hz,
-        exposure_s=device.camera.exposure_s,
+        exposure_s=device.exposure_s,
         clock=UNKNOWN if device.stamp is None else device.stamp.clock.domain,
     )
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.interface import Interface, InterfaceKind
-from cellc.compiler.graph.data_flow import age_chains, is_state_on_change
+from cellc.compiler.graph.data_flow import age_chains, age_share, is_state_on_change
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
@@ -135,27 +135,19 @@ def max_age_beyond_timeout(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def max_age_too_short(graph: CellGraph) -> Findings:
     """Yield topics whose age limit is below their budget."""
-    exposures = {
-        device.name: device.stamp.exposure_s
-        for device in graph.cell.devices
-        if device.stamp is not None and device.stamp.exposure_s is not None
-    }
     for interface in graph.cell.interfaces:
         if interface.max_age_s is None or not interface.rate_hz:
             continue
-        exposure = max((exposures.get(source.node, 0.0) for source in interface.sources), default=0.0)
-        transport = interface.transport_s or 0.0
-        budget = 1.0 / interface.rate_hz + transport + exposure
-        if interface.max_age_s < budget:
-            age = interface.max_age_s * 1e3
+        share = age_share(graph.cell, interface)
+        if interface.max_age_s < share.total_s:
             parts = (
-                f"period {1e3 / interface.rate_hz:.4g}, transport {transport * 1e3:g}, exposure {exposure * 1e3:g} ms"
+                f"period {share.period_s * 1e3:.4g}, transport {share.transport_s * 1e3:g}, "
+                f"exposure {share.exposure_s * 1e3:g} ms"
             )
-            message = (
-                f"`max_age` of `{interface.name}` must be at least {budget * 1e3:.4g} ms ({parts}), got {age:g} ms"
-            )
+            bound, age = share.total_s * 1e3, interface.max_age_s * 1e3
+            message = f"`max_age` of `{interface.name}` must be at least {bound:.4g} ms ({parts}), got {age:g} ms"
             path = (*interface.path, "max_age")
-            yield found(graph, path, message, f"allow at least {math.ceil(budget * 1e3)} ms, or raise the rate")
+            yield found(graph, path, message, f"allow at least {math.ceil(bound)} ms, or raise the rate")
 
 
 @rule(Severity.ERROR)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 
-from cellc.compiler.cell.device import Device
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.contract.transforms import Pose, from_xyz_rpy, identity
 
@@ -78,7 +77,8 @@ def reversed_angles(graph: CellGraph) -> Findings:
             place = next((frame for frame in chain if frame.name == device.root_link), None)
             if place is None or place.parent not in tools or place.transform_to_parent is None:
                 continue
-            mount, inside = place.transform_to_parent, _inside(graph, device, name)
+            mount = place.transform_to_parent
+            inside = graph.frames.pose_in(device.frames[name], device.root_link) or identity()
             roll, pitch, yaw = mount.rpy()
             turned = from_xyz_rpy(mount.position, (yaw, pitch, roll))
             sideways = _sideways(mount, inside)
@@ -87,16 +87,6 @@ def reversed_angles(graph: CellGraph) -> Findings:
                 message = f"`{device.name}` looks {degrees:.0f} deg sideways past its tool; with `rpy` in the reverse"
                 yield found(graph, (*device.path, "mount", "rpy"), f"{message} order it would look along it")
                 break
-
-
-def _inside(graph: CellGraph, device: Device, name: str) -> Pose:
-    """Return the pose of an optical frame in the root link of its camera."""
-    pose = identity()
-    for frame in graph.frames.chain(device.frames[name]):
-        if frame.name == device.root_link:
-            break
-        pose = (frame.transform_to_parent or identity()) @ pose
-    return pose
 
 
 def _sideways(mount: Pose, inside: Pose) -> float:

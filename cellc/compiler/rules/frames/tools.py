@@ -8,7 +8,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.motion import CartesianGoal
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.transforms import Pose, Vector3, identity
+from cellc.contract.transforms import Pose, Vector3
 
 _APART_M = 1e-3
 _ALONG = 0.999  # cosine; figures of descriptions are rounded
@@ -21,21 +21,10 @@ def broken_flange_convention(graph: CellGraph) -> Findings:
         flange, tool = device.frames.get("flange"), device.frames.get("tool0")
         if flange is None or tool is None:
             continue
-        pose = _pose_in(graph, tool, flange)
+        pose = graph.frames.pose_in(tool, flange, rigid=True)
         if pose is None or not _by_convention(pose):
             message = f"`tool0` of `{device.name}` must have the origin of `flange` and its z axis along x of `flange`"
             yield found(graph, (*device.path, "model"), message)
-
-
-def _pose_in(graph: CellGraph, name: str, ancestor: str) -> Pose | None:
-    pose = identity()
-    for frame in graph.frames.chain(name):
-        if frame.name == ancestor:
-            return pose
-        if frame.transform_to_parent is None or frame.moving:
-            return None
-        pose = frame.transform_to_parent @ pose
-    return None
 
 
 def _by_convention(pose: Pose) -> bool:

@@ -6,13 +6,12 @@ import math
 from collections.abc import Mapping
 from itertools import pairwise
 
-from cellc.compiler.cell.frame import FrameKind
+from cellc.compiler.cell.frame import WORLD, FrameKind
 from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.motion import PlanningGroup
 from cellc.compiler.feasibility import motion_answer
 from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, did_you_mean, found, rule
-from cellc.contract.transforms import Pose, identity
 
 
 @rule(Severity.ERROR)
@@ -49,8 +48,8 @@ def goal_out_of_reach(graph: CellGraph) -> Findings:
     groups = {group.name: group for group in graph.cell.groups}
     for goal in graph.cell.goals:
         group = groups.get(goal.group)
-        target = None if group is None else _pose_in_world(graph, goal.frame)
-        base = None if group is None else _pose_in_world(graph, group.base_link)
+        target = None if group is None else graph.frames.pose_in(goal.frame, WORLD, rigid=True)
+        base = None if group is None else graph.frames.pose_in(group.base_link, WORLD, rigid=True)
         if group is None or target is None or base is None:
             continue
         place = (target @ goal.transform_tip_to_frame).position
@@ -62,16 +61,6 @@ def goal_out_of_reach(graph: CellGraph) -> Findings:
             )
             related = in_the_chain(graph, goal.name)
             yield found(graph, (*goal.path, "frame"), message, related=related)
-
-
-def _pose_in_world(graph: CellGraph, name: str) -> Pose | None:
-    """Return the pose of a frame that does not move, or None."""
-    pose = identity()
-    for frame in graph.frames.chain(name):
-        if frame.moving or frame.transform_to_parent is None:
-            return None
-        pose = frame.transform_to_parent @ pose
-    return pose
 
 
 def _stretched(graph: CellGraph, group: PlanningGroup) -> float:

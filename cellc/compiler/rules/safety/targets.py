@@ -198,10 +198,9 @@ def real_hardware_in_mock(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def unproven_mock_plugin(graph: CellGraph) -> Findings:
     """Yield devices whose mock plugin neither the catalog nor a signed statement knows to touch no hardware."""
-    known = graph.cell.harmless_plugins
     for device in graph.cell.devices:
         plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
-        if device.hardware is not None and plugin not in known:
+        if device.hardware is not None and not graph.cell.is_harmless_plugin(plugin):
             message = f"the mock of `{device.name}` is `{plugin}`, without a statement that it touches no hardware"
             yield found(graph, ("devices", device.name, "model"), message)
 
@@ -211,7 +210,7 @@ def unproven_mock_program(graph: CellGraph) -> Findings:
     """Yield devices that run a program on the mock without a statement that it touches no hardware."""
     for device in graph.cell.devices:
         for program in graph.cell.programs_on_mock(device):
-            if program not in graph.cell.harmless_programs:
+            if not graph.cell.is_harmless_program(program):
                 message = (
                     f"`{device.name}` runs `{program}` on the mock, without a statement that it touches no hardware"
                 )
