@@ -1,11 +1,11 @@
 """Breaks cellc in many small ways, and counts the mutants that the tests of their own folder notice.
 
 ``python benchmarks/mutants.py [--count 200] [--seed 1] [--stage NAME] [--folder DIR]``. Mutants are drawn evenly by
-lines of code over the stages. ``FOLDERS`` says which tests are the nearest of a stage. They run once with probes, so
-that it is known which test executes which statement; then each mutant runs those alone, near and quick ones first, up
-to the first failure. What none executes by itself is looked at by all that are near. Everything happens in a copy of
-the checkout in ``--folder``: a second call goes on where the first ended, and probes only files of tests that have
-changed.
+lines of code over the stages. ``tests/nearest.py`` says which tests are the nearest of a stage. They run once with
+probes, so that it is known which test executes which statement; then each mutant runs those alone, near and quick ones
+first, up to the first failure. What none executes by itself is looked at by all that are near. Everything happens in a
+copy of the checkout in ``--folder``: a second call goes on where the first ended, and probes only files of tests that
+have changed.
 """
 
 from __future__ import annotations
@@ -36,53 +36,10 @@ from mutation.probe import Told, plant, record, statements
 from mutation.swap import swap
 
 ROOT = Path(__file__).resolve().parents[1]
-_PROGRAMS = "consumers/test_bring_up.py consumers/test_first_goal.py consumers/test_installed_versions.py"
-FOLDERS = {
-    "__main__.py": "cli",
-    "adapter": "mock/adapter",
-    "artifact.py": "output",
-    "cell": "cell link",
-    "cli/campaign.py": "mock/campaign cli",
-    "cli/catalog.py": "browse cli",
-    "cli/compare.py": "report/test_comparison.py cli",
-    "cli/diagnose.py": "cli/test_diagnose.py diagnose",
-    "cli/diff.py": "review",
-    "cli/gates.py": "mock/gates cli",
-    "cli/import_.py": "foreign cli",
-    "cli/init.py": "catalog/test_starter.py cli",
-    "cli/sweep.py": "mock/sweep cli",
-    "cli/upgrade.py": "review",
-    "cli/view.py": "view",
-    "compiler": "report",
-    "compute": "compute",
-    "contract": "spec mock",
-    "deploy": "deploy",
-    "diagnostics": "report",
-    "edit": "cli",
-    "emit": "emit",
-    "emit/launch/bring_up_program.py": _PROGRAMS,
-    "emit/launch/first_goal_program.py": _PROGRAMS,
-    "emit/launch/installed_versions_program.py": _PROGRAMS,
-    "importing": "foreign cli",
-    "limits.py": "description source",
-    "link": "link corpus",
-    "pins.py": "link",
-    "pipeline.py": "cli project/test_package.py",
-    "printing.py": "printing",
-    "robot": "description",
-    "report/text_report.py": "report cli/test_diagnose.py",
-    "rules": "rules corpus",
-    "signals.py": "cli",
-    "store": "store",
-    "tools": "cli",
-    "transforms.py": "mock/tf formats graph",
-    "version.py": "cli",
-    "vocabulary.py": "mock",
-}
-"""The nearest tests of a stage, or of one of its files, where they are others than the folder of its name.
+sys.path.insert(0, str(ROOT))
 
-A command is tested where its subject is, by the command line: `cellc diff` among the reviews.
-"""
+from tests.nearest import nearest, stage_of  # noqa: E402  the checkout comes before what is installed
+
 _LOADED = "numpy pydantic networkx yaml jsonschema click hypothesis xdist pinocchio ruckig xacro yourdfpy lxml.etree"
 _QUIET = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-o", "addopts=")
 _LONGEST_S = 60.0
@@ -181,24 +138,10 @@ def stages() -> list[str]:
     return sorted({stage_of(file.relative_to(ROOT).as_posix()) for file in (ROOT / "cellc").rglob("*.py")})
 
 
-def stage_of(file: str) -> str:
-    """Return the room of a wing that a source belongs to, or its own name where `FOLDERS` has it, or the wing."""
-    wing, *within = file.split("/")[1:]
-    if wing == "mock" or not within:
-        return wing
-    return within[0] if within[0] in FOLDERS or not within[0].endswith(".py") else wing
-
-
 def sources(wanted: list[str]) -> list[str]:
     """Return the sources of some parts of cellc."""
     files = sorted(file.relative_to(ROOT).as_posix() for file in (ROOT / "cellc").rglob("*.py"))
     return [file for file in files if stage_of(file) in wanted]
-
-
-def nearest(file: str) -> list[str]:
-    """Return the nearest tests of a source, as folders and files."""
-    named = FOLDERS.get(file.split("/", 2)[-1]) or FOLDERS.get(stage_of(file), stage_of(file))
-    return [f"tests/{name}" for name in named.split()]
 
 
 def draw(count: int, seed: int, wanted: list[str]) -> list[Mutant]:

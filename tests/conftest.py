@@ -51,10 +51,41 @@ def readme_install(tmp_path_factory: pytest.TempPathFactory) -> Install:
     return installed(Path(_shared(tmp_path_factory, "installed")))
 
 
+_LEFT_OUT = pytest.StashKey[frozenset[Path]]()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addini("long_tests", "files and folders that `pytest` leaves to `pytest --long`", type="args", default=[])
+    parser.addoption("--long", action="store_true", help="run the long tests alone")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Decide what a call without a path runs; the workers of a session get its arguments, and decide the same."""
+    long = [config.rootpath / path for path in config.getini("long_tests")]
+    config.stash[_LEFT_OUT] = frozenset()
+    if config.option.long:
+        config.args = list(map(str, long))
+    elif config.args_source is pytest.Config.ArgsSource.TESTPATHS:
+        config.stash[_LEFT_OUT] = frozenset(long)
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    return True if collection_path in config.stash[_LEFT_OUT] else None
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Let the longest files begin, so that no process waits for another at the end: first the one that runs mypy."""
+    """Let the longest files begin, so that no process waits for another at the end."""
     tests = Counter(item.path for item in items)
-    items.sort(key=lambda item: (item.path.name != "test_quality.py", -tests[item.path], str(item.path)))
+    items.sort(key=lambda item: (_rank(item.path), -tests[item.path], str(item.path)))
+
+
+_FIRST = ("installed", "test_quality.py", "test_hostile.py", "test_shadows.py", "test_ctrl_c.py", "test_libraries.py")
+"""Files and folders that take longest, though few tests are in them: the first install the project, and run mypy."""
+
+
+def _rank(file: Path) -> int:
+    places = [_FIRST.index(name) for name in (file.parent.name, file.name) if name in _FIRST]
+    return min(places, default=len(_FIRST))
 
 
 def pytest_collection_finish() -> None:

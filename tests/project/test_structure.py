@@ -6,9 +6,11 @@ import ast
 import re
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from statistics import median
 
 import pytest
 
@@ -21,6 +23,22 @@ LINES = {file.relative_to(ROOT).as_posix(): len(file.read_text().splitlines()) f
 
 def test_no_source_file_is_longer_than_400_lines() -> None:
     assert {name: lines for name, lines in LINES.items() if lines > 400} == {}
+
+
+def test_no_room_is_above_its_budget() -> None:
+    """A room that is not in the table has no lines to spend; one that is far below its budget gives lines back."""
+    table = (ROOT / "pyproject.toml").read_text().partition("[tool.cellc.lines]\n")[2].partition("\n\n")[0]
+    budgets = {room: int(lines) for room, lines in re.findall(r'^"(.*)" = (\d+)$', table, re.MULTILINE)}
+    spent = Counter[str]()
+    for name, lines in LINES.items():
+        spent["/".join(name.split("/")[1:-1][:2])] += lines
+    above = {room: lines for room, lines in spent.items() if lines > budgets.get(room, 0)}
+    assert above == {}, "delete as much, or raise the budget in pyproject.toml and say why in the commit"
+    assert {room for room, lines in budgets.items() if spent[room] < lines * 0.8 - 100} == set()
+
+
+def test_median_module_is_of_a_readable_length() -> None:
+    assert 100 <= median(lines for lines in LINES.values() if lines > 5) <= 160
 
 
 def test_no_function_body_is_longer_than_40_lines() -> None:
