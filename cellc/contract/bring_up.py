@@ -8,11 +8,8 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
+from cellc.contract.entities import Target
 from cellc.contract.vocabulary import BringUpPhase
-
-Target = Literal["mock", "real"]
-
-TARGETS: tuple[Target, ...] = ("mock", "real")
 
 CLAIM_WATCH = "/claim_watch"
 """The node that deactivates claims of a robot that no longer listens."""

@@ -10,6 +10,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel, ContractPose
+from cellc.contract.entities import TARGETS, ContractInterface, Kpis, Target
 from cellc.contract.file_names import BesidePath, CellName, InnerPath
 from cellc.contract.quantities import (
     Coordinate,
@@ -22,7 +23,6 @@ from cellc.contract.quantities import (
     PositiveSeconds,
     Rate,
     Seconds,
-    Share,
 )
 from cellc.contract.vocabulary import Behaviour, Distro, ManagerLock, Moment, Motion, Need, Unmet
 
@@ -78,71 +78,13 @@ class ContractFrame(ContractModel):
     simulated_pose: ContractPose | None = Field(None, description="Pose there.")
 
 
-class ContractQos(ContractModel):
-    """A resolved profile; null durations are infinite."""
-
-    reliability: Literal["reliable", "best_effort"] = Field(description="Every sample, or what arrives.")
-    durability: Literal["volatile", "transient_local"] = Field(description="Whether a late joiner gets history.")
-    history: Literal["keep_last", "keep_all"] = Field("keep_last", description="What is queued.")
-    depth: Count = Field(description="Queue length of keep_last.")
-    deadline_s: Seconds | None = Field(None, description="Longest time between samples.")
-    lifespan_s: Seconds | None = Field(None, description="Age at which a sample is dropped.")
-    liveliness: Literal["automatic", "manual_by_topic"] = Field(
-        "automatic", description="Who asserts that the publisher lives."
-    )
-    lease_duration_s: Seconds | None = Field(None, description="Bound of the assertion.")
-
-
-class ContractEndpoint(ContractModel):
-    """One end of an interface."""
-
-    node: str = Field(description="Name of the node, controller or device, which no other end has.")
-    full_name: str = Field(description="Fully qualified name of the node in the ROS graph.")
-    targets: tuple[Literal["mock", "real"], ...] = Field(
-        ("mock", "real"), description="Targets on which it is present."
-    )
-    qos: ContractQos = Field(description="Its profile.")
-
-
-class ContractNetwork(ContractModel):
-    """What the mock's network does to each sample of a topic."""
-
-    latency_s: Seconds = Field(0.0, description="Shortest time from publishing to arrival.")
-    jitter_s: Seconds = Field(0.0, description="Up to so much more.")
-    loss: Share = Field(0.0, description="Share of samples lost on their way, 0 to 1.")
-    reordering: Share = Field(0.0, description="Share of samples overtaken by the next one, 0 to 1.")
-
-
-class ContractInterface(ContractModel):
-    """A topic, service or action with what its users may rely on."""
-
-    kind: Literal["topic", "service", "action"] = Field(description="Kind of exchange.")
-    type: str = Field(description="ROS type.")
-    sources: tuple[ContractEndpoint, ...] = Field(description="Publishers, or the server.")
-    sinks: tuple[ContractEndpoint, ...] = Field(default=(), description="Subscribers, or the clients.")
-    frame: str | None = Field(None, description="Frame of the payload.")
-    unit: str | None = Field(None, description="Unit of the payload.")
-    time_source: str | None = Field(None, description="Clock of the stamps.")
-    owner: str | None = Field(None, description="Person or role responsible for it.")
-    wants: str | None = Field(None, description="What the consumer needs: newest or every_sample.")
-    rate_hz: Rate | None = Field(None, description="Publishing rate.")
-    max_age_s: Seconds | None = Field(None, description="Oldest sample that may be used.")
-    transport_s: Seconds | None = Field(None, description="Budget from publishing to use.")
-    on_stale: str | None = Field(None, description="What happens on an older sample.")
-    timeout_s: PositiveSeconds | None = Field(None, description="Bound of a response or a whole goal.")
-    on_timeout: str | None = Field(None, description="What the client does then.")
-    on_error: str | None = Field(None, description="How an error is reported.")
-    cancel_within_s: Seconds | None = Field(None, description="Bound from cancel to hold.")
-    simulated: ContractNetwork | None = Field(None, description="How the mock carries it; null for no delay.")
-
-
 class ContractController(ContractModel):
     """A controller, what it claims, and who may command it."""
 
     plugin: str = Field(description="Type as the controller manager loads it.")
     behaviour: Behaviour = Field(description="What it does.")
     full_name: str = Field(description="Fully qualified name of its node.")
-    targets: tuple[Literal["mock", "real"], ...] = Field(("mock", "real"), description="Targets on which it is loaded.")
+    targets: tuple[Target, ...] = Field(TARGETS, description="Targets on which it is loaded.")
     device: str | None = Field(None, description="Device whose joints it drives.")
     joints: tuple[str, ...] = Field(description="Joints in the controller's order.")
     command_interfaces: tuple[str, ...] = Field(description="Interfaces it claims, as `joint/interface`.")
@@ -339,18 +281,6 @@ class ContractSafety(ContractModel):
     on_reconnect: str = Field(description="What becomes of an old goal.")
 
 
-class ContractKpis(ContractModel):
-    """Targets; null where none was set."""
-
-    plan_to_execute_s: Seconds | None = Field(None, description="Longest time from plan to execution.")
-    cancel_s: Seconds | None = Field(None, description="Longest time from cancel to hold.")
-    missed_cycles: Count | None = Field(None, description="Missed cycles allowed in a run.")
-    stale_state_rejection: Share | None = Field(None, description="Share of stale samples rejected, 0 to 1.")
-    protective_stops: Count | None = Field(None, description="Protective stops allowed in a shift.")
-    recovery_time_s: Seconds | None = Field(None, description="Longest time from stop to ready.")
-    wrong_owner_events: Count | None = Field(None, description="Commands of a wrong owner allowed.")
-
-
 class Contract(ContractModel):
     """The whole contract of one cell."""
 
@@ -385,5 +315,5 @@ class Contract(ContractModel):
     responsibilities: dict[str, str] = Field(description="Owner of each responsibility.")
     approvals: dict[str, str] = Field(description="Owner of each approval area.")
     safety: ContractSafety = Field(description="Safety boundary.")
-    kpis: ContractKpis = Field(description="Target figures.")
+    kpis: Kpis = Field(description="Target figures.")
     attempt_fields: tuple[str, ...] = Field(description="What every attempt records.")

@@ -10,31 +10,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
+from cellc.contract.entities import Durability, Qos, Reliability
 
-class QosProfile(Protocol):
-    """What is compared of a profile; None is an infinite duration."""
-
-    @property
-    def reliability(self) -> str:
-        """`reliable` or `best_effort`."""
-
-    @property
-    def durability(self) -> str:
-        """`volatile` or `transient_local`."""
-
-    @property
-    def deadline_s(self) -> float | None:
-        """Longest time between samples."""
-
-    @property
-    def liveliness(self) -> str:
-        """`automatic` or `manual_by_topic`."""
-
-    @property
-    def lease_duration_s(self) -> float | None:
-        """Longest time between assertions of liveliness."""
+DEFAULT = Qos(
+    reliability="reliable",
+    durability="volatile",
+    history="keep_last",
+    depth=10,
+    deadline_s=None,
+    lifespan_s=None,
+    liveliness="automatic",
+    lease_duration_s=None,
+)
+"""rmw_qos_profile_default (rmw/qos_profiles.h); services_default is alike in every policy that is matched."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,12 +38,12 @@ class Incompatibility:
         return f"{self.policy}: offered {self.offered}, requested {self.requested}"
 
 
-def incompatibilities(offered: QosProfile, requested: QosProfile) -> tuple[Incompatibility, ...]:
+def incompatibilities(offered: Qos, requested: Qos) -> tuple[Incompatibility, ...]:
     """Return every policy that keeps two endpoints from being matched; none where they connect."""
     return tuple(_compare(offered, requested))
 
 
-def weakest(offered: Sequence[QosProfile]) -> tuple[str, str]:
+def weakest(offered: Sequence[Qos]) -> tuple[Reliability, Durability]:
     """Return the reliability and durability that every publisher of a topic offers."""
     weak = any(profile.reliability == "best_effort" for profile in offered)
     volatile = any(profile.durability == "volatile" for profile in offered) or not offered
@@ -76,7 +65,7 @@ def recorder_depth(offered_depths: Iterable[int], rate_hz: float | None) -> int:
     return max(_LEAST_OF_A_RECORDER, math.ceil((rate_hz or 0.0) * _PAUSE_S), sum(offered_depths))
 
 
-def _compare(offered: QosProfile, requested: QosProfile) -> Iterator[Incompatibility]:
+def _compare(offered: Qos, requested: Qos) -> Iterator[Incompatibility]:
     if offered.reliability == "best_effort" and requested.reliability == "reliable":
         yield Incompatibility("reliability", offered.reliability, requested.reliability)
     if offered.durability == "volatile" and requested.durability == "transient_local":

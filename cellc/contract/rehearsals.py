@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
+from cellc.contract.entities import Target
 from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
 from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
 
@@ -68,7 +69,7 @@ class RehearsalEntry(ContractModel):
     expect: AttemptOutcome = Field(description="Outcome that it must end in.")
     within_s: Seconds | None = Field(None, description="Bound from the fault's effect to the outcome.")
     timeout_s: PositiveSeconds = Field(description="Bound of the whole run in simulated time.")
-    bring_up: Literal["mock", "real"] = Field(
+    bring_up: Target = Field(
         "mock", description="Target whose bring-up is taken; with `real` devices do what their vendors' drivers do."
     )
 

@@ -80,6 +80,14 @@ def features(distro: Distro) -> frozenset[Feature]:
     return _FEATURES[distro]
 
 
+class InterfaceKind(Term):
+    """The three interactions of ROS 2."""
+
+    TOPIC = "topic"
+    SERVICE = "service"
+    ACTION = "action"
+
+
 class Behaviour(Term):
     """What a controller does: the kinds of the catalog, and the variants that one plugin or one device has."""
 

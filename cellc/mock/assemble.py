@@ -6,14 +6,8 @@ from collections.abc import Mapping
 from functools import partial
 from math import inf
 
-from cellc.contract.bring_up import Target
-from cellc.contract.contract import (
-    Contract,
-    ContractClock,
-    ContractEndpoint,
-    ContractFrame,
-    ContractSimulatedJoint,
-)
+from cellc.contract.contract import Contract, ContractClock, ContractFrame, ContractSimulatedJoint
+from cellc.contract.entities import ContractEndpoint, Target
 from cellc.contract.transforms import Pose, identity
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind

@@ -9,12 +9,12 @@ import pytest
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import EVERY_JOINT, Camera, CameraStream, Device, OfferedInterface, SimulatedJoint
 from cellc.compiler.cell.entity import Places
-from cellc.compiler.cell.interface import InterfaceKind
-from cellc.compiler.cell.site import Host, Kpis, NetworkCard, Safety, Stop, Versions
+from cellc.compiler.cell.site import Host, NetworkCard, Safety, Stop, Versions
 from cellc.compiler.graph.cell_graph import build_graph
 from cellc.compiler.rules.safety.stop import dependent_stop
 from cellc.contract.diagnostics import Span
-from cellc.contract.vocabulary import Distro
+from cellc.contract.entities import Kpis
+from cellc.contract.vocabulary import Distro, InterfaceKind
 from cellc.robot.description.model import Description
 from tests.cells import COMPLETE, CORPUS, linked, spec_of
 

@@ -7,17 +7,19 @@ from typing import Any
 
 import pytest
 
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind, Qos
+from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.deploy.labels import driver_facts, folded, interface_facts, unused, unused_title, watched_stream
 from cellc.contract.diagnostics import Span
+from cellc.contract.qos import DEFAULT
+from cellc.contract.vocabulary import InterfaceKind
 from tests.cells import CORPUS, built, linked
 
 _PLACE = Span("cell.yaml", 1, 1, 1, 2)
-_LATCHED = Qos(durability="transient_local", depth=1)
+_LATCHED = replace(DEFAULT, durability="transient_local", depth=1)
 
 
 def _interface(kind: str, type_: str, **changes: Any) -> Interface:
-    qos = changes.pop("qos", Qos())
+    qos = changes.pop("qos", DEFAULT)
     names = changes.pop("sources", ["driver"])
     ends = tuple(Endpoint(node=name, full_name=f"/{name}", qos=qos, path=(), span=_PLACE) for name in names)
     path = ("interfaces", "/it")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -71,6 +72,6 @@ def test_mock_ends_a_goal_of_a_library_by_the_bounds_of_the_spec(tmp_path: Path,
 def test_goal_of_a_library_has_the_timeout_of_its_own_action_where_nobody_plans(tmp_path: Path) -> None:
     contract = load(build_into(tmp_path / "generated", DIRECT)).contract
     alone = {name: each for name, each in contract.interfaces.items() if name != "/move_action"}
-    action = alone["/arm/follow_joint_trajectory"].model_copy(update={"timeout_s": 7.0})
+    action = replace(alone["/arm/follow_joint_trajectory"], timeout_s=7.0)
     contract = contract.model_copy(update={"interfaces": alone | {"/arm/follow_joint_trajectory": action}})
     assert goal_timeout_s(contract, "arm") == 7.0

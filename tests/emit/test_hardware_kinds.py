@@ -9,6 +9,7 @@ import pytest
 
 from cellc.compiler.formats.urdf.robot import manager_description
 from cellc.compiler.formats.xml_text import render
+from cellc.contract.entities import Target
 from tests.cells import linked, written
 
 SPEC = """format: 1
@@ -26,7 +27,7 @@ control:
 
 # On the mock it is mock_components/GenericSystem, which is a system whatever it stands for.
 @pytest.mark.parametrize(("target", "kind"), [("real", "sensor"), ("mock", "system")])
-def test_sensor_is_a_sensor_on_the_real_target(target: str, kind: str, tmp_path: Path) -> None:
+def test_sensor_is_a_sensor_on_the_real_target(target: Target, kind: str, tmp_path: Path) -> None:
     cell = linked(written(tmp_path, SPEC))
     root = ElementTree.fromstring(render(manager_description(cell, target, ("arm", "wrench")), ""))
     found = {tag.get("name"): tag.get("type") for tag in root.iter("ros2_control")}

@@ -16,7 +16,7 @@ from cellc.compiler.emit import moveit, parameters
 from cellc.compiler.emit.launch import launch
 from cellc.compiler.emit.security import policy
 from cellc.compiler.graph.cell_graph import build_graph
-from cellc.contract.bring_up import TARGETS
+from cellc.contract.entities import TARGETS
 from tests.cells import catalog_facts, linked, linking, spec_of, spec_text, written
 from tests.consumers.permissions import permissions
 from tests.foreign_yaml import safe_load

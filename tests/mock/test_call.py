@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -34,9 +35,9 @@ def _first(result: RehearsalResult) -> AttemptRecord:
     return result.attempts[0]
 
 
-def _stating(folder: GeneratedFolder, **facts: object) -> GeneratedFolder:
+def _stating(folder: GeneratedFolder, **facts: Any) -> GeneratedFolder:
     """Return the folder with other facts of the service."""
-    changed = folder.contract.interfaces[SERVICE].model_copy(update=facts)
+    changed = replace(folder.contract.interfaces[SERVICE], **facts)
     interfaces = {**folder.contract.interfaces, SERVICE: changed}
     return replace(folder, contract=folder.contract.model_copy(update={"interfaces": interfaces}))
 

@@ -6,7 +6,8 @@ import json
 
 import pytest
 
-from cellc.contract.contract import Contract, ContractClock, ContractNetwork
+from cellc.contract.contract import Contract, ContractClock
+from cellc.contract.entities import SimulatedNetwork
 from tests.cells import CORPUS, compiled
 
 
@@ -36,6 +37,6 @@ def test_nodes_and_controllers_read_the_clock_of_their_host(contract: Contract) 
 
 
 def test_network_of_a_topic_is_in_seconds_and_shares(contract: Contract) -> None:
-    figures = ContractNetwork(latency_s=0.002, jitter_s=0.001, loss=0.005, reordering=0.001)
+    figures = SimulatedNetwork(latency_s=0.002, jitter_s=0.001, loss=0.005, reordering=0.001)
     assert contract.interfaces["/object_pose"].simulated == figures
     assert contract.interfaces["/tf"].simulated is None

@@ -18,6 +18,7 @@ from cellc.compiler.catalog.effects import EffectFacts
 from cellc.compiler.catalog.programs import EndpointFacts
 from cellc.compiler.spec.base import MOST
 from cellc.compiler.spec.quantity import Duration, FieldAngle, Frequency, Length
+from cellc.contract.entities import Durability, Reliability
 
 
 class QosFacts(CatalogModel):
@@ -30,8 +31,8 @@ class QosFacts(CatalogModel):
         depth: Number of messages that are kept.
     """
 
-    reliability: Literal["reliable", "best_effort"]
-    durability: Literal["volatile", "transient_local"]
+    reliability: Reliability
+    durability: Durability
     history: Literal["keep_last", "keep_all"] = "keep_last"
     depth: int = Field(10, ge=1, le=MOST)
 

@@ -9,6 +9,7 @@ from pydantic import Field
 from cellc.compiler.catalog.catalog_model import CatalogModel, Date, DistroName, ParameterFact, Text, Token
 from cellc.compiler.catalog.controller_kind import ParameterFacts
 from cellc.compiler.spec.quantity import Duration
+from cellc.contract.entities import Durability, Reliability
 
 
 class CatalogTable(CatalogModel):
@@ -154,8 +155,8 @@ class QosProfile(CatalogModel):
 class SystemDefault(CatalogModel):
     """What an RMW makes of ``system_default`` at one kind of endpoint."""
 
-    reliability: Literal["reliable", "best_effort"]
-    durability: Literal["volatile", "transient_local"]
+    reliability: Reliability
+    durability: Durability
     depth: int = Field(ge=1)
 
 

@@ -10,7 +10,7 @@ from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerMan
 from cellc.compiler.cell.device import Device, Stamp
 from cellc.compiler.cell.entity import Places
 from cellc.compiler.cell.frame import Frame, SceneBox, SharedArea
-from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface, InterfaceKind, Node, NodeSource
+from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface, Node, NodeSource
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
 from cellc.compiler.cell.site import (
     TARGET_DEFAULTS,
@@ -18,7 +18,6 @@ from cellc.compiler.cell.site import (
     Calibration,
     HardwareStatement,
     Host,
-    Kpis,
     Network,
     Owners,
     Recording,
@@ -29,7 +28,8 @@ from cellc.compiler.cell.site import (
 from cellc.compiler.cell.uncertainty import Uncertainty
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.contract.diagnostics import Span
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.entities import Kpis
+from cellc.contract.vocabulary import Behaviour, Distro, InterfaceKind
 
 
 @dataclass(frozen=True, slots=True)

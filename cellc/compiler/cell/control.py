@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.cell.entity import Entity
-from cellc.compiler.cell.interface import TARGETS, ParameterValue
+from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.site import JointFigure
+from cellc.contract.entities import TARGETS, Target
 from cellc.contract.vocabulary import Behaviour
 
 
@@ -74,7 +75,7 @@ class Controller(Entity):
     behaviour: Behaviour
     plugin: str
     namespace: str = ""
-    targets: tuple[str, ...] = TARGETS
+    targets: tuple[Target, ...] = TARGETS
     stand_in: StandIn | None = None
     package: str = ""
     declared: ControllerKind | None = None
@@ -102,11 +103,11 @@ class Controller(Entity):
         """Fully qualified name of its node, with a leading slash."""
         return f"{self.namespace}/{self.name}"
 
-    def claims(self, target: str) -> tuple[str, ...]:
+    def claims(self, target: Target) -> tuple[str, ...]:
         """Return the full names of the command interfaces that it claims on ``mock`` or ``real``."""
         return self.command_interfaces if self.on_real is None or target != "real" else self.on_real.command_interfaces
 
-    def told(self, target: str) -> Mapping[str, ParameterValue]:
+    def told(self, target: Target) -> Mapping[str, ParameterValue]:
         """Return everything that goes to its node on ``mock`` or ``real``."""
         return self.parameters if self.on_real is None or target != "real" else self.on_real.parameters
 

@@ -10,7 +10,6 @@ from cellc.compiler.catalog.version_rows import VersionRow
 from cellc.compiler.cell.entity import Entity
 from cellc.compiler.cell.frame import WORLD
 from cellc.compiler.cell.hardware import Effect, HardwareComponent
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.kinematics import Kinematics, VendorDescription
 from cellc.compiler.cell.robot import (
     CollisionThresholds,
@@ -26,6 +25,7 @@ from cellc.compiler.cell.site import UNKNOWN, Clock, JointFigure
 from cellc.compiler.cell.switched import Switched
 from cellc.compiler.cell.vendor import CommissioningStep, RecordSource, VendorSafety
 from cellc.contract.transforms import Pose, identity
+from cellc.contract.vocabulary import InterfaceKind
 from cellc.robot.description.model import Description
 
 EVERY_JOINT = "*"

@@ -6,6 +6,7 @@ from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from cellc.compiler.cell.interface import InnerNode
+from cellc.contract.entities import Target
 from cellc.contract.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
 
 
@@ -102,7 +103,7 @@ class HardwareComponent:
     """
 
     name: str
-    targets: tuple[str, ...]
+    targets: tuple[Target, ...]
     plugins: Mapping[str, str]
     parameters: Mapping[str, Mapping[str, str]]
     sensors: tuple[InterfaceGroup, ...]

@@ -9,13 +9,10 @@ from enum import Enum
 
 from cellc.compiler.cell.entity import Entity
 from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.entities import TARGETS, ContractEndpoint, ContractInterface, Target
 
 ParameterValue = bool | int | float | str | tuple[bool | int | float | str, ...]
 """What a ROS parameter can hold; an int where a double is declared is a mistake."""
-
-
-TARGETS = ("mock", "real")
-"""What the hardware interfaces of a cell reach."""
 
 
 class NodeSource(str, Enum):
@@ -101,30 +98,8 @@ def node_labels(nodes: Sequence[Node]) -> tuple[str, ...]:
     return tuple(node.name if times[node.name] == 1 else node.full_name for node in nodes)
 
 
-class InterfaceKind(str, Enum):
-    """The three interactions of ROS 2."""
-
-    TOPIC = "topic"
-    SERVICE = "service"
-    ACTION = "action"
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Qos:
-    """A resolved profile; None for deadline, lifespan and lease means infinite."""
-
-    reliability: str = "reliable"
-    durability: str = "volatile"
-    history: str = "keep_last"
-    depth: int = 10
-    deadline_s: float | None = None
-    lifespan_s: float | None = None
-    liveliness: str = "automatic"
-    lease_duration_s: float | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Endpoint:
+class Endpoint(ContractEndpoint):
     """One end of an interface: a node, controller or device, and the QoS it offers or requests.
 
     Args:
@@ -134,26 +109,12 @@ class Endpoint:
         targets: targets on which it is there.
     """
 
-    node: str
-    full_name: str
-    qos: Qos
     path: YamlPath
     span: Span
-    targets: tuple[str, ...] = TARGETS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SimulatedNetwork:
-    """What the mock's network does to each sample: seconds, and shares from 0 to 1."""
-
-    latency_s: float
-    jitter_s: float
-    loss: float
-    reordering: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Interface(Entity):
+class Interface(Entity, ContractInterface):
     """A topic, service or action under its fully qualified name.
 
     ``sources`` publish a topic or serve a service or action; ``sinks`` subscribe to it or are its clients.
@@ -161,29 +122,13 @@ class Interface(Entity):
     response or a whole goal; ``goal_time_s`` is what a controller allows past the end of a trajectory.
     """
 
-    kind: InterfaceKind
-    type: str
     sources: tuple[Endpoint, ...]
     sinks: tuple[Endpoint, ...]
     derived: bool = False
-    frame: str | None = None
-    unit: str | None = None
-    time_source: str | None = None
-    owner: str | None = None
-    wants: str | None = None
-    rate_hz: float | None = None
-    max_age_s: float | None = None
-    transport_s: float | None = None
-    on_stale: str | None = None
-    timeout_s: float | None = None
     goal_time_s: float | None = None
-    on_timeout: str | None = None
-    on_error: str | None = None
-    cancel_within_s: float | None = None
-    simulated: SimulatedNetwork | None = None
 
     @property
-    def targets(self) -> tuple[str, ...]:
+    def targets(self) -> tuple[Target, ...]:
         """Targets on which somebody publishes or serves it; every target where no source is declared."""
         found = {target for source in self.sources for target in source.targets}
         return tuple(target for target in TARGETS if target in found or not self.sources)

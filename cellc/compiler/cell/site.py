@@ -254,23 +254,6 @@ class Bringup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Kpis:
-    """Targets that the evidence is held against; None where none is stated, shares from 0 to 1."""
-
-    plan_to_execute_s: float | None = None
-    cancel_s: float | None = None
-    missed_cycles: int | None = None
-    stale_state_rejection: float | None = None
-    protective_stops: int | None = None
-    recovery_time_s: float | None = None
-    wrong_owner_events: int | None = None
-
-    def without_target(self) -> tuple[str, ...]:
-        """Name the figures without a target by their keys in the spec."""
-        return tuple(field.name.removesuffix("_s") for field in fields(self) if getattr(self, field.name) is None)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Recording:
     """What every attempt leaves behind; ``topics`` are those beyond the motion path."""
 

@@ -15,7 +15,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import WORLD
-from cellc.compiler.cell.interface import InterfaceKind, Node
+from cellc.compiler.cell.interface import Node
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, motion_clients
 from cellc.compiler.deploy.readiness import (
     activated_later,
@@ -53,13 +53,13 @@ from cellc.contract.bring_up import (
     Proof,
     Request,
     Restart,
-    Target,
     TopicProof,
     TransformProof,
     Transition,
     Watch,
 )
-from cellc.contract.vocabulary import Behaviour, BringUpPhase, Moment, Need
+from cellc.contract.entities import Target
+from cellc.contract.vocabulary import Behaviour, BringUpPhase, InterfaceKind, Moment, Need
 
 WATCH = "watch"
 """What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""

@@ -19,7 +19,9 @@ from cellc.compiler.formats.urdf.robot import robot_description
 from cellc.compiler.formats.xml_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.entities import Qos, SimulatedNetwork
 from cellc.contract.manifest import ConfigurationInputs
+from cellc.contract.qos import DEFAULT
 
 _DIGITS = 12
 
@@ -106,6 +108,8 @@ def _unordered(value: object) -> object:
 
 
 def _default(value: Any, name: str) -> object:
+    if isinstance(value, (Qos, SimulatedNetwork)):
+        return getattr(DEFAULT, name, MISSING)
     of: Field[Any] = value.__dataclass_fields__[name]
     return of.default if of.default_factory is MISSING else of.default_factory()
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cellc.compiler.cell.interface import Node, Qos
+from cellc.compiler.cell.interface import Node
 from cellc.compiler.deploy.bringup import bring_up
 from cellc.compiler.deploy.configuration import (
     OpenQuestion,
@@ -25,6 +25,7 @@ from cellc.compiler.deploy.recording import recorded_topics
 from cellc.compiler.formats.header import Header
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import BringUp
+from cellc.contract.entities import Qos
 from cellc.contract.manifest import ConfigurationInputs
 
 

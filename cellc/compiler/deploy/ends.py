@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.deploy.bringup import watches
 from cellc.compiler.deploy.readiness import silent_until_activation
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import CLAIM_WATCH
+from cellc.contract.vocabulary import InterfaceKind
 
 
 def ends_on_real(graph: CellGraph, interface: Interface) -> tuple[tuple[str, ...], tuple[str, ...]]:

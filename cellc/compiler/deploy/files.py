@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager
-from cellc.compiler.cell.interface import TARGETS, Node, NodeSource
+from cellc.compiler.cell.interface import Node, NodeSource
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.entities import TARGETS
 
 REHEARSALS = "rehearsals.json"
 """What the mock executes."""

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.site import FirstMotion
 from cellc.compiler.deploy.bringup import bring_up, phases, releases
 from cellc.compiler.deploy.first_goal import first_goal
@@ -15,7 +14,7 @@ from cellc.compiler.deploy.releases import GOAL, Release, release_once
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.vocabulary import BringUpPhase, Feature, features
+from cellc.contract.vocabulary import BringUpPhase, Feature, InterfaceKind, features
 
 Values = tuple[str, ...]
 

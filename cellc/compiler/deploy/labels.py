@@ -8,9 +8,9 @@ from itertools import groupby
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device, DeviceDriver
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.formats.numbers import shortest
-from cellc.contract.vocabulary import PASSIVE, Behaviour
+from cellc.contract.vocabulary import PASSIVE, Behaviour, InterfaceKind
 
 TF_RATE_HZ = 20.0
 """Default of robot_state_publisher's ``publish_frequency``; the launch file states it."""

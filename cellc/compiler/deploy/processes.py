@@ -10,7 +10,8 @@ from cellc.compiler.cell.device import Device, OfferedInterface
 from cellc.compiler.cell.interface import Node
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
-from cellc.contract.bring_up import CLAIM_WATCH, TARGETS, BringUp
+from cellc.contract.bring_up import CLAIM_WATCH, BringUp
+from cellc.contract.entities import TARGETS
 from cellc.contract.vocabulary import BringUpPhase, Feature, Motion, features
 
 

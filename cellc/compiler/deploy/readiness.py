@@ -11,7 +11,7 @@ from cellc.compiler.cell.frame import WORLD, FrameKind
 from cellc.compiler.cell.interface import Node
 from cellc.compiler.deploy.processes import asks_for_motion
 from cellc.compiler.graph.claims import crosses_a_joint
-from cellc.contract.bring_up import Target
+from cellc.contract.entities import Target
 from cellc.contract.vocabulary import PASSIVE, Behaviour
 
 
@@ -20,7 +20,7 @@ def components_of(cell: Cell, manager: ControllerManager, target: Target) -> Ite
     return (device for device in map(cell.device, manager.devices) if is_on(device, target))
 
 
-def is_on(device: Device, target: str) -> bool:
+def is_on(device: Device, target: Target) -> bool:
     """Whether a target has the component of a device."""
     return device.hardware is not None and target in device.hardware.targets
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import Interface, InterfaceKind, Qos
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.files import RECORDING
 from cellc.compiler.formats.escape import shell_word
-from cellc.contract.qos import recorder_depth, weakest
-from cellc.contract.vocabulary import Feature, features
+from cellc.contract.entities import Qos
+from cellc.contract.qos import DEFAULT, recorder_depth, weakest
+from cellc.contract.vocabulary import Feature, InterfaceKind, features
 
 
 def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
@@ -30,10 +33,10 @@ def recorded_topics(cell: Cell) -> dict[str, Qos]:
     found = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
     # Goals and results of actions are hidden services; feedback and status tell what became of them.
     for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION and "real" in i.targets):
-        found[f"{action.name}/_action/feedback"] = Qos()
-        found[f"{action.name}/_action/status"] = Qos(durability="transient_local", depth=1)
+        found[f"{action.name}/_action/feedback"] = DEFAULT
+        found[f"{action.name}/_action/status"] = replace(DEFAULT, durability="transient_local", depth=1)
     for name in ("/diagnostics", *cell.recording.topics):
-        found.setdefault(name, Qos())
+        found.setdefault(name, DEFAULT)
     return found
 
 
@@ -47,4 +50,4 @@ def _offered(interface: Interface) -> Qos:
     offered = [source.qos for source in interface.sources]
     reliability, durability = weakest(offered)
     depth = recorder_depth((qos.depth for qos in offered), interface.rate_hz)
-    return Qos(reliability=reliability, durability=durability, depth=depth)
+    return replace(DEFAULT, reliability=reliability, durability=durability, depth=depth)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.compiler.cell.control import Controller, ControllerManager
-from cellc.compiler.cell.interface import TARGETS
+from cellc.contract.entities import TARGETS
 
 
 @dataclass(frozen=True, slots=True)

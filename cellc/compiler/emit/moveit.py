@@ -15,7 +15,7 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.cell.frame import WORLD
-from cellc.compiler.cell.interface import TARGETS, ParameterValue
+from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.motion import POINT_CLOUD, Octomap, Pipeline, Servo
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import (
@@ -34,6 +34,7 @@ from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.control import TRAJECTORY_ACTION
 from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.entities import TARGETS, Target
 from cellc.contract.vocabulary import Feature, features
 
 Parameters = Mapping[str, ParameterValue]
@@ -207,7 +208,7 @@ def _config(planner: str) -> str:
     return f"{planner}kConfigDefault"
 
 
-def _controllers(cell: Cell, target: str) -> Parameters:
+def _controllers(cell: Cell, target: Target) -> Parameters:
     """Return what executes plans on a target: controllers with an action that MoveIt knows, adapters, stand-ins."""
     called = {_name(cell, called): called for called in _called(cell, target) if _short(called.type) in _TYPES}
     parameters: dict[str, ParameterValue] = {
@@ -333,7 +334,7 @@ def _scene_topic(cell: Cell) -> str:
     return f"{namespace}/monitored_planning_scene"
 
 
-def _called(cell: Cell, target: str) -> Iterator[_Called]:
+def _called(cell: Cell, target: Target) -> Iterator[_Called]:
     for controller in cell.controllers:
         if not executes_plans(cell, controller):
             continue

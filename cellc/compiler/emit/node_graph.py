@@ -15,13 +15,13 @@ from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.labels import unused
 from cellc.compiler.formats.escape import one_line
 from cellc.compiler.formats.layered import Box, Columns, Layout, Line, Point, layout
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.vocabulary import InterfaceKind
 
 _SIZE, _LINE = 13, 17  # height of letters, and of a line of text
 _BOX, _CHARACTERS = 126, 17  # width of a box, and how many characters it holds

@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
-from cellc.compiler.cell.interface import TARGETS, NodeSource, ParameterValue, Qos
+from cellc.compiler.cell.interface import NodeSource, ParameterValue
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import QOS_OVERRIDES, RECORDING, control_path, controllers_file, node_file
 from cellc.compiler.deploy.recording import record_command
@@ -27,6 +27,7 @@ from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
 from cellc.compiler.formats.yaml_text import Tree, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.entities import TARGETS, Qos, Target
 from cellc.contract.vocabulary import Feature, features
 
 
@@ -45,7 +46,7 @@ def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:
             yield Artifact(file, parameter_file(header, _sections(cell, manager, target)))
 
 
-def _sections(cell: Cell, manager: ControllerManager, target: str) -> Iterator[NodeParameters]:
+def _sections(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[NodeParameters]:
     yield NodeParameters(f"{manager.namespace}/controller_manager", manager.path, _of_manager(cell, manager))
     for controller in manager.controllers:
         yield _of_controller(manager, controller, target)
@@ -66,7 +67,7 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
     return rate | {f"{controller.name}.type": controller.plugin for controller in manager.controllers}
 
 
-def _of_controller(manager: ControllerManager, controller: Controller, target: str) -> NodeParameters:
+def _of_controller(manager: ControllerManager, controller: Controller, target: Target) -> NodeParameters:
     return NodeParameters(f"{manager.namespace}/{controller.name}", controller.path, controller.told(target))
 
 

@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.labels import (
     claim_facts,
@@ -31,6 +31,7 @@ from cellc.compiler.deploy.labels import (
 from cellc.compiler.formats.escape import one_line
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.vocabulary import InterfaceKind
 
 _WIDTH = 1000
 _FONT_SIZE = 13

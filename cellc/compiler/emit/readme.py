@@ -13,7 +13,7 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.frame import FrameKind
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.bringup import phases
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
@@ -36,7 +36,7 @@ from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import commissioning_enclave, people_enclave
 from cellc.compiler.graph.versions import unreleased
-from cellc.contract.vocabulary import BringUpPhase
+from cellc.contract.vocabulary import BringUpPhase, InterfaceKind
 
 _BAR = "\\|"
 _OPEN = "Before real hardware"

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.labels import (
     claim_facts,
@@ -26,6 +26,7 @@ from cellc.compiler.deploy.labels import (
 )
 from cellc.compiler.formats.escape import mermaid
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.vocabulary import InterfaceKind
 
 _BOLD = "stroke-width:5px,stroke:#000,fill:none"
 

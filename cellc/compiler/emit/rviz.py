@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.frame import WORLD
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import RVIZ, plans
 from cellc.compiler.formats.yaml_text import Tree, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.vocabulary import InterfaceKind
 
 _IMAGE = "sensor_msgs/msg/Image"
 _TOOLS = ("Interact", "MoveCamera", "Select", "FocusCamera", "Measure")

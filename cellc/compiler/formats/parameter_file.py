@@ -6,10 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import InterfaceKind, Node, ParameterValue, Qos
+from cellc.compiler.cell.interface import Node, ParameterValue
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.yaml_text import nested, render
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.entities import Qos
+from cellc.contract.vocabulary import InterfaceKind
 
 ANY_NODE = "/**"
 """Matches every node that reads the file."""

@@ -13,7 +13,8 @@ from cellc.compiler.catalog.tables import InterfaceTypeFacts
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.frame import FrameKind
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.contract.vocabulary import InterfaceKind
 
 if TYPE_CHECKING:
     import networkx

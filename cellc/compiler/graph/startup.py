@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import InterfaceKind
+from cellc.contract.vocabulary import InterfaceKind
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager, ControllerSwitch
 from cellc.compiler.cell.device import Adapter, Device, DeviceDriver
 from cellc.compiler.cell.hardware import Effect
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind, Node, ParameterValue
+from cellc.compiler.cell.interface import Endpoint, Interface, Node, ParameterValue
 from cellc.compiler.link.controller import ControlContext, ControllerPlace, link_controller
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.compiler.link.hopeless import until_hopeless
@@ -19,7 +19,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.control import ManagerSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, YamlPath
-from cellc.contract.vocabulary import Behaviour, CommandAuthority, ManagerLock, Motion
+from cellc.contract.vocabulary import Behaviour, CommandAuthority, InterfaceKind, ManagerLock, Motion
 
 
 def link_managers(context: ControlContext) -> Outcome[tuple[ControllerManager, ...]]:

@@ -12,7 +12,7 @@ from cellc.compiler.catalog.device_interfaces import CommandFacts, PluginUse
 from cellc.compiler.catalog.load import controller_kinds, kind_behind
 from cellc.compiler.cell.control import Controller, OnReal, StandIn, VendorCommand
 from cellc.compiler.cell.device import Device, DeviceJoint
-from cellc.compiler.cell.interface import TARGETS, ParameterValue
+from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.link.controller_parameters import bind_parameters
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.names import unknown_name
@@ -22,6 +22,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.control import ControllerSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
+from cellc.contract.entities import TARGETS, Target
 from cellc.contract.vocabulary import OF_ONE_DEVICE, Behaviour, Distro
 
 _MOVES_THE_MOCK = {"position", "velocity", "acceleration"}
@@ -255,7 +256,7 @@ def _on_real(
     return None if same else OnReal(command_interfaces=command, parameters=told)
 
 
-def _targets(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> tuple[str, ...]:
+def _targets(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> tuple[Target, ...]:
     """Return the targets whose hardware has what the controller takes, of each device whose joints it has."""
     own = chosen.own
     components = [device.hardware for device in _taken_from(chosen, interfaces, context) if device.hardware is not None]

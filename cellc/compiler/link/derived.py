@@ -14,7 +14,7 @@ from cellc.compiler.catalog.load import kind_behind
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Frame, FrameKind
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind, Qos
+from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.cell.motion import Servo
 from cellc.compiler.link.endpoints import (
     LATCHED,
@@ -31,7 +31,8 @@ from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import YamlPath
-from cellc.contract.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, Distro
+from cellc.contract.entities import Qos
+from cellc.contract.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, Distro, InterfaceKind
 
 
 # Without slots, so that what is asked for each controller is looked up once and kept.

@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import get_args
 
 from cellc.compiler.catalog.device_graph import QosFacts, QosUse
 from cellc.compiler.catalog.tables import QosTable, Rmw, SystemDefault
 from cellc.compiler.cell.control import Controller, ControllerManager
-from cellc.compiler.cell.interface import TARGETS, Endpoint, Node, NodeSource, Qos, node_labels
+from cellc.compiler.cell.interface import Endpoint, Node, NodeSource, node_labels
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.interfaces import QosSpec
 from cellc.compiler.spec.quantity import Quantity
 from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.entities import TARGETS, Durability, Qos, Reliability, Target
+from cellc.contract.qos import DEFAULT
 
-# rmw/qos_profiles.h: default and services_default are alike in every policy that is matched.
-DEFAULT = Qos(reliability="reliable", durability="volatile", history="keep_last", depth=10)
-SENSOR_DATA = Qos(reliability="best_effort", durability="volatile", history="keep_last", depth=5)
+SENSOR_DATA = replace(DEFAULT, reliability="best_effort", depth=5)
 # robot_state_publisher and controller_manager, robot_description: latched.
-LATCHED = Qos(reliability="reliable", durability="transient_local", history="keep_last", depth=1)
+LATCHED = replace(DEFAULT, durability="transient_local", depth=1)
 # tf2_ros/qos.hpp: dynamic broadcaster and listener, static broadcaster and listener.
-TF = Qos(reliability="reliable", durability="volatile", history="keep_last", depth=100)
-TF_STATIC_LISTENER = Qos(reliability="reliable", durability="transient_local", history="keep_last", depth=100)
+TF = replace(DEFAULT, depth=100)
+TF_STATIC_LISTENER = replace(LATCHED, depth=100)
 
 
 def with_changes(profile: Qos, written: QosSpec) -> Qos:
@@ -60,21 +61,24 @@ class QosResolver:
 
     def _resolve(self, use: QosUse, system: SystemDefault) -> Qos:
         if isinstance(use, QosFacts):
-            return Qos(reliability=use.reliability, durability=use.durability, history=use.history, depth=use.depth)
+            return replace(
+                DEFAULT, reliability=use.reliability, durability=use.durability, history=use.history, depth=use.depth
+            )
         profile = self.table.profiles[use]
         open_history = profile.history == "system_default"
-        return Qos(
-            reliability=_decided(profile.reliability, system.reliability),
-            durability=_decided(profile.durability, system.durability),
-            history="keep_last" if open_history else profile.history,
+        return replace(
+            DEFAULT,
+            reliability=_RELIABILITY.get(profile.reliability, system.reliability),
+            durability=_DURABILITY.get(profile.durability, system.durability),
+            history="keep_last" if profile.history == "system_default" else profile.history,
             depth=system.depth if open_history else max(1, profile.depth),
             lifespan_s=None if profile.lifespan is None else profile.lifespan.si,
         )
 
 
-def _decided(setting: str, system: str) -> str:
-    """Return the setting, or what the middleware makes of one that is left open."""
-    return system if setting in ("system_default", "best_available") else setting
+_RELIABILITY: Mapping[str, Reliability] = {name: name for name in get_args(Reliability)}
+_DURABILITY: Mapping[str, Durability] = {name: name for name in get_args(Durability)}
+"""What a profile may decide itself; the middleware decides what is left open."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +97,7 @@ class EndName:
     node: str
     full_name: str
     owner: str
-    targets: tuple[str, ...] = TARGETS
+    targets: tuple[Target, ...] = TARGETS
     nodes: Mapping[str, str] = field(default_factory=dict)
     offered: Mapping[str, Qos] = field(default_factory=dict)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.entity import Entity
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.motion import Fault, Step, StepEvent
 from cellc.compiler.link.frames import FrameNames
 from cellc.compiler.link.names import unknown_name
@@ -31,7 +31,7 @@ from cellc.compiler.spec.faults import (
     first_key,
 )
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.contract.vocabulary import Moment, Need
+from cellc.contract.vocabulary import InterfaceKind, Moment, Need
 
 SENDS_GOALS = ("move", "grip")
 """Steps whose goal a controller accepts, so that joints move."""

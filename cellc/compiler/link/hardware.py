@@ -17,13 +17,14 @@ from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.effects import EffectFacts
 from cellc.compiler.cell.device import DeviceDriver, OfferedInterface
 from cellc.compiler.cell.hardware import CommandModes, Effect, HardwareComponent, InterfaceGroup, Told
-from cellc.compiler.cell.interface import InterfaceKind, ParameterValue
+from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.programs import inner_nodes
 from cellc.compiler.spec.devices import DeviceSpec
+from cellc.contract.entities import Target
 from cellc.contract.pins import older
-from cellc.contract.vocabulary import Distro, Unmet
+from cellc.contract.vocabulary import Distro, InterfaceKind, Unmet
 
 JOINT_STATES = "/joint_states"
 """Where robot_state_publisher and planners hear of all joints.
@@ -50,7 +51,9 @@ def hardware_component(
     parameters = {"mock": _parameters(control.hardware.mock, known, None)}
     if real is not None:
         parameters["real"] = _parameters(real, known, release)
-    by_target = {"mock": control.hardware.mock} | ({} if real is None else {"real": real})
+    by_target: dict[Target, HardwareFacts] = {"mock": control.hardware.mock}
+    if real is not None:
+        by_target["real"] = real
     component = HardwareComponent(
         name=known.fill(control.component),
         targets=tuple(by_target),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind, SimulatedNetwork
+from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.link.endpoints import EndName, EndpointNames, with_changes
 from cellc.compiler.link.frames import FrameNames
 from cellc.compiler.link.hopeless import until_hopeless
@@ -22,6 +22,8 @@ from cellc.compiler.spec.interfaces import (
     TopicSpec,
 )
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.contract.entities import SimulatedNetwork
+from cellc.contract.vocabulary import InterfaceKind
 
 
 def link_interfaces(

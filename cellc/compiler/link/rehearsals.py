@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.motion import Fault, Rehearsal, Step
 from cellc.compiler.cell.switched import Switched
 from cellc.compiler.link.faults import Target, fault_targets, link_fault
@@ -30,6 +30,7 @@ from cellc.compiler.spec.rehearsals import (
     StepSpec,
 )
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.contract.vocabulary import InterfaceKind
 
 _Bound = TypeVar("_Bound", Step, Fault)
 

@@ -22,7 +22,6 @@ from cellc.compiler.cell.site import (
     FirstMotion,
     HardwareStatement,
     Host,
-    Kpis,
     Network,
     NetworkCard,
     Owners,
@@ -43,6 +42,7 @@ from cellc.compiler.spec.hosts import ClockSpec
 from cellc.compiler.spec.rehearsals import HardwareStatementSpec
 from cellc.compiler.spec.safety import FirstMotionSpec
 from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.entities import Kpis
 from cellc.contract.pins import day_of
 from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES
 

@@ -17,6 +17,7 @@ from cellc.compiler.spec.base import (
     shape_of,
 )
 from cellc.compiler.spec.quantity import Duration, Frequency, Ratio, TimeShift
+from cellc.contract.entities import Durability, Reliability
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
 OnTimeout = Literal["cancel_and_hold", "error", "continue"]
@@ -45,10 +46,10 @@ class NodeSpec(SpecModel):
 class QosSpec(SpecModel):
     """Quality of service of one endpoint; what is absent is the default of its kind."""
 
-    reliability: Literal["reliable", "best_effort"] | None = Field(
+    reliability: Reliability | None = Field(
         None, description="Delivery of every sample, or of what arrives.", examples=["reliable"]
     )
-    durability: Literal["volatile", "transient_local"] | None = Field(
+    durability: Durability | None = Field(
         None, description="Whether a late joiner gets history.", examples=["volatile"]
     )
     history: Literal["keep_last", "keep_all"] | None = Field(

@@ -7,6 +7,7 @@ from pydantic import Discriminator, Field, Tag
 from cellc.compiler.spec.base import MOST, Name, Pin, SpecModel, StandardOr, Text
 from cellc.compiler.spec.faults import FaultsSpec, first_key
 from cellc.compiler.spec.quantity import Confidence, Duration, PositiveDuration, Rate, Share
+from cellc.contract.entities import Target
 from cellc.contract.vocabulary import AttemptOutcome
 
 
@@ -95,7 +96,7 @@ class RehearsalSpec(SpecModel):
 
     steps: tuple[StepSpec, ...] = Field((), description="Steps in order.", examples=[[{"move": "home"}]])
     use: Name | None = Field(None, description="Rehearsal whose steps are used.", examples=["pick_and_place"])
-    bring_up: Literal["mock", "real"] = Field(
+    bring_up: Target = Field(
         "mock",
         description="Steps of the bring-up that are taken; with `real` the devices do what their vendors' drivers do.",
         examples=["real"],

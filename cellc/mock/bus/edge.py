@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from random import Random
 from typing import Generic, TypeVar
 
-from cellc.contract.contract import ContractEndpoint
+from cellc.contract.entities import ContractEndpoint
 from cellc.mock.bus.network import IDEAL, Network, QosEvent, QosEventKind
 from cellc.mock.bus.timers import DeadlineWatch, Timers
 

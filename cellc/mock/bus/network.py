@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 from random import Random
 
-from cellc.contract.contract import ContractInterface
+from cellc.contract.entities import ContractInterface
 from cellc.mock.bus.qos import DDS, Middleware
 from cellc.mock.bus.timers import Timers
 

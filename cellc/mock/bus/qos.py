@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from cellc.contract.contract import Contract, ContractEndpoint, ContractQos
+from cellc.contract.contract import Contract
+from cellc.contract.entities import ContractEndpoint, Qos
 from cellc.contract.qos import Incompatibility, incompatibilities
 
 ZENOH_PREFIX = "rmw_zenoh"
@@ -23,11 +24,11 @@ class Middleware:
         reports_events: it reports missed deadlines and lost liveliness.
     """
 
-    compare: Callable[[ContractQos, ContractQos], tuple[Incompatibility, ...]]
+    compare: Callable[[Qos, Qos], tuple[Incompatibility, ...]]
     reports_events: bool
 
 
-def _any_two_match(offered: ContractQos, requested: ContractQos) -> tuple[Incompatibility, ...]:
+def _any_two_match(offered: Qos, requested: Qos) -> tuple[Incompatibility, ...]:
     return ()
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from cellc.contract.contract import ContractQos
+from cellc.contract.entities import Qos
 from cellc.mock.bus.network import EdgeBehaviour, EdgeName, Network
 
 IntArray = npt.NDArray[np.int64]
@@ -38,7 +38,7 @@ class StreamEdge:
         ideal: every sample so far arrived as it was published.
     """
 
-    def __init__(self, name: EdgeName, offered: ContractQos, requested: ContractQos, network: Network) -> None:
+    def __init__(self, name: EdgeName, offered: Qos, requested: Qos, network: Network) -> None:
         """Bind a pair of endpoints that match."""
         self.ideal = True
         self._reliable = (offered.reliability, requested.reliability) == ("reliable", "reliable")

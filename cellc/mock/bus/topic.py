@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Generic
 
-from cellc.contract.contract import ContractEndpoint, ContractInterface
+from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.mock.bus.edge import Edge, Reader, Sample, Subscription
 from cellc.mock.bus.network import SEVERED, EdgeBehaviour, EdgeName, Network, QosEvent, QosEventKind
 from cellc.mock.bus.timers import DeadlineWatch, Lease

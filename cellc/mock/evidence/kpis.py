@@ -6,8 +6,8 @@ import json
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 
-from cellc.contract.contract import ContractKpis
 from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.entities import Kpis
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.run_trace import StateChange, TraceResult
@@ -47,7 +47,7 @@ class Kpi:
     basis: str
 
 
-def kpis(targets: ContractKpis, result: RehearsalResult, trace: TraceResult, max_state_age_s: float) -> tuple[Kpi, ...]:
+def kpis(targets: Kpis, result: RehearsalResult, trace: TraceResult, max_state_age_s: float) -> tuple[Kpi, ...]:
     """Return the seven figures.
 
     Args:

@@ -6,10 +6,12 @@ where a player that repeats the bag commands nothing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from cellc.contract.contract import Contract, ContractInterface, ContractQos
-from cellc.mock.evidence.bag.bag_file import DEFAULT, LATCHED
+from cellc.contract.contract import Contract
+from cellc.contract.entities import ContractInterface, Qos
+from cellc.contract.qos import DEFAULT
+from cellc.mock.evidence.bag.bag_file import LATCHED
 from cellc.mock.evidence.bag.messages import (
     CONTROLLER_STATE,
     DIAGNOSTIC_ARRAY,
@@ -28,10 +30,10 @@ class BagTopic:
 
     name: str
     kind: str
-    qos: ContractQos
+    qos: Qos
 
 
-ATTEMPTS = BagTopic("/cellc/attempts", STRING, LATCHED.model_copy(update={"history": "keep_all"}))
+ATTEMPTS = BagTopic("/cellc/attempts", STRING, replace(LATCHED, history="keep_all"))
 LOG = "/cellc/log"
 """Where `cellc mock --live` tells faults and outcomes in words; no bag has it."""
 DIAGNOSTICS = BagTopic("/diagnostics", DIAGNOSTIC_ARRAY, DEFAULT)
@@ -49,7 +51,7 @@ def static_transforms_topic(contract: Contract) -> BagTopic:
 
 def transforms_topic(contract: Contract) -> BagTopic:
     """Return the topic of moving edges."""
-    fallback = DEFAULT.model_copy(update={"depth": 100})  # tf2_ros/qos.hpp, DynamicBroadcasterQoS
+    fallback = replace(DEFAULT, depth=100)  # tf2_ros/qos.hpp, DynamicBroadcasterQoS
     return BagTopic("/tf", TF_MESSAGE, _qos(contract, "/tf", NODE, fallback))
 
 
@@ -87,7 +89,7 @@ def pose_topic(contract: Contract, frame: str) -> BagTopic | None:
     return None
 
 
-def _of_broadcasters(contract: Contract) -> ContractQos:
+def _of_broadcasters(contract: Contract) -> Qos:
     """Return the profile of all publishers of ros2_controllers: SystemDefaults, as the contract resolved it."""
     return next((each.sources[0].qos for each in contract.interfaces.values() if _publishes_states(each)), LATCHED)
 
@@ -96,7 +98,7 @@ def _publishes_states(interface: ContractInterface) -> bool:
     return interface.type == JOINT_STATE and bool(interface.sources)
 
 
-def _qos(contract: Contract, topic: str, node: str, fallback: ContractQos) -> ContractQos:
+def _qos(contract: Contract, topic: str, node: str, fallback: Qos) -> Qos:
     interface = contract.interfaces.get(topic)
     sources = () if interface is None else interface.sources
     return next((source.qos for source in sources if source.node == node), fallback)

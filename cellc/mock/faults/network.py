@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
-from cellc.contract.contract import Contract, ContractInterface
+from cellc.contract.contract import Contract
+from cellc.contract.entities import ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome, FaultKind
 from cellc.mock.bus.qos import served_actions

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.contract.contract import ContractInterface
+from cellc.contract.entities import ContractInterface
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.gates.command_path import cancel_trace

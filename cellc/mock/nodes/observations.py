@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from cellc.contract.contract import Contract, ContractInterface
+from cellc.contract.contract import Contract
+from cellc.contract.entities import ContractInterface
 from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import Clock

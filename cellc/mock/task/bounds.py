@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from cellc.contract.contract import Contract, ContractInterface
+from cellc.contract.contract import Contract
+from cellc.contract.entities import ContractInterface
 from cellc.mock.bus.qos import served_actions
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.contract.contract import ContractEndpoint, ContractInterface
+from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.bus.qos import hears
 from cellc.mock.engine.process import Waiting

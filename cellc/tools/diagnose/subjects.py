@@ -8,10 +8,10 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Frame, FrameKind
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind
+from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.cell.site import Host
 from cellc.compiler.formats.numbers import shortest
-from cellc.contract.vocabulary import TRAJECTORIES
+from cellc.contract.vocabulary import TRAJECTORIES, InterfaceKind
 from cellc.tools.diagnose.fields import FIELDS, Scope, Subject
 
 _NOT_STATED = "not stated"

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from cellc.contract.contract import Contract, ContractInterface
+from cellc.contract.contract import Contract
+from cellc.contract.entities import ContractInterface
 from cellc.contract.qos import incompatibilities
 
 

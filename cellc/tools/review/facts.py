@@ -13,9 +13,10 @@ from pydantic import BaseModel
 
 from cellc.compiler.cell.cell import Cell
 from cellc.contract.base import Json
-from cellc.contract.bring_up import TARGETS, BringUp, BringUpStep
-from cellc.contract.contract import Contract, ContractInterface
+from cellc.contract.bring_up import BringUp, BringUpStep
+from cellc.contract.contract import Contract
 from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.entities import TARGETS, ContractInterface
 from cellc.contract.errors import CellcError
 from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
@@ -187,8 +188,10 @@ def _of_manifest(manifest: Manifest) -> Iterator[tuple[Path, Leaf]]:
 def _of_contract(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
     """Yield the contract with the ends of its interfaces named by what they are, and without what others tell."""
     data = _dumped(contract)
+    interfaces = data.pop("interfaces")
     for name, interface in contract.interfaces.items():
-        told = _dumped(interface)
+        told = interfaces[name] if isinstance(interfaces, dict) else None
+        assert isinstance(told, dict)
         sources, sinks = _ends(interface)
         told[sources], told[sinks] = told.pop("sources"), told.pop("sinks")
         yield from flatten(told, ("interface", name))
@@ -197,7 +200,7 @@ def _of_contract(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
             yield from flatten(_dumped(controller), ("controller", name))
             yield ("controller", name, "manager"), of
         yield from flatten({**_dumped(manager), "controllers": None}, ("manager", of))
-    for key in ("interfaces", "managers", "configuration_id", "format"):
+    for key in ("managers", "configuration_id", "format"):
         del data[key]
     for name, inner in data.items():
         yield from flatten(inner, ("contract", name))

@@ -7,9 +7,10 @@ from itertools import groupby
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.deploy.gates import GateText, gate_texts
-from cellc.contract.contract import Contract, ContractEndpoint, ContractInterface
+from cellc.contract.contract import Contract
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.contract.review import Review
 from cellc.contract.vocabulary import Grade
 from cellc.mock.bus.qos import unmatched_pairs

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
-from cellc.contract.contract import ContractEndpoint, ContractInterface, ContractNetwork, ContractQos
+from cellc.contract.entities import ContractEndpoint, ContractInterface, Qos, SimulatedNetwork
+from cellc.contract.qos import DEFAULT
+from cellc.contract.vocabulary import InterfaceKind
 from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.network import Network, QosEventKind
 from cellc.mock.bus.qos import DDS, Middleware
@@ -15,27 +18,15 @@ from cellc.mock.engine.process import EventQueue
 MS = 1_000_000
 TOPIC = "/numbers"
 
-PLAIN: dict[str, Any] = {
-    "reliability": "reliable",
-    "durability": "volatile",
-    "history": "keep_last",
-    "depth": 10,
-    "deadline_s": None,
-    "lifespan_s": None,
-    "liveliness": "automatic",
-    "lease_duration_s": None,
-}
 
-
-def qos(**changes: Any) -> ContractQos:
+def qos(**changes: Any) -> Qos:
     """Return the default profile with changes."""
-    return ContractQos.model_validate(PLAIN | changes)
+    return replace(DEFAULT, **changes)
 
 
-def endpoint(node: str, profile: ContractQos) -> ContractEndpoint:
+def endpoint(node: str, profile: Qos) -> ContractEndpoint:
     """Return one end of a topic, with what a topic reads of it."""
-    fields: dict[str, Any] = {"node": node, "qos": profile}
-    return ContractEndpoint.model_construct(**fields)
+    return ContractEndpoint(node=node, full_name=f"/{node}", qos=profile)
 
 
 class StepClock:
@@ -67,23 +58,21 @@ class Bench:
 
     def __init__(
         self,
-        offered: ContractQos,
-        requested: ContractQos,
+        offered: Qos,
+        requested: Qos,
         *,
-        network: ContractNetwork | None = None,
+        network: SimulatedNetwork | None = None,
         seed: int = 0,
         talkers: tuple[str, ...] = ("talker",),
         middleware: Middleware = DDS,
     ) -> None:
-        empty: dict[str, Any] = dict.fromkeys(ContractInterface.model_fields)
-        entry = empty | {
-            "kind": "topic",
-            "type": "std_msgs/msg/Int32",
-            "sources": tuple(endpoint(talker, offered) for talker in talkers),
-            "sinks": (endpoint("listener", requested),),
-            "simulated": network,
-        }
-        interface = ContractInterface.model_construct(**entry)
+        interface = ContractInterface(
+            kind=InterfaceKind.TOPIC,
+            type="std_msgs/msg/Int32",
+            sources=tuple(endpoint(talker, offered) for talker in talkers),
+            sinks=(endpoint("listener", requested),),
+            simulated=network,
+        )
         self.clock = StepClock()
         self.network = Network({TOPIC: interface}, self.clock, seed, middleware)
         self.topic = Topic[int](TOPIC, interface, self.network)

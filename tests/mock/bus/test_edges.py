@@ -11,7 +11,7 @@ from random import Random
 
 import pytest
 
-from cellc.contract.contract import ContractNetwork, ContractQos
+from cellc.contract.entities import Qos, SimulatedNetwork
 from cellc.mock.bus.network import SEVERED, EdgeBehaviour, QosEventKind, edge_random
 from tests.mock.bus.bench import MS, TOPIC, Bench, qos
 
@@ -25,7 +25,7 @@ def outage(bench: Bench, from_ms: float, until_ms: float) -> None:
 
 
 def test_latency_is_added_to_every_sample() -> None:
-    bench = Bench(qos(), qos(), network=ContractNetwork(latency_s=0.004))
+    bench = Bench(qos(), qos(), network=SimulatedNetwork(latency_s=0.004))
     bench.listen()
     bench.publish_every(10, count=3)
     bench.clock.run_until(100)
@@ -33,7 +33,7 @@ def test_latency_is_added_to_every_sample() -> None:
 
 
 def test_jitter_is_at_most_what_is_stated_and_spread_evenly() -> None:
-    bench = Bench(BEST_EFFORT, BEST_EFFORT, network=ContractNetwork(latency_s=0.002, jitter_s=0.004))
+    bench = Bench(BEST_EFFORT, BEST_EFFORT, network=SimulatedNetwork(latency_s=0.002, jitter_s=0.004))
     bench.listen()
     bench.publish_every(10, count=2000)
     bench.clock.run_until(30_000)
@@ -67,7 +67,7 @@ def test_reliable_sample_that_is_lost_comes_later_and_those_after_it_wait() -> N
 
 
 def test_reliable_sample_is_sent_again_until_it_arrives() -> None:
-    bench = Bench(qos(), qos(), network=ContractNetwork(latency_s=0.001))
+    bench = Bench(qos(), qos(), network=SimulatedNetwork(latency_s=0.001))
     bench.listen()
     outage(bench, -1, 30)
     bench.clock.run_until(0)
@@ -100,10 +100,8 @@ def test_best_effort_reader_of_a_reliable_writer_loses_too() -> None:
 
 
 @pytest.mark.parametrize(("profile", "kept"), [(BEST_EFFORT, False), (qos(), True)])
-def test_overtaken_samples_reach_a_reliable_reader_in_order_and_no_best_effort_one(
-    profile: ContractQos, kept: bool
-) -> None:
-    bench = Bench(profile, profile, network=ContractNetwork(reordering=0.3))
+def test_overtaken_samples_reach_a_reliable_reader_in_order_and_no_best_effort_one(profile: Qos, kept: bool) -> None:
+    bench = Bench(profile, profile, network=SimulatedNetwork(reordering=0.3))
     subscription = bench.listen()
     bench.publish_every(10, count=500)
     bench.network.restore_topic(TOPIC)
@@ -116,7 +114,7 @@ def test_overtaken_samples_reach_a_reliable_reader_in_order_and_no_best_effort_o
 
 
 def test_share_of_lost_samples_is_what_is_stated() -> None:
-    bench = Bench(BEST_EFFORT, BEST_EFFORT, network=ContractNetwork(loss=0.1))
+    bench = Bench(BEST_EFFORT, BEST_EFFORT, network=SimulatedNetwork(loss=0.1))
     bench.listen()
     bench.publish_every(1, count=5000)
     assert len(bench.received) == pytest.approx(4500, abs=85)  # four standard deviations of 21
@@ -130,7 +128,7 @@ def test_edge_draws_from_the_digest_of_seed_topic_source_and_sink() -> None:
 
 
 def test_what_one_edge_loses_does_not_depend_on_another_talker() -> None:
-    network = ContractNetwork(loss=0.5)
+    network = SimulatedNetwork(loss=0.5)
     alone = Bench(BEST_EFFORT, BEST_EFFORT, network=network)
     alone.listen()
     alone.publish_every(1, count=50)
@@ -149,7 +147,7 @@ def test_what_one_edge_loses_does_not_depend_on_another_talker() -> None:
 def test_seed_decides_what_is_lost(seed: int, same: bool) -> None:
     runs = []
     for each in (0, seed):
-        bench = Bench(BEST_EFFORT, BEST_EFFORT, network=ContractNetwork(loss=0.5, jitter_s=0.001), seed=each)
+        bench = Bench(BEST_EFFORT, BEST_EFFORT, network=SimulatedNetwork(loss=0.5, jitter_s=0.001), seed=each)
         bench.listen()
         bench.publish_every(10, count=100)
         bench.clock.run_until(2000)

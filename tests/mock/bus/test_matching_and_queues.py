@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.contract import ContractNetwork
+from cellc.contract.entities import SimulatedNetwork
 from cellc.contract.qos import incompatibilities
 from cellc.mock.bus.network import QosEventKind
 from tests.mock.bus.bench import Bench, qos
@@ -107,7 +107,7 @@ def test_sample_older_than_its_lifespan_is_not_taken_from_the_queue() -> None:
 
 
 def test_sample_whose_lifespan_ends_on_the_way_never_arrives() -> None:
-    bench = Bench(qos(lifespan_s=0.1), qos(), network=ContractNetwork(latency_s=0.1))
+    bench = Bench(qos(lifespan_s=0.1), qos(), network=SimulatedNetwork(latency_s=0.1))
     subscription = bench.listen()
     bench.topic.publish("talker", 1)
     bench.clock.run_until(200)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 
-from cellc.contract.contract import ContractInterface, ContractNetwork, ContractQos
+from cellc.contract.entities import ContractInterface, Qos, SimulatedNetwork
+from cellc.contract.vocabulary import InterfaceKind
 from cellc.mock.bus.network import SEVERED, EdgeName, Network
 from cellc.mock.bus.stream import NEVER_NS, IntArray, StreamEdge
 from tests.mock.bus.bench import MS, TOPIC, StepClock, qos
@@ -22,16 +21,16 @@ def published(count: int, period_ms: float) -> IntArray:
 
 
 def edge(
-    offered: ContractQos,
-    requested: ContractQos,
-    network: ContractNetwork | None = None,
+    offered: Qos,
+    requested: Qos,
+    network: SimulatedNetwork | None = None,
     seed: int = 0,
     outage_ms: tuple[float, float] | None = None,
 ) -> StreamEdge:
     """Return an edge after an outage, with its clock moved past it."""
     clock = StepClock()
-    fields: dict[str, Any] = {"simulated": network}
-    carried = Network({TOPIC: ContractInterface.model_construct(**fields)}, clock, seed)
+    interface = ContractInterface(kind=InterfaceKind.TOPIC, type="", sources=(), sinks=(), simulated=network)
+    carried = Network({TOPIC: interface}, clock, seed)
     stream = StreamEdge(NAME, offered, requested, carried)
     if outage_ms is not None:
         clock.run_until(outage_ms[0])
@@ -52,7 +51,7 @@ def test_ideal_edge_hands_on_as_it_is_published() -> None:
 
 
 def test_latency_is_added() -> None:
-    stream = edge(qos(), qos(), ContractNetwork(latency_s=0.003))
+    stream = edge(qos(), qos(), SimulatedNetwork(latency_s=0.003))
     assert in_ms(stream.arrivals(published(3, 2))) == [3.0, 5.0, 7.0]
 
 
@@ -80,14 +79,14 @@ def test_deeper_history_keeps_what_is_sent_again_in_time() -> None:
 
 
 @pytest.mark.parametrize(("profile", "lost"), [(BEST_EFFORT, 0.2), (qos(depth=100), 0.0)])
-def test_share_of_lost_samples_is_what_is_stated(profile: ContractQos, lost: float) -> None:
-    stream = edge(profile, profile, ContractNetwork(loss=0.2))
+def test_share_of_lost_samples_is_what_is_stated(profile: Qos, lost: float) -> None:
+    stream = edge(profile, profile, SimulatedNetwork(loss=0.2))
     arrivals = stream.arrivals(published(10_000, 2))
     assert np.mean(arrivals == NEVER_NS) == pytest.approx(lost, abs=0.016)  # four standard deviations of 0.004
 
 
 def test_jitter_is_spread_evenly() -> None:
-    stream = edge(BEST_EFFORT, BEST_EFFORT, ContractNetwork(jitter_s=0.001))
+    stream = edge(BEST_EFFORT, BEST_EFFORT, SimulatedNetwork(jitter_s=0.001))
     sent = published(10_000, 2)
     delays = (stream.arrivals(sent) - sent) / MS
     assert (delays >= 0.0).all()
@@ -96,7 +95,7 @@ def test_jitter_is_spread_evenly() -> None:
 
 
 def test_overtaken_samples_are_lost_to_best_effort_and_late_for_reliable() -> None:
-    network = ContractNetwork(reordering=0.3)
+    network = SimulatedNetwork(reordering=0.3)
     sent = published(5000, 2)
     lossy = edge(BEST_EFFORT, BEST_EFFORT, network).arrivals(sent)
     assert np.mean(lossy == NEVER_NS) == pytest.approx(0.3, abs=0.03)
@@ -106,7 +105,7 @@ def test_overtaken_samples_are_lost_to_best_effort_and_late_for_reliable() -> No
 
 
 def test_what_becomes_of_a_sample_does_not_depend_on_when_it_is_asked_for() -> None:
-    network = ContractNetwork(loss=0.3, jitter_s=0.004, latency_s=0.001)
+    network = SimulatedNetwork(loss=0.3, jitter_s=0.004, latency_s=0.001)
     stream = edge(BEST_EFFORT, BEST_EFFORT, network)
     sent = published(500, 2)
     early, late = stream.arrivals(sent[:300]), stream.arrivals(sent)
@@ -118,7 +117,7 @@ def test_what_becomes_of_a_sample_does_not_depend_on_when_it_is_asked_for() -> N
 
 @pytest.mark.parametrize(("seed", "same"), [(0, True), (1, False)])
 def test_seed_decides(seed: int, same: bool) -> None:
-    network = ContractNetwork(loss=0.3)
+    network = SimulatedNetwork(loss=0.3)
     first, second = (edge(BEST_EFFORT, BEST_EFFORT, network, seed=each) for each in (0, seed))
     assert (first.arrivals(published(500, 2)) == second.arrivals(published(500, 2))).all() == same
 

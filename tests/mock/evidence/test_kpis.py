@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import pytest
 
-from cellc.contract.contract import ContractKpis
+from cellc.contract.entities import Kpis
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.kpis import Kpi, kpis
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, RehearsalResult, TracePoint
 from tests.mock.conftest import Written
 
-TARGETS = ContractKpis(
+TARGETS = Kpis(
     plan_to_execute_s=0.5,
     cancel_s=0.2,
     missed_cycles=0,

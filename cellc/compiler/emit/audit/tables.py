@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.interface import Endpoint, Interface, InterfaceKind, Node, NodeSource
+from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.compiler.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
 from cellc.compiler.deploy.labels import (
@@ -28,6 +28,7 @@ from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.parameter_file import qos_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER
+from cellc.contract.vocabulary import InterfaceKind
 
 _NOT_STATED = "not stated"
 _ALONE: Mapping[tuple[str, ...], str] = {("real",): " (real target)", ("mock",): " (mock)"}

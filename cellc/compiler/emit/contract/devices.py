@@ -9,7 +9,7 @@ from cellc.compiler.cell.control import AdaptedDevice
 from cellc.compiler.cell.device import Device, SimulatedJoint
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import HardwareComponent
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import start_positions
@@ -23,7 +23,7 @@ from cellc.contract.contract import (
     ContractSimulatedJoint,
     ContractSwitched,
 )
-from cellc.contract.vocabulary import Moment
+from cellc.contract.vocabulary import InterfaceKind, Moment
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:

@@ -38,7 +38,7 @@ from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.formats.xml_text import comment, element
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.contract.bring_up import Target
+from cellc.contract.entities import Target
 from cellc.contract.store.regular_file import own_text
 from cellc.contract.vocabulary import BringUpPhase
 

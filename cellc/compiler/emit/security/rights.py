@@ -14,14 +14,15 @@ from xml.etree.ElementTree import Element
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.interface import InnerNode, InterfaceKind, Node, NodeEndpoints, NodeSource
+from cellc.compiler.cell.interface import InnerNode, Node, NodeEndpoints, NodeSource
 from cellc.compiler.deploy.files import plans
 from cellc.compiler.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.compiler.deploy.recording import recorded_topics
 from cellc.compiler.formats.xml_text import element
 from cellc.compiler.link.hardware import JOINT_STATES
-from cellc.contract.bring_up import TARGETS, BringUp, TopicProof
-from cellc.contract.vocabulary import Feature, features
+from cellc.contract.bring_up import BringUp, TopicProof
+from cellc.contract.entities import TARGETS
+from cellc.contract.vocabulary import Feature, InterfaceKind, features
 
 _OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls
 _CONTROLLER_STATE = "~/controller_state"

@@ -15,12 +15,13 @@ from cellc.compiler.cell.hardware import HardwareComponent, InterfaceGroup
 from cellc.compiler.formats.escape import xacro_text
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.xml_text import element
+from cellc.contract.entities import Target
 
 # Only an installed workspace knows the folder; xacro puts it in when the launch file reads the description.
 _SHARE = re.compile(r"\{share:([A-Za-z_][A-Za-z0-9_]*)\}")
 
 
-def ros2_control(device: Device, hardware: HardwareComponent, target: str, start: Mapping[str, float]) -> Element:
+def ros2_control(device: Device, hardware: HardwareComponent, target: Target, start: Mapping[str, float]) -> Element:
     """Return the tag of one hardware component.
 
     Args:
@@ -39,7 +40,7 @@ def ros2_control(device: Device, hardware: HardwareComponent, target: str, start
     )
 
 
-def _has_tag(group: InterfaceGroup, target: str) -> bool:
+def _has_tag(group: InterfaceGroup, target: Target) -> bool:
     return group.declared and (target == "real" or not group.real_only)
 
 
@@ -60,7 +61,7 @@ def for_xacro(root: Element) -> Element:
     return root
 
 
-def _hardware(hardware: HardwareComponent, target: str) -> Element:
+def _hardware(hardware: HardwareComponent, target: Target) -> Element:
     parameters = hardware.parameters[target]
     return element(
         "hardware",
@@ -84,7 +85,7 @@ def _joint(joint: DeviceJoint, start: float | None) -> Element:
     return element("joint", {"name": joint.name}, [*commands, *states])
 
 
-def _group(tag: str, group: InterfaceGroup, target: str) -> Element:
+def _group(tag: str, group: InterfaceGroup, target: Target) -> Element:
     initial = group.initial if target == "mock" else {}
     commands = [element("command_interface", {"name": name}) for name in group.command_interfaces]
     states = [_state(name, initial.get(name)) for name in group.state_interfaces]

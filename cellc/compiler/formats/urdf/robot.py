@@ -25,17 +25,18 @@ from cellc.compiler.formats.urdf.elements import (
 from cellc.compiler.formats.urdf.hardware import for_xacro, ros2_control
 from cellc.compiler.formats.xml_text import comment, element
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
+from cellc.contract.entities import Target
 
 HOME = "home"
 """A named pose of this name is where the cell begins."""
 
 
-def robot_description(cell: Cell, target: str) -> Element:
+def robot_description(cell: Cell, target: Target) -> Element:
     """Return the description of a cell for the target ``mock`` or ``real``, with the hardware of all devices."""
     return manager_description(cell, target, tuple(device.name for device in cell.devices))
 
 
-def manager_description(cell: Cell, target: str, devices: tuple[str, ...]) -> Element:
+def manager_description(cell: Cell, target: Target, devices: tuple[str, ...]) -> Element:
     """Return the same description with the hardware of some devices alone, for the manager that drives them."""
     return for_xacro(element("robot", {"name": cell.name}, _parts(cell, target, devices)))
 
@@ -59,7 +60,7 @@ def _standing(cell: Cell) -> Iterator[SceneBox]:
     return (box for box in cell.scene if box.parent not in apart)
 
 
-def _parts(cell: Cell, target: str, devices: tuple[str, ...]) -> Iterator[Element]:
+def _parts(cell: Cell, target: Target, devices: tuple[str, ...]) -> Iterator[Element]:
     yield frame_link(WORLD)
     for device in cell.devices:
         yield comment(f"devices.{device.name}: {device.model}")

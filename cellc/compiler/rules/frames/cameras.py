@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import CameraStream, Device, FieldOfView
 from cellc.compiler.cell.frame import FrameKind, SceneBox
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.feasibility import ViewAnswer, motion_answer
 from cellc.compiler.rules.geometry import KNOWN_GOALS
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.transforms import Pose, Vector3
+from cellc.contract.vocabulary import InterfaceKind
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/CameraInfo")
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.contract.vocabulary import InterfaceKind
 
 
 @rule(Severity.ERROR)

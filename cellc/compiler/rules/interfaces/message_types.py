@@ -6,9 +6,9 @@ import re
 from collections.abc import Mapping
 from difflib import SequenceMatcher
 
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.graph.data_flow import interface_types
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.contract.vocabulary import InterfaceKind
 
 _FOLDER = {InterfaceKind.TOPIC: "msg", InterfaceKind.SERVICE: "srv", InterfaceKind.ACTION: "action"}
 

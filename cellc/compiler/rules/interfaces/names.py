@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.contract.file_names import opens_a_device
+from cellc.contract.vocabulary import InterfaceKind
 
 
 @rule(Severity.ERROR, assumes=("shared-manager-name",))

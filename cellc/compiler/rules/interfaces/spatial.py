@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.frame import FrameKind
-from cellc.compiler.cell.interface import Interface, InterfaceKind
+from cellc.compiler.cell.interface import Interface
 from cellc.compiler.graph.data_flow import interface_types
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+from cellc.contract.vocabulary import InterfaceKind
 
 _WITHOUT_PLACE = frozenset({"control_msgs/action/GripperCommand", "control_msgs/action/ParallelGripperCommand"})
 """Actions whose goals are an opening and a force, in no frame."""

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from math import inf
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.graph.data_flow import interface_types, is_state_on_change
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, did_you_mean, found, rule
+from cellc.contract.vocabulary import InterfaceKind
 
 DRIFT = 0.01
 """A hundred times what a quartz clock drifts."""

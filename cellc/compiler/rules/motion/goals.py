@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from itertools import pairwise
 
 from cellc.compiler.cell.frame import WORLD, FrameKind
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.motion import PlanningGroup
 from cellc.compiler.feasibility import motion_answer
 from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, did_you_mean, found, rule
+from cellc.contract.vocabulary import InterfaceKind
 
 
 @rule(Severity.ERROR)

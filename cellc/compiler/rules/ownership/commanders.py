@@ -6,10 +6,9 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.motion import Servo
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.vocabulary import TRAJECTORIES, Behaviour, Distro
+from cellc.contract.vocabulary import TRAJECTORIES, Behaviour, Distro, InterfaceKind
 
 
 @rule(Severity.BLOCKER)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from cellc.compiler.cell.interface import InterfaceKind
 from cellc.compiler.cell.site import STOPPED
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
-from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES
+from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES, InterfaceKind
 
 
 @rule(Severity.ERROR)

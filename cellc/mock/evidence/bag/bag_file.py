@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import BinaryIO
 
 import yaml
 
-from cellc.contract.contract import ContractQos
+from cellc.contract.entities import Qos
 from cellc.contract.extras import EVIDENCE, gate
+from cellc.contract.qos import DEFAULT
 from cellc.contract.store.regular_file import own_text
 
 _PRIMITIVES = ("byte", "float64", "int32", "string", "uint32")
@@ -30,18 +31,7 @@ _HISTORY = {"keep_last": 1, "keep_all": 2}
 _RELIABILITY = {"reliable": 1, "best_effort": 2}
 _DURABILITY = {"transient_local": 1, "volatile": 2}
 _LIVELINESS = {"automatic": 1, "manual_by_topic": 3}
-DEFAULT = ContractQos(
-    reliability="reliable",
-    durability="volatile",
-    history="keep_last",
-    depth=10,
-    deadline_s=None,
-    lifespan_s=None,
-    liveliness="automatic",
-    lease_duration_s=None,
-)
-"""rmw_qos_profile_default."""
-LATCHED = DEFAULT.model_copy(update={"durability": "transient_local", "depth": 1})
+LATCHED = replace(DEFAULT, durability="transient_local", depth=1)
 """What robot_state_publisher offers for the description and for static transforms."""
 PROFILE = "ros2"
 LIBRARY = "cellc mock"
@@ -84,7 +74,7 @@ def _text(name: str, distro: str) -> str:
     return own_text(own if own.is_file() else folder / f"{name}.msg")
 
 
-def offered_qos_profiles(qos: ContractQos) -> str:
+def offered_qos_profiles(qos: Qos) -> str:
     """Return the list of the one profile that is offered, as YAML.
 
     Policies are numbers: Humble reads nothing else, and later decoders try numbers first (ros2/rosbag2, `qos.cpp`).
@@ -140,7 +130,7 @@ class Bag:
         self._sequences: dict[int, int] = {}
         self._pending: list[_Message] = []
 
-    def declare(self, topic: str, kind: str, qos: ContractQos) -> int:
+    def declare(self, topic: str, kind: str, qos: Qos) -> int:
         """Return the channel of a topic, opened with a type and a profile where it is new."""
         if topic not in self._channels:
             if kind not in self._schemas:

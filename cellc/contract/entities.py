@@ -1,0 +1,112 @@
+"""Entities that are equal on both sides: linked from a spec, checked by rules, written to and read from contract.json.
+
+What a file leaves out is stated in the annotation, so that only a reader of files has it as a default.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import ConfigDict, Field
+
+from cellc.contract.quantities import Count, PositiveSeconds, Rate, Seconds, Share
+from cellc.contract.vocabulary import InterfaceKind
+
+Target = Literal["mock", "real"]
+TARGETS: tuple[Target, ...] = ("mock", "real")
+"""What the hardware interfaces of a cell reach."""
+Reliability = Literal["reliable", "best_effort"]
+Durability = Literal["volatile", "transient_local"]
+
+_READ = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Qos:
+    """A resolved profile; null durations are infinite."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    reliability: Annotated[Reliability, Field(description="Every sample, or what arrives.")]
+    durability: Annotated[Durability, Field(description="Whether a late joiner gets history.")]
+    history: Annotated[Literal["keep_last", "keep_all"], Field(default="keep_last", description="What is queued.")]
+    depth: Annotated[Count, Field(description="Queue length of keep_last.")]
+    deadline_s: Annotated[Seconds | None, Field(default=None, description="Longest time between samples.")]
+    lifespan_s: Annotated[Seconds | None, Field(default=None, description="Age at which a sample is dropped.")]
+    liveliness: Annotated[
+        Literal["automatic", "manual_by_topic"],
+        Field(default="automatic", description="Who asserts that the publisher lives."),
+    ]
+    lease_duration_s: Annotated[Seconds | None, Field(default=None, description="Bound of the assertion.")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContractEndpoint:
+    """One end of an interface."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    node: Annotated[str, Field(description="Name of the node, controller or device, which no other end has.")]
+    full_name: Annotated[str, Field(description="Fully qualified name of the node in the ROS graph.")]
+    targets: Annotated[tuple[Target, ...], Field(description="Targets on which it is present.")] = TARGETS
+    qos: Annotated[Qos, Field(description="Its profile.")]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimulatedNetwork:
+    """What the mock's network does to each sample of a topic."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    latency_s: Annotated[Seconds, Field(description="Shortest time from publishing to arrival.")] = 0.0
+    jitter_s: Annotated[Seconds, Field(description="Up to so much more.")] = 0.0
+    loss: Annotated[Share, Field(description="Share of samples lost on their way, 0 to 1.")] = 0.0
+    reordering: Annotated[Share, Field(description="Share of samples overtaken by the next one, 0 to 1.")] = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContractInterface:
+    """A topic, service or action with what its users may rely on."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    kind: Annotated[InterfaceKind, Field(description="Kind of exchange.")]
+    type: Annotated[str, Field(description="ROS type.")]
+    sources: Annotated[tuple[ContractEndpoint, ...], Field(description="Publishers, or the server.")]
+    sinks: Annotated[tuple[ContractEndpoint, ...], Field(default=(), description="Subscribers, or the clients.")]
+    frame: Annotated[str | None, Field(description="Frame of the payload.")] = None
+    unit: Annotated[str | None, Field(description="Unit of the payload.")] = None
+    time_source: Annotated[str | None, Field(description="Clock of the stamps.")] = None
+    owner: Annotated[str | None, Field(description="Person or role responsible for it.")] = None
+    wants: Annotated[str | None, Field(description="What the consumer needs: newest or every_sample.")] = None
+    rate_hz: Annotated[Rate | None, Field(description="Publishing rate.")] = None
+    max_age_s: Annotated[Seconds | None, Field(description="Oldest sample that may be used.")] = None
+    transport_s: Annotated[Seconds | None, Field(description="Budget from publishing to use.")] = None
+    on_stale: Annotated[str | None, Field(description="What happens on an older sample.")] = None
+    timeout_s: Annotated[PositiveSeconds | None, Field(description="Bound of a response or a whole goal.")] = None
+    on_timeout: Annotated[str | None, Field(description="What the client does then.")] = None
+    on_error: Annotated[str | None, Field(description="How an error is reported.")] = None
+    cancel_within_s: Annotated[Seconds | None, Field(description="Bound from cancel to hold.")] = None
+    simulated: Annotated[SimulatedNetwork | None, Field(description="How the mock carries it; null for no delay.")] = (
+        None
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kpis:
+    """Targets; null where none was set."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    plan_to_execute_s: Annotated[Seconds | None, Field(description="Longest time from plan to execution.")] = None
+    cancel_s: Annotated[Seconds | None, Field(description="Longest time from cancel to hold.")] = None
+    missed_cycles: Annotated[Count | None, Field(description="Missed cycles allowed in a run.")] = None
+    stale_state_rejection: Annotated[Share | None, Field(description="Share of stale samples rejected, 0 to 1.")] = None
+    protective_stops: Annotated[Count | None, Field(description="Protective stops allowed in a shift.")] = None
+    recovery_time_s: Annotated[Seconds | None, Field(description="Longest time from stop to ready.")] = None
+    wrong_owner_events: Annotated[Count | None, Field(description="Commands of a wrong owner allowed.")] = None
+
+    def without_target(self) -> tuple[str, ...]:
+        """Name the figures without a target by their keys in the spec."""
+        return tuple(field.name.removesuffix("_s") for field in fields(self) if getattr(self, field.name) is None)
