@@ -3,33 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from importlib import import_module
 
-from cellc.compiler.catalog.codes import CODES as CATALOG_CODES
-from cellc.compiler.link.codes import CODES as LINK_CODES
-from cellc.compiler.output.codes import CODES as OUTPUT_CODES
-from cellc.compiler.rules.ignores import CODES as IGNORE_CODES
 from cellc.compiler.rules.kit import FAMILIES
 from cellc.compiler.rules.run import ALL_RULES
-from cellc.compiler.rules.shared_domain import CODES as FLEET_CODES
-from cellc.compiler.source.codes import CODES as SOURCE_CODES
-from cellc.compiler.spec.errors import CODES as SPEC_CODES
-from cellc.compiler.verify.codes import CODES as VERIFY_CODES
 from cellc.contract.code_page import CodePage, page_of
+from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Severity
 
-STAGES: Mapping[str, Mapping[str, Severity]] = {
-    "source": SOURCE_CODES,
-    "spec": SPEC_CODES,
-    "catalog": CATALOG_CODES,
-    "link": LINK_CODES,
-    "ignores": IGNORE_CODES,
-    "fleet": FLEET_CODES,
-    "verify": VERIFY_CODES,
-    "output": OUTPUT_CODES,
-}
-"""Stage → its codes, in the order in which a cell passes the stages."""
 _MARK = re.compile(r"^(?:#|<!--) expect.*\n|  (?:#|<!--) expect.*$", re.MULTILINE)
 """In the examples of a page, what tells the tests where the finding is expected."""
 _LINK = re.compile(r"\[([\w.#-]+)\]\(\.\./\1\)")

@@ -21,8 +21,8 @@ from cellc.compiler.link.link import bare_cell, link
 from cellc.compiler.rules.ignores import apply_ignores, ignore_comments, misused_ignores
 from cellc.compiler.rules.run import ALL_RULES, run_rules
 from cellc.compiler.source import read
-from cellc.compiler.source.codes import finding
 from cellc.compiler.source.document import SourceDocument
+from cellc.compiler.source.findings import finding
 from cellc.compiler.source.text import with_shown_texts
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span

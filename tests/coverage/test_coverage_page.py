@@ -7,12 +7,8 @@ from difflib import get_close_matches
 
 import pytest
 
-from cellc.compiler.catalog.codes import CODES as CATALOG_CODES
-from cellc.compiler.link.codes import CODES as LINK_CODES
 from cellc.compiler.rules.run import ALL_RULES
-from cellc.compiler.rules.shared_domain import CODES as FLEET_CODES
-from cellc.compiler.source import CODES as SOURCE_CODES
-from cellc.compiler.spec.errors import CODES as SPEC_CODES
+from cellc.contract.codes import STAGES
 from tests.cells import ROOT, built
 from tests.coverage.sentences import expand, units
 
@@ -26,7 +22,7 @@ RULE_CODES = {rule.code for rule in ALL_RULES}
 
 
 def test_every_code_that_is_named_exists() -> None:
-    stages = {*CATALOG_CODES, *FLEET_CODES, *LINK_CODES, *SOURCE_CODES, *SPEC_CODES}
+    stages = {code for stage in ("catalog", "fleet", "link", "source", "spec") for code in STAGES[stage]}
     codes = {name for name in NAMED if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)+", name)}
     assert codes <= RULE_CODES | stages
 

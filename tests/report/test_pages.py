@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compiler.pages import STAGES, all_codes, family_of, render_handbook, render_page
+from cellc.compiler.pages import all_codes, family_of, render_handbook, render_page
 from cellc.compiler.rules.kit import FAMILIES
 from cellc.compiler.rules.run import ALL_RULES
 from cellc.contract import code_page
 from cellc.contract.code_page import RENAMED, MissingPageError, page_of
+from cellc.contract.codes import STAGES
 from cellc.contract.limits import DEFAULTS, MIB
 from tests.cells import COMPLETE, spec_text, written
 from tests.cli.run import run

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compiler.link.codes import CODES as LINK_CODES
 from cellc.compiler.pipeline import check
 from cellc.compiler.rules.run import ALL_RULES
+from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Severity
 
 INVALID = Path(__file__).resolve().parents[1] / "corpus" / "invalid"
@@ -52,5 +52,5 @@ def test_finding_is_excused_or_refused(code: str, folder: Path) -> None:
     # Issue 5: errors of safety, ownership and frames cannot be ignored; what blocks motion there cannot either.
     protected = rule.family in ("SAF", "OWN", "FRM") and rule.severity in (Severity.ERROR, Severity.BLOCKER)
     # Errors of linking end the check before a rule could speak.
-    protected = protected or code in LINK_CODES
+    protected = protected or code in STAGES["link"]
     assert told == ({code, "ignore-refused"} if protected else set())

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compiler.pages import STAGES
 from cellc.compiler.pipeline import check
 from cellc.compiler.source.read import read
 from cellc.contract.code_page import page_of
+from cellc.contract.codes import STAGES
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xacro_expansion import expand_here
 from tests.cells import spec_text, written

@@ -16,10 +16,11 @@ import pytest
 
 from cellc.compiler.graph.cell_graph import build_graph
 from cellc.compiler.graph.frame_tree import FrameTree
-from cellc.compiler.verify.codes import CODES, Disagreement
+from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import cell_poses
 from cellc.compiler.verify.parsers import read_by_pinocchio, read_by_yourdfpy
 from cellc.compiler.verify.verify import verify
+from cellc.contract.codes import STAGES
 from cellc.contract.transforms import Pose, apart, from_xyz_rpy, identity
 from tests.cells import CELLS, ROOT, built
 
@@ -114,7 +115,7 @@ def test_quaternion_and_its_negative_are_no_distance_apart() -> None:
 
 
 def test_every_code_is_found_by_a_fault_here() -> None:
-    assert set(CODES) == {code for _, code, _ in FAULTS}
+    assert set(STAGES["verify"]) == {code for _, code, _ in FAULTS}
 
 
 def test_check_of_a_cell_does_not_import_foreign_parsers(tmp_path: Path) -> None:

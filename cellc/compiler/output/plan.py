@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from cellc.compiler.artifact import NewFile
-from cellc.compiler.output.codes import finding
+from cellc.compiler.output.findings import finding
 from cellc.compiler.output.manifest import MANIFEST, hashes_in, sha256
 from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.file_names import opens_a_device

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from cellc.compiler.artifact import NewFile
-from cellc.compiler.output.codes import finding
+from cellc.compiler.output.findings import finding
 from cellc.compiler.output.manifest import MANIFEST, hashes_in
 from cellc.compiler.output.plan import Plan, check_paths, check_places, content_of, plan
 from cellc.contract.diagnostics import Diagnostic, Outcome

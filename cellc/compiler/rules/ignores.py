@@ -7,23 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from cellc.compiler.link.codes import CODES as LINK_CODES
 from cellc.compiler.rules.run import ALL_RULES
 from cellc.compiler.source.events import Comment, comments
 from cellc.contract.code_page import meant_code, page_of
+from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
-
-CODES: Mapping[str, Severity] = {
-    **dict.fromkeys(
-        (
-            "ignore-refused",
-            "ignore-without-reason",
-            "unknown-ignored-code",
-        ),
-        Severity.ERROR,
-    ),
-    "unused-ignore": Severity.WARNING,
-}
 
 # Who, where and what stops it: no comment justifies motion without these answers.
 _PROTECTED_FAMILIES = ("SAF", "OWN", "FRM")
@@ -164,7 +152,7 @@ def _refusal(ignored: IgnoredCode, known: Mapping[str, Severity]) -> Diagnostic 
 def _refusal_of(code: str, severity: Severity) -> str | None:
     """Return why a code may not be ignored; None where a comment may ignore it."""
     rule = _RULES.get(code)
-    if (rule is None or code in LINK_CODES) and severity is Severity.ERROR:
+    if (rule is None or code in STAGES["link"]) and severity is Severity.ERROR:
         return "without it the cell is not known"
     if rule is not None and rule.family in _PROTECTED_FAMILIES and rule.severity in _STOPPING:
         return f"it is {_article(rule.severity)} of family {rule.family}"
@@ -185,4 +173,4 @@ def _unused(ignored: IgnoredCode) -> str:
 
 
 def _misuse(code: str, message: str, span: Span, advice: str = "") -> Diagnostic:
-    return Diagnostic(code, CODES[code], message, span, help=advice or page_of(code).fix)
+    return Diagnostic(code, STAGES["ignores"][code], message, span, help=advice or page_of(code).fix)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from ipaddress import IPv4Interface
 from typing import TYPE_CHECKING
@@ -11,8 +11,6 @@ from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
 
 if TYPE_CHECKING:
     from cellc.compiler.graph.cell_graph import CellGraph
-
-CODES: Mapping[str, Severity] = {"shared-domain-id": Severity.ERROR}
 
 
 @dataclass(frozen=True, slots=True)

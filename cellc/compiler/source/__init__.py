@@ -1,7 +1,6 @@
 """Read YAML 1.2 once, with the position of every value."""
 
-from cellc.compiler.source.codes import CODES
 from cellc.compiler.source.document import Plain, SourceDocument
 from cellc.compiler.source.read import read
 
-__all__ = ["CODES", "Plain", "SourceDocument", "read"]
+__all__ = ["Plain", "SourceDocument", "read"]

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 import yaml
 
-from cellc.compiler.source.codes import finding
 from cellc.compiler.source.document import MAX_FINDINGS, Child, Node, Plain, PlainScalar
 from cellc.compiler.source.events import event_span, flow_span, parse_events
+from cellc.compiler.source.findings import finding
 from cellc.compiler.source.scalar import NumberOutOfRangeError, resolve
 from cellc.compiler.source.syntax import syntax_finding
 from cellc.contract.diagnostics import Diagnostic, Outcome, Related, Span, YamlPath

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from cellc.compiler.source.codes import finding
 from cellc.compiler.source.document import Child, Node
+from cellc.compiler.source.findings import finding
 from cellc.contract.diagnostics import Diagnostic, Outcome, Related, Span
 from cellc.contract.limits import limits
 

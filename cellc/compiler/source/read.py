@@ -6,9 +6,9 @@ import os
 from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
-from cellc.compiler.source.codes import finding
 from cellc.compiler.source.compose import compose
 from cellc.compiler.source.document import Node, SourceDocument
+from cellc.compiler.source.findings import finding
 from cellc.compiler.source.include import INCLUDE, IncludeLine, include_lines, merge, resolve_include
 from cellc.compiler.source.text import as_yaml, lies_under, read_text
 from cellc.contract.diagnostics import Diagnostic, Outcome, Span

@@ -6,8 +6,8 @@ import re
 
 import yaml
 
-from cellc.compiler.source.codes import finding
 from cellc.compiler.source.events import last_written
+from cellc.compiler.source.findings import finding
 from cellc.contract.diagnostics import Diagnostic, Related, Span
 
 # Fragments of the problems that libyaml and PyYAML report, with what they mean to the author of the file.

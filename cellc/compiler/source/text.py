@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from cellc.compiler.source.codes import finding
+from cellc.compiler.source.findings import finding
 from cellc.contract.diagnostics import Diagnostic, Outcome, Span, nearest
 from cellc.contract.diagnostics.unsafe_text import HIDDEN, hidden
 from cellc.contract.limits import MIB, limits

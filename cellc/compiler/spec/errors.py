@@ -22,29 +22,8 @@ from cellc.compiler.spec.wording import (
     scalar_text,
     value_at,
 )
-from cellc.contract.diagnostics import Severity, did_you_mean
+from cellc.contract.diagnostics import did_you_mean
 
-CODES: Mapping[str, Severity] = dict.fromkeys(
-    (
-        "bad-name",
-        "empty-value",
-        "fault-kind-missing",
-        "interface-kind-missing",
-        "missing-key",
-        "missing-unit",
-        "not-a-choice",
-        "not-a-quantity",
-        "out-of-range",
-        "step-kind-missing",
-        "unknown-key",
-        "unsupported-format",
-        "wrong-count",
-        "wrong-type",
-        "wrong-unit",
-    ),
-    Severity.ERROR,
-)
-"""Every code that the shape of a spec can cause."""
 _TYPES: Mapping[str, str] = {
     "string_type": "text",
     "int_type": "a whole number",

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields
 
 from cellc.compiler.artifact import Artifact
-from cellc.compiler.verify.codes import Disagreement
+from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import Limits, Meant
 from cellc.compiler.verify.parsers import JointReading, Reading, RefusedError, read_by_pinocchio, read_by_yourdfpy
 from cellc.contract.transforms import Pose, apart

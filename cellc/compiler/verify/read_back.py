@@ -18,8 +18,8 @@ from jsonschema.exceptions import best_match
 from pydantic import BaseModel
 
 from cellc.compiler.artifact import Artifact
-from cellc.compiler.verify.codes import Disagreement
 from cellc.compiler.verify.description import check_description
+from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import Meant
 from cellc.contract.base import contract_schema
 from cellc.contract.contract import Contract

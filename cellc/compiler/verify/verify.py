@@ -7,7 +7,7 @@ from pathlib import Path
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.compiler.verify.codes import Disagreement
+from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import meant_by
 from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.store.cache import Program, recall

@@ -8,8 +8,8 @@ from pathlib import Path
 import click
 
 from cellc.compiler.artifact import Artifact
-from cellc.compiler.output.codes import shared_output
 from cellc.compiler.output.compare import Difference, compare
+from cellc.compiler.output.findings import shared_output
 from cellc.compiler.output.plan import check_places
 from cellc.compiler.output.write import WriteReport, write
 from cellc.contract.diagnostics import Span

@@ -2,22 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cellc.contract.code_page import page_of
-from cellc.contract.diagnostics import Diagnostic, Severity, Span
-
-CODES: Mapping[str, Severity] = dict.fromkeys(
-    (
-        "verify-frames",
-        "verify-joints",
-        "verify-json",
-        "verify-text",
-        "verify-urdf",
-    ),
-    Severity.ERROR,
-)
+from cellc.contract.codes import STAGES
+from cellc.contract.diagnostics import Diagnostic, Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,5 +26,5 @@ class Disagreement:
     def at(self, place: Span) -> Diagnostic:
         """Return the diagnostic; the place is the name of the cell, since no line of the spec is to blame."""
         message = f"generated `{self.path}`: {self.reason} (this is a bug of cellc)"
-        severity, fix = CODES[self.code], page_of(self.code).fix
+        severity, fix = STAGES["verify"][self.code], page_of(self.code).fix
         return Diagnostic(self.code, severity, " ".join(message.split()), place, ("cell",), fix)

@@ -1,25 +1,12 @@
-"""Every code that writing the generated folder can report, and the diagnostics made from them."""
+"""The diagnostics of writing the generated folder."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 
 from cellc.contract.code_page import page_of
+from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
-
-CODES: Mapping[str, Severity] = dict.fromkeys(
-    (
-        "bad-artifact-path",
-        "edited-by-hand",
-        "output-blocked",
-        "output-busy",
-        "output-shared",
-        "output-symlink",
-        "output-unwritable",
-    ),
-    Severity.ERROR,
-)
 
 
 def finding(code: str, message: str, file: Path, advice: str = "") -> Diagnostic:
@@ -29,7 +16,7 @@ def finding(code: str, message: str, file: Path, advice: str = "") -> Diagnostic
         KeyError: there is no such code.
     """
     place = Span(file.as_posix(), 1, 1, 1, 1)
-    return Diagnostic(code, CODES[code], message, place, (), advice or page_of(code).fix)
+    return Diagnostic(code, STAGES["output"][code], message, place, (), advice or page_of(code).fix)
 
 
 def shared_output(name: str, here: Span, first: Span) -> Diagnostic | None:

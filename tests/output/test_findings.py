@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from cellc.compiler.output.codes import CODES, finding, shared_output
+from cellc.compiler.output.findings import finding, shared_output
 from cellc.contract.code_page import page_of
+from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Severity, Span
 
 
@@ -40,7 +41,7 @@ def test_two_specs_of_one_name_are_told(
     assert "`bench`" in found.message
 
 
-@pytest.mark.parametrize("code", CODES)
+@pytest.mark.parametrize("code", STAGES["output"])
 def test_finding_has_severity_and_fix_of_its_code_unless_another_is_given(code: str) -> None:
     found = finding(code, "said", Path("generated/bench"))
     assert (found.code, found.severity, found.message) == (code, Severity.ERROR, "said")
