@@ -8,6 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
+from typing import Final
+
+UNKNOWN: Final = "UNKNOWN"
+"""The answer of a person who does not guess; it blocks the real target and is in the audit."""
 
 
 class Term(str, Enum):

@@ -17,12 +17,11 @@ from cellc.compiler.spec.quantity import (
     Mass,
     Quantity,
 )
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.robot.description.model import Description, Joint, JointLimit
 
 EVERY_JOINT = "*"
 """The key for all joints without a key of their own."""
-UNKNOWN = "UNKNOWN"
-"""What the source of an assumed figure begins with."""
 
 
 class JointLimitFact(CatalogModel):

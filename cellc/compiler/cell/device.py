@@ -21,11 +21,11 @@ from cellc.compiler.cell.robot import (
     RobotProgram,
     ToolConnector,
 )
-from cellc.compiler.cell.site import UNKNOWN, Clock, JointFigure
+from cellc.compiler.cell.site import Clock, JointFigure
 from cellc.compiler.cell.switched import Switched
 from cellc.compiler.cell.vendor import CommissioningStep, RecordSource, VendorSafety
 from cellc.contract.transforms import Pose, identity
-from cellc.contract.vocabulary import InterfaceKind
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind
 from cellc.robot.description.model import Description
 
 EVERY_JOINT = "*"

@@ -10,6 +10,7 @@ from enum import Enum
 from cellc.compiler.cell.entity import Entity
 from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.entities import TARGETS, ContractEndpoint, ContractInterface, Target
+from cellc.contract.vocabulary import UNKNOWN
 
 ParameterValue = bool | int | float | str | tuple[bool | int | float | str, ...]
 """What a ROS parameter can hold; an int where a double is declared is a mistake."""
@@ -71,7 +72,7 @@ class Node(Entity):
     host: str
     lifecycle: bool = False
     owner: str
-    language: str = "UNKNOWN"
+    language: str = UNKNOWN
     clock: str | None = None
     respawn: bool = False
     real_only: bool = False

@@ -8,10 +8,7 @@ from dataclasses import dataclass, field, fields
 
 from cellc.compiler.cell.entity import Entity
 from cellc.contract.pins import day_of
-from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES
-
-UNKNOWN = "UNKNOWN"
-"""The answer of a spec that does not guess; it blocks the real target and is in the audit."""
+from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES, UNKNOWN
 
 ATTEMPT_FIELDS = (
     "attempt_id",

@@ -11,7 +11,6 @@ from typing import Any
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import rounded
@@ -22,6 +21,7 @@ from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos, SimulatedNetwork
 from cellc.contract.manifest import ConfigurationInputs
 from cellc.contract.qos import DEFAULT
+from cellc.contract.vocabulary import UNKNOWN
 
 _DIGITS = 12
 

@@ -9,7 +9,6 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.ends import ends_on_real, is_late, silent
 from cellc.compiler.deploy.files import is_servo
@@ -38,7 +37,7 @@ from cellc.compiler.formats.numbers import positive_zero, shortest
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.pins import is_commit, last_word
-from cellc.contract.vocabulary import BringUpPhase, Feature, GateCode, InterfaceKind, features
+from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, GateCode, InterfaceKind, features
 
 Row = Mapping[str, str]
 CELL = "cell"

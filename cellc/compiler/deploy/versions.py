@@ -9,12 +9,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.graph.versions import compatibility
 from cellc.contract.pins import is_commit, last_word, pinned_package
+from cellc.contract.vocabulary import UNKNOWN
 
 _OF_SYSTEM = {"os": "lsb_release -ds", "kernel": "uname -r", "ros": "printenv ROS_DISTRO"}
 _PACKAGES = {"ros2_control": "controller_manager", "moveit": "moveit_ros_move_group"}

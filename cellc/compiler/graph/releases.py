@@ -9,8 +9,8 @@ from cellc.compiler.catalog.load import load_releases
 from cellc.compiler.catalog.tables import ReleaseSet
 from cellc.compiler.catalog.version_rows import VersionRow
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.contract.pins import is_commit, last_word, same_version, version_number, version_numbers
+from cellc.contract.vocabulary import UNKNOWN
 
 PACKAGED = ("driver", "sdk", "description")
 """The parts of a device that are packages."""

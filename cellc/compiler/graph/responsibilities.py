@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import NodeSource
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.vocabulary import UNKNOWN
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,10 @@ from cellc.compiler.catalog.tables import DistroFacts, ReleaseSet
 from cellc.compiler.catalog.version_rows import RepositoryPin, VersionRow
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.graph.releases import PACKAGED, foreign_lines, named_row, own_release, were_together
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.pins import version_number, version_numbers
+from cellc.contract.vocabulary import UNKNOWN
 
 _DEVICE_PARTS = ("revision", "firmware", *PACKAGED)
 

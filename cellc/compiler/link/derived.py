@@ -32,7 +32,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos
-from cellc.contract.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, Distro, InterfaceKind
+from cellc.contract.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, UNKNOWN, Distro, InterfaceKind
 
 
 # Without slots, so that what is asked for each controller is looked up once and kept.
@@ -57,7 +57,7 @@ class Derivation:
 
     def end(self, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:
         """Return an end by its name in the spec or its full name; one that nothing has is reported elsewhere."""
-        known = self.ends.known.get(node, EndName(node, f"/{node.lstrip('/')}", "UNKNOWN"))
+        known = self.ends.known.get(node, EndName(node, f"/{node.lstrip('/')}", UNKNOWN))
         return known.end(interface, path, self.document.locate(path), qos)
 
     def driver_end(self, device: str, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:

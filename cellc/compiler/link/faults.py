@@ -31,7 +31,7 @@ from cellc.compiler.spec.faults import (
     first_key,
 )
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.contract.vocabulary import InterfaceKind, Moment, Need
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment, Need
 
 SENDS_GOALS = ("move", "grip")
 """Steps whose goal a controller accepts, so that joints move."""
@@ -216,5 +216,5 @@ def _clocks(spec: CellSpec) -> dict[str, str]:
     """Return hosts, devices that state a clock, and the domains of both."""
     stamps = {name: device.stamp.clock for name, device in spec.devices.items() if device.stamp is not None}
     domains = {host.clock.domain for host in spec.hosts.values()} | set(stamps.values())
-    names = ["ros", *spec.hosts, *stamps, *sorted(domains - {"UNKNOWN"})]
+    names = ["ros", *spec.hosts, *stamps, *sorted(domains - {UNKNOWN})]
     return dict(zip(names, names, strict=True))

@@ -18,13 +18,12 @@ from cellc.compiler.catalog.effects import EffectFacts
 from cellc.compiler.cell.device import DeviceDriver, OfferedInterface
 from cellc.compiler.cell.hardware import CommandModes, Effect, HardwareComponent, InterfaceGroup, Told
 from cellc.compiler.cell.interface import ParameterValue
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.programs import inner_nodes
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.contract.entities import Target
 from cellc.contract.pins import older
-from cellc.contract.vocabulary import Distro, InterfaceKind, Unmet
+from cellc.contract.vocabulary import UNKNOWN, Distro, InterfaceKind, Unmet
 
 JOINT_STATES = "/joint_states"
 """Where robot_state_publisher and planners hear of all joints.

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.compiler.cell.interface import ParameterValue
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.contract.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean
+from cellc.contract.vocabulary import UNKNOWN
 
 
 def unknown_name(

@@ -9,7 +9,6 @@ from dataclasses import replace
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Node, NodeSource, ParameterValue
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.compiler.link.hardware import JOINT_STATES, camera_parameters, driver_remaps, run_nodes
@@ -20,6 +19,7 @@ from cellc.compiler.link.robot import node_parameters
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
+from cellc.contract.vocabulary import UNKNOWN
 
 DESCRIPTION_PUBLISHER = "description_publisher"
 """Says the description of one of several controller managers."""

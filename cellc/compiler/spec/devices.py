@@ -18,6 +18,7 @@ from cellc.compiler.spec.quantity import (
 )
 from cellc.compiler.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec, ProgramSpec
 from cellc.compiler.spec.tool import ToolConnectorSpec
+from cellc.contract.vocabulary import UNKNOWN
 
 
 class PlacementSpec(SpecModel):
@@ -83,11 +84,11 @@ class StampSpec(SpecModel):
     """Where a sensor's time stamps come from."""
 
     source: Literal["hardware", "driver", "arrival", "UNKNOWN"] = Field(
-        "UNKNOWN",
+        UNKNOWN,
         description="What is stamped: exposure in hardware, the driver's read, or arrival.",
         examples=["hardware"],
     )
-    clock: Text = Field("UNKNOWN", description="Clock domain of the stamps.", examples=["camera"])
+    clock: Text = Field(UNKNOWN, description="Clock domain of the stamps.", examples=["camera"])
     exposure: Duration | None = Field(None, description="Exposure time.", examples=["8 ms"])
     synchronised_by: Text | None = Field(
         None, description="What ties the clock to the host's.", examples=["global_time"]
@@ -107,15 +108,15 @@ class KinematicsSpec(SpecModel):
     file: Text = Field(
         ..., description="What the tool wrote, beside this file or below.", examples=["arm_kinematics.yaml"]
     )
-    measured: Pin = Field("UNKNOWN", description="Date on which it was read, YYYY-MM-DD.", examples=["2026-07-01"])
-    owner: Text = Field("UNKNOWN", description="Person or role responsible for it.", examples=["robot"])
+    measured: Pin = Field(UNKNOWN, description="Date on which it was read, YYYY-MM-DD.", examples=["2026-07-01"])
+    owner: Text = Field(UNKNOWN, description="Person or role responsible for it.", examples=["robot"])
 
 
 class AdapterSpec(SpecModel):
     """The adapter of a direct SDK: the program that it is, and what guards its commands."""
 
     run: Pin = Field(
-        "UNKNOWN",
+        UNKNOWN,
         description="Package and executable of its node, which has the name of the device; it runs on the real target "
         "alone, with the parameters `address` or `port`, and in rad, m and s `joints` and the four that stand here.",
         examples=["my_arm_adapter/adapter"],
@@ -159,7 +160,7 @@ class SwitchingSpec(SpecModel):
         None, description="How long its client waits for the sensors; 1 s if absent.", examples=["500 ms"]
     )
     power_lost: Literal["holds", "drops", "UNKNOWN"] = Field(
-        "UNKNOWN", description="What becomes of what it holds when air or power is lost.", examples=["holds"]
+        UNKNOWN, description="What becomes of what it holds when air or power is lost.", examples=["holds"]
     )
     accepted_by: Text | None = Field(None, description="Who accepts that it drops what it holds.", examples=["safety"])
 
@@ -213,13 +214,13 @@ class DeviceSpec(SpecModel):
         description="What the mock adds to joints, by their names in the description; `*` is every joint.",
         examples=[{"*": {"lag": "20 ms"}}],
     )
-    revision: Pin = Field("UNKNOWN", description="Hardware revision.", examples=["UNKNOWN"])
-    serial: Pin = Field("UNKNOWN", description="Serial number on the nameplate.", examples=["20235500001"])
-    firmware: Pin = Field("UNKNOWN", description="Controller software or firmware.", examples=["controller 5.21.0"])
-    driver: Pin = Field("UNKNOWN", description="ROS 2 driver package and version.", examples=["my_arm_driver 3.8.0"])
-    sdk: Pin = Field("UNKNOWN", description="Vendor library and version.", examples=["my_arm_sdk 2.14.1"])
+    revision: Pin = Field(UNKNOWN, description="Hardware revision.", examples=["UNKNOWN"])
+    serial: Pin = Field(UNKNOWN, description="Serial number on the nameplate.", examples=["20235500001"])
+    firmware: Pin = Field(UNKNOWN, description="Controller software or firmware.", examples=["controller 5.21.0"])
+    driver: Pin = Field(UNKNOWN, description="ROS 2 driver package and version.", examples=["my_arm_driver 3.8.0"])
+    sdk: Pin = Field(UNKNOWN, description="Vendor library and version.", examples=["my_arm_sdk 2.14.1"])
     description: Pin = Field(
-        "UNKNOWN", description="Description package and version.", examples=["my_arm_description 3.5.1"]
+        UNKNOWN, description="Description package and version.", examples=["my_arm_description 3.5.1"]
     )
     connection: ConnectionSpec | None = Field(
         None,

@@ -7,17 +7,18 @@ from pydantic import Field
 from cellc.compiler.spec.base import MOST, FrameReference, Name, Pin, SpecModel, Text
 from cellc.compiler.spec.devices import PlacementSpec
 from cellc.compiler.spec.quantity import Duration, Frequency, Length, Position, RollPitchYaw
+from cellc.contract.vocabulary import UNKNOWN
 
 
 class CalibrationSpec(SpecModel):
     """A measurement that a transform rests on; a new measurement gets a new revision."""
 
     revision: int = Field(..., description="Counts up with every new measurement.", examples=[4], ge=1, le=MOST)
-    measured: Pin = Field("UNKNOWN", description="Date of the measurement, YYYY-MM-DD.", examples=["2026-07-01"])
-    method: Text = Field("UNKNOWN", description="How it was measured.", examples=["charuco"])
+    measured: Pin = Field(UNKNOWN, description="Date of the measurement, YYYY-MM-DD.", examples=["2026-07-01"])
+    method: Text = Field(UNKNOWN, description="How it was measured.", examples=["charuco"])
     samples: int | None = Field(None, description="Number of observations.", examples=[40], ge=1, le=MOST)
     residual: Length | None = Field(None, description="Residual of the fit.", examples=["0.8 mm"])
-    owner: Text = Field("UNKNOWN", description="Person or role responsible for it.", examples=["perception"])
+    owner: Text = Field(UNKNOWN, description="Person or role responsible for it.", examples=["perception"])
     from_: Text | None = Field(
         None,
         alias="from",

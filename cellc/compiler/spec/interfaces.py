@@ -18,6 +18,7 @@ from cellc.compiler.spec.base import (
 )
 from cellc.compiler.spec.quantity import Duration, Frequency, Ratio, TimeShift
 from cellc.contract.entities import Durability, Reliability
+from cellc.contract.vocabulary import UNKNOWN
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
 OnTimeout = Literal["cancel_and_hold", "error", "continue"]
@@ -30,9 +31,9 @@ class NodeSpec(SpecModel):
     namespace: Namespace = Field("", description="Namespace of the node.", examples=["/left"])
     lifecycle: bool = Field(False, description="Is a managed node.", examples=[True])
     host: Name | None = Field(None, description="Host that runs it.", examples=["control_pc"])
-    owner: Text = Field("UNKNOWN", description="Person or role responsible for it.", examples=["perception"])
+    owner: Text = Field(UNKNOWN, description="Person or role responsible for it.", examples=["perception"])
     language: Literal["cpp", "python", "UNKNOWN"] = Field(
-        "UNKNOWN", description="What it is written in.", examples=["cpp"]
+        UNKNOWN, description="What it is written in.", examples=["cpp"]
     )
     clock: Literal["wall", "sim"] | None = Field(
         None, description="Time it runs on; that of the target if absent.", examples=["wall"]

@@ -8,7 +8,7 @@ from cellc.compiler.spec.base import MOST, Name, Pin, SpecModel, StandardOr, Tex
 from cellc.compiler.spec.faults import FaultsSpec, first_key
 from cellc.compiler.spec.quantity import Confidence, Duration, PositiveDuration, Rate, Share
 from cellc.contract.entities import Target
-from cellc.contract.vocabulary import AttemptOutcome
+from cellc.contract.vocabulary import UNKNOWN, AttemptOutcome
 
 
 class MoveStep(SpecModel):
@@ -156,8 +156,8 @@ class HardwareStatementSpec(SpecModel):
     """What somebody signs of a plugin or program that `device.yaml` has run on the mock; UNKNOWN signs nothing."""
 
     touches_no_hardware: bool = Field(..., description="Whether it opens no connection to a device.", examples=[True])
-    by: Text = Field("UNKNOWN", description="Who says so.", examples=["controls"])
-    date: Pin = Field("UNKNOWN", description="Since when, YYYY-MM-DD.", examples=["2026-07-01"])
+    by: Text = Field(UNKNOWN, description="Who says so.", examples=["controls"])
+    date: Pin = Field(UNKNOWN, description="Since when, YYYY-MM-DD.", examples=["2026-07-01"])
 
 
 class TargetSpec(SpecModel):

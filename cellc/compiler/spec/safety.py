@@ -7,39 +7,38 @@ from pydantic import Field
 
 from cellc.compiler.spec.base import FrameReference, Name, SpecModel, StandardOr, Text
 from cellc.compiler.spec.quantity import Duration, JointSpeed, JointWay
-
-_UNKNOWN = "UNKNOWN"
+from cellc.contract.vocabulary import UNKNOWN
 
 
 class ResponsibilitiesSpec(SpecModel):
     """The eight responsibilities that every architecture has; UNKNOWN blocks the real target."""
 
-    frames: Text = Field(_UNKNOWN, description="Owner of frames and calibrations.", examples=["perception"])
-    time: Text = Field(_UNKNOWN, description="Owner of clocks and stamps.", examples=["perception"])
-    limits: Text = Field(_UNKNOWN, description="Owner of limits.", examples=["controls"])
-    watchdogs: Text = Field(_UNKNOWN, description="Owner of watchdogs and timeouts.", examples=["controls"])
-    command: Text = Field(_UNKNOWN, description="Owner of the command path.", examples=["integration"])
-    logging: Text = Field(_UNKNOWN, description="Owner of logs and attempt records.", examples=["data"])
-    vendor_safety: Text = Field(_UNKNOWN, description="Owner of the vendor's safety configuration.", examples=["robot"])
-    physical_stop: Text = Field(_UNKNOWN, description="Owner of the physical stop.", examples=["safety"])
+    frames: Text = Field(UNKNOWN, description="Owner of frames and calibrations.", examples=["perception"])
+    time: Text = Field(UNKNOWN, description="Owner of clocks and stamps.", examples=["perception"])
+    limits: Text = Field(UNKNOWN, description="Owner of limits.", examples=["controls"])
+    watchdogs: Text = Field(UNKNOWN, description="Owner of watchdogs and timeouts.", examples=["controls"])
+    command: Text = Field(UNKNOWN, description="Owner of the command path.", examples=["integration"])
+    logging: Text = Field(UNKNOWN, description="Owner of logs and attempt records.", examples=["data"])
+    vendor_safety: Text = Field(UNKNOWN, description="Owner of the vendor's safety configuration.", examples=["robot"])
+    physical_stop: Text = Field(UNKNOWN, description="Owner of the physical stop.", examples=["safety"])
 
 
 class ApprovalsSpec(SpecModel):
     """The seven approval areas of the checkpoint; UNKNOWN blocks the real target."""
 
     graph: Text = Field(
-        _UNKNOWN, description="Is there one command publisher or action server?", examples=["integration"]
+        UNKNOWN, description="Is there one command publisher or action server?", examples=["integration"]
     )
     time_tf: Text = Field(
-        _UNKNOWN, description="Which stamp and calibration produced the goal?", examples=["perception"]
+        UNKNOWN, description="Which stamp and calibration produced the goal?", examples=["perception"]
     )
     controller: Text = Field(
-        _UNKNOWN, description="Are joints, interfaces, tolerance and hold defined?", examples=["controls"]
+        UNKNOWN, description="Are joints, interfaces, tolerance and hold defined?", examples=["controls"]
     )
-    vendor: Text = Field(_UNKNOWN, description="Are firmware, driver, mode and scaling pinned?", examples=["robot"])
-    network: Text = Field(_UNKNOWN, description="Do discovery and data use controlled paths?", examples=["network"])
-    safety: Text = Field(_UNKNOWN, description="Are stop, recovery and observer independent?", examples=["safety"])
-    data: Text = Field(_UNKNOWN, description="Can failures be replayed by layer?", examples=["data"])
+    vendor: Text = Field(UNKNOWN, description="Are firmware, driver, mode and scaling pinned?", examples=["robot"])
+    network: Text = Field(UNKNOWN, description="Do discovery and data use controlled paths?", examples=["network"])
+    safety: Text = Field(UNKNOWN, description="Are stop, recovery and observer independent?", examples=["safety"])
+    data: Text = Field(UNKNOWN, description="Can failures be replayed by layer?", examples=["data"])
 
 
 class OwnersSpec(SpecModel):
@@ -59,10 +58,10 @@ class StopSpec(SpecModel):
     """Who stops the machine, and by which path."""
 
     authority: Text = Field(
-        "UNKNOWN", description="What has the authority to stop; never a computer of the cell.", examples=["safety_plc"]
+        UNKNOWN, description="What has the authority to stop; never a computer of the cell.", examples=["safety_plc"]
     )
     path: Literal["hardwired", "safety_bus", "software", "UNKNOWN"] = Field(
-        "UNKNOWN", description="How the stop reaches the drives.", examples=["hardwired"]
+        UNKNOWN, description="How the stop reaches the drives.", examples=["hardwired"]
     )
     independent_of: tuple[Name, ...] = Field(
         (), description="Hosts that the path does not need.", examples=[["control_pc"]]
@@ -85,8 +84,8 @@ class RecoverySpec(SpecModel):
     on_reconnect: Literal["discard_goal", "resume_goal"] = Field(
         "discard_goal", description="What becomes of an old goal after a reconnect.", examples=["discard_goal"]
     )
-    owner: Text = Field("UNKNOWN", description="Who owns the procedure.", examples=["safety"])
-    observer: Text = Field("UNKNOWN", description="Who is at the stop during supervised motion.", examples=["operator"])
+    owner: Text = Field(UNKNOWN, description="Who owns the procedure.", examples=["safety"])
+    observer: Text = Field(UNKNOWN, description="Who is at the stop during supervised motion.", examples=["operator"])
 
 
 class SafetySpec(SpecModel):

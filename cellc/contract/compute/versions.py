@@ -9,6 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from cellc.contract.store.regular_file import own_bytes
+from cellc.contract.vocabulary import UNKNOWN
 
 _PACKAGES = ("cellc", "numpy", "pin")
 
@@ -37,4 +38,4 @@ def _version(package: str) -> str:
     try:
         return version(package)
     except PackageNotFoundError:
-        return "UNKNOWN"
+        return UNKNOWN

@@ -12,6 +12,7 @@ from cellc.contract.compute.work import Work, in_order, stream
 from cellc.contract.fleet import FleetRehearsal, FleetSweep
 from cellc.contract.limits import limits, option
 from cellc.contract.printing import progress, time_left
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import cell_of, in_turn, read_to_run
 from cellc.mock.command.campaign import executor
@@ -144,7 +145,7 @@ def sweep_all(members: Sequence[Member], options: SweepOptions) -> Iterator[Rehe
 
 
 def _told(sweep: Sweep) -> FleetSweep:
-    words = {True: "passed", False: "failed", None: "UNKNOWN"}
+    words = {True: "passed", False: "failed", None: UNKNOWN}
     return FleetSweep.model_validate(
         {
             "rehearsal": sweep.rehearsal,

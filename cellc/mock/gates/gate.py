@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from cellc.contract.vocabulary import GateCode
+from cellc.contract.vocabulary import UNKNOWN, GateCode
 
 _SHOWN = 3
 """Pieces of evidence that a line names; the rest is counted."""
@@ -135,7 +135,7 @@ def _shortened(evidence: tuple[str, ...]) -> tuple[str, ...]:
     return evidence if rest <= 1 else (*evidence[:_SHOWN], f"and {rest} more")
 
 
-_LABELS = {Verdict.PASSED: "passed ", Verdict.FAILED: "FAILED ", Verdict.UNKNOWN: "UNKNOWN"}
+_LABELS = {Verdict.PASSED: "passed ", Verdict.FAILED: "FAILED ", Verdict.UNKNOWN: UNKNOWN}
 
 
 def gate_lines(gates: Sequence[GateResult]) -> Iterator[str]:

@@ -9,6 +9,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
 from cellc.contract.store.regular_file import own_text
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
@@ -241,12 +242,12 @@ def unproven() -> Element:
 
 def identity(contract: Contract) -> Element:
     """Return the tuple of versions, what is not known of it first."""
-    parts = sorted(contract.version_tuple.items(), key=lambda part: (part[1] != "UNKNOWN", part[0]))
+    parts = sorted(contract.version_tuple.items(), key=lambda part: (part[1] != UNKNOWN, part[0]))
     rows = [
-        tag("div", tag("dt", name), tag("dd", version, class_="unknown" if version == "UNKNOWN" else "plain"))
+        tag("div", tag("dt", name), tag("dd", version, class_="unknown" if version == UNKNOWN else "plain"))
         for name, version in parts
     ]
-    known = Tally.of(version != "UNKNOWN" for _, version in parts)
+    known = Tally.of(version != UNKNOWN for _, version in parts)
     hint = (
         f"{count(known.bad, 'part')} of {known.total} UNKNOWN; gate G0 stops there."
         if known.bad

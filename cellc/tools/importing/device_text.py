@@ -9,6 +9,7 @@ from pathlib import Path
 
 from cellc.compiler.formats.numbers import shortest
 from cellc.contract.diagnostics import Outcome
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.robot.description.model import Description, HardwareComponent, Joint
 from cellc.robot.description.read_description import text_under
 from cellc.robot.description.xml_tree import read_xml
@@ -71,7 +72,7 @@ def questions(robot: Robot, role: Role, judged: Judged) -> Iterator[str]:
         yield f"the description states what the folder does not hold: {', '.join(left_out)}: is any of it needed?"
     yield from judged.asked
     yield from (f"`{code}` is excused: {because}" for code, because in judged.excused.items())
-    asked = [pair for pair, because in judged.allowed.items() if because.startswith("UNKNOWN")]
+    asked = [pair for pair, because in judged.allowed.items() if because.startswith(UNKNOWN)]
     if asked:
         shown = ", ".join(f"{first} and {second}" for first, second in asked[:3])
         yield f"links touch at home, {shown}{_more(asked[3:])}: may they?"
@@ -91,7 +92,7 @@ def device_facts(robot: Robot, role: Role, judged: Judged, day: str) -> Facts:
     facts: Facts = {
         "format": 1,
         "model": model_name(robot),
-        "vendor": "UNKNOWN",
+        "vendor": UNKNOWN,
         "summary": f"{description.name}, {len(joints)} joints",
         "kind": role.kind.kind,
         "as_of": day,

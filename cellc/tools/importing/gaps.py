@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.compiler.catalog.limit_facts import UNKNOWN, LimitFacts
+from cellc.compiler.catalog.limit_facts import LimitFacts
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.robot.description.model import Description, Joint, JointLimit
 from cellc.tools.importing.kinds import is_wheel
 from cellc.tools.importing.merge import Facts

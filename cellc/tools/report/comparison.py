@@ -16,7 +16,7 @@ from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.deploy.labels import real_driver, watchdog
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.versions import compatibility
-from cellc.contract.vocabulary import PASSIVE, CommandAuthority, Motion
+from cellc.contract.vocabulary import PASSIVE, UNKNOWN, CommandAuthority, Motion
 
 _NOT_STATED = "not stated"
 
@@ -112,7 +112,7 @@ def _safety(cell: Cell) -> Iterator[str]:
     yield f"stopped by {stop.authority}, {stop.path}, independent of {independent}"
     yield f"acknowledged by {recovery.acknowledge}; after a reconnect: {recovery.on_reconnect}"
     for device in _moving(cell):
-        stops = ", ".join(state.name for state in device.safety.states if state.stops) or "UNKNOWN"
+        stops = ", ".join(state.name for state in device.safety.states if state.stops) or UNKNOWN
         yield f"{device.name}: stops by itself in {stops}"
         if device.safety.modes:
             yield f"{device.name}: modes {', '.join(device.safety.modes)}"

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cellc.compiler.cell.site import UNKNOWN
-from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Delta, Leaf, said
 from cellc.tools.review.rules import Rule

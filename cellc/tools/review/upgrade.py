@@ -9,11 +9,10 @@ from pathlib import Path
 
 from cellc.compiler.catalog.tables import DistroFacts
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.pipeline import Checked, check
 from cellc.contract.diagnostics import Severity
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradePin
-from cellc.contract.vocabulary import Distro, ReviewArea
+from cellc.contract.vocabulary import UNKNOWN, Distro, ReviewArea
 from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.tools.edit.rewrite import Edit, rewrite
 from cellc.tools.review.declared import Told, parameter_changes

@@ -6,11 +6,12 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradeParameter, UpgradePin
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.tools.review.markdown import LONGEST, as_code, folded, render_markdown
 from cellc.tools.review.text import findings_told, gate_line, render_review
 
 _FEW = 6
-_STYLE = {"OK": Style.GREEN, "UNKNOWN": Style.YELLOW, "INCOMPATIBLE": Style.RED}
+_STYLE = {"OK": Style.GREEN, UNKNOWN: Style.YELLOW, "INCOMPATIBLE": Style.RED}
 
 
 def render_upgrade(upgrade: Upgrade) -> Iterator[Line]:

@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.processes import motion_clients
@@ -32,7 +31,7 @@ from cellc.compiler.formats.markdown_table import table
 from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.versions import Answer, Judgment, compatibility
-from cellc.contract.vocabulary import InterfaceKind
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind
 
 _QUESTIONS = {
     "graph": "Is there one command publisher or action server?",

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.site import UNKNOWN, Clock
+from cellc.compiler.cell.site import Clock
 from cellc.contract.contract import ContractClock
+from cellc.contract.vocabulary import UNKNOWN
 
 _SIM = "sim"
 

@@ -10,7 +10,6 @@ from cellc.compiler.cell.device import Device, SimulatedJoint
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import HardwareComponent
 from cellc.compiler.cell.interface import Interface
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import start_positions
 from cellc.contract.contract import (
@@ -23,7 +22,7 @@ from cellc.contract.contract import (
     ContractSimulatedJoint,
     ContractSwitched,
 )
-from cellc.contract.vocabulary import InterfaceKind, Moment
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:

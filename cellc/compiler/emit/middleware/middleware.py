@@ -26,7 +26,7 @@ from cellc.compiler.formats.escape import shell_quoted
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.xml_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.vocabulary import Feature, features
+from cellc.contract.vocabulary import UNKNOWN, Feature, features
 
 _RANGE = {"multicast": "SUBNET", "unicast": "LOCALHOST", "localhost": "LOCALHOST", "server": "SUBNET", "off": "OFF"}
 _FAST = ("rmw_fastrtps_cpp", "rmw_fastrtps_dynamic_cpp")
@@ -82,7 +82,7 @@ def environment(cell: Cell, header: Header, binding: Binding, profiles: tuple[st
 
 def _variables(cell: Cell, binding: Binding, profiles: tuple[str, ...]) -> Iterator[tuple[str, str]]:
     rmw = cell.versions.rmw_name
-    if rmw != "UNKNOWN":
+    if rmw != UNKNOWN:
         yield "RMW_IMPLEMENTATION", shell_quoted(rmw)
     yield "ROS_DOMAIN_ID", str(cell.network.domain_id)
     yield from _discovery(cell, binding)

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.interface import Interface, Node
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+from cellc.contract.vocabulary import UNKNOWN
 
 _OTHER_CLOCK = {"wall": "sim", "sim": "wall"}
 

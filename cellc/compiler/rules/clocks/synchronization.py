@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.compiler.cell.interface import Interface
-from cellc.compiler.cell.site import UNKNOWN, Host
+from cellc.compiler.cell.site import Host
 from cellc.compiler.graph.network import running_hosts
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.vocabulary import UNKNOWN
 
 
 @rule(Severity.ERROR)

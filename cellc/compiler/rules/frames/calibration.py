@@ -7,8 +7,8 @@ import re
 from collections.abc import Container, Sequence
 
 from cellc.compiler.cell.frame import WORLD, Frame, FrameKind
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.vocabulary import UNKNOWN
 
 
 @rule(Severity.WARNING)

@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.kinematics import KinematicCalibration, Kinematics
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, found, rule
 from cellc.contract.diagnostics import Span, is_slip
 from cellc.contract.pins import day_of
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.robot.description.model import Description, HardwareInterface, HardwarePart, Joint, as_number
 from cellc.robot.description.posture import posture
 

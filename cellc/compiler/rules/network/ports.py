@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.vocabulary import UNKNOWN
 
 
 @rule(Severity.ERROR)

@@ -6,9 +6,9 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from cellc.compiler.cell.interface import Interface, Node
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.graph.network import Nic, running_hosts
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.vocabulary import UNKNOWN
 
 
 @rule(Severity.ERROR)

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from difflib import SequenceMatcher
 
 from cellc.compiler.cell.interface import NodeSource
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.graph.responsibilities import Responsibility
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
+from cellc.contract.vocabulary import UNKNOWN
 
 
 @rule(Severity.BLOCKER)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.hardware import HardwareComponent
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.vocabulary import Moment
+from cellc.contract.vocabulary import UNKNOWN, Moment
 
 
 @rule(Severity.BLOCKER)

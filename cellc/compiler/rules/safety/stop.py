@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, did_you_mean, found, rule
-from cellc.contract.vocabulary import InterfaceKind
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind
 
 
 @rule(Severity.ERROR)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.graph.releases import was_released
 from cellc.compiler.graph.versions import Pin, cell_pins, device_pins, distribution, is_known_package
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.contract.pins import pinned_package, version_numbers
+from cellc.contract.vocabulary import UNKNOWN
 
 _FLOATING = re.compile(r"(?i)\b(latest|main|master|devel|develop|head|nightly|stable|any|tip)\b|[<>~^*]|\.x\b")
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from cellc.compiler.cell.site import UNKNOWN
 from cellc.compiler.graph.versions import distribution
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
+from cellc.contract.vocabulary import UNKNOWN
 
 _ORDINARY = re.compile(r"-(generic|lowlatency|azure|aws|oem|virtual|amd64|cloud|raspi)\b")
 
