@@ -5,12 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from cellc.compiler.artifact import Artifact
-from cellc.compiler.formats.json_text import render
 from cellc.contract.limits import limits
-from cellc.contract.manifest import ConfigurationInputs, Manifest
 from cellc.version import __version__
+
+if TYPE_CHECKING:
+    from cellc.contract.manifest import ConfigurationInputs
 
 MANIFEST = "manifest.json"
 _FORMAT = 1
@@ -31,6 +33,10 @@ def with_manifest(
         configuration_id: id over ``configuration_inputs``.
         version_tuple: pinned versions by part, ``UNKNOWN`` where one is not known.
     """
+    # A build of what is unchanged makes no manifest, and loads no models.
+    from cellc.compiler.formats.json_text import render
+    from cellc.contract.manifest import Manifest
+
     ordered = sorted(artifacts, key=lambda artifact: artifact.path)
     manifest = Manifest(
         format=_FORMAT,

@@ -17,14 +17,15 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, TypeVar
-
-from pydantic import TypeAdapter, ValidationError
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from cellc.contract.store.cache_key import cache_key, came_with, is_private
 from cellc.contract.store.regular_file import own_bytes, read_regular
 from cellc.contract.store.swap import remove_file, replace_whole
 from cellc.version import __version__
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
 
 OFF = "CELLC_NO_CACHE"
 MAX_BYTES = 10_000_000
@@ -129,8 +130,12 @@ def recall(
         asked_by: the spec that it is about; a cache in its working tree is not used.
         program: what computes it.
     """
+    global _passing
     if cache_folder() is None:
         return compute()
+    # What was built before is found without models.
+    from pydantic import TypeAdapter, ValidationError
+
     adapter: TypeAdapter[_Answer] = _adapters.get(answer) or _adapters.setdefault(answer, TypeAdapter(answer))
     name = entry_name(kind, question, program)
     content = read_entry(name, asked_by)
@@ -145,7 +150,17 @@ def recall(
     computed = compute()
     if is_kept(computed):
         write_entry(name, adapter.dump_json(computed), asked_by)
+    else:
+        _passing += 1
     return computed
+
+
+_passing = 0
+
+
+def passing_answers() -> int:
+    """Return how many answers this process has given that are not kept: what rests on one is not kept either."""
+    return _passing
 
 
 def read_entry(name: str, asked_by: Path | None = None) -> bytes | None:

@@ -11,7 +11,7 @@ from fnmatch import fnmatchcase
 from functools import partial
 from glob import glob
 from pathlib import Path
-from time import monotonic, process_time
+from time import monotonic, process_time, time_ns
 from typing import TYPE_CHECKING, Literal
 
 import click
@@ -24,6 +24,7 @@ from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.limits import Limits, children_seconds, limits, use
 from cellc.contract.printing import progress, remark, time_left
 from cellc.contract.signals import within
+from cellc.contract.store.cache import passing_answers
 from cellc.contract.store.regular_file import open_regular
 from cellc.robot.description.packages import package_path, use_packages
 from cellc.tools.cli.fleet import Task
@@ -143,14 +144,19 @@ SPEC_FILE = "cell.yaml"
 """What a spec is called where a folder is named instead of it."""
 
 
-def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[CellResult]:
+def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL, *, full: bool = False) -> Iterator[CellResult]:
     """Yield the result of each task in the order of the call, with what the cells before it have against it.
 
     Cells of different versions never run beside each other.
+
+    Args:
+        full: compute what the same files gave before, too.
     """
-    factory = fan.factory(number_of_workers(kind, len(tasks)), remark)
+    known = {} if full or kind == "check" else _recalled(tasks)
+    left = [task for number, task in enumerate(tasks) if number not in known]
+    factory = fan.factory(number_of_workers(kind, len(left)), remark)
     shared = os.getcwd() if fan.cluster is not None else ""
-    computed = (compute(kind, task) for task in tasks) if factory is None else in_workers(kind, tasks, factory, shared)
+    computed = _computing(kind, left) if factory is None else in_workers(kind, left, factory, shared)
     earlier: dict[str, list[Presence]] = {}
     label = {"check": "checking", "compile": "building"}[kind]
     begun, spent_s = monotonic(), 0.0
@@ -163,7 +169,7 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
                 computed.close()
                 yield CellResult(out_of_time(task.file, alone=False))
                 continue
-            result = next(computed)
+            result = known[number] if number in known else next(computed)
             spent_s += result.seconds
             if result.cell is None:
                 yield result
@@ -173,6 +179,18 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL) -> Iterator[Cel
             beside.append(result.cell)
             # An error stops the artifacts.
             yield replace(result, findings=result.findings.with_more(against), artifacts=None) if against else result
+
+
+def _recalled(tasks: Sequence[Task]) -> dict[int, CellResult]:
+    """Return what tasks gave before that are not to be computed, by their number."""
+    from cellc.tools.cli.kept_builds import recall_build
+
+    found = ((number, recall_build(task)) for number, task in enumerate(tasks))
+    return {number: result for number, result in found if result is not None}
+
+
+def _computing(kind: Kind, tasks: Sequence[Task]) -> Generator[CellResult, None, None]:
+    yield from (compute(kind, task) for task in tasks)
 
 
 def compute(kind: Kind, task: Task) -> CellResult:
@@ -194,6 +212,7 @@ def _computed(kind: Kind, task: Task) -> CellResult:
     # A process that has others compute does not load the compiler.
     from cellc.compiler.pipeline import check, compile_cell, judge
 
+    started_ns, passing = time_ns(), passing_answers()
     if task.versions:
         from cellc.tools.review.moved_spec import UpgradeError, check_with
 
@@ -210,7 +229,12 @@ def _computed(kind: Kind, task: Task) -> CellResult:
         return result
     compiled = compile_cell(checked)
     artifacts = compiled.value if compiled.ok else None
-    return replace(result, findings=checked.findings.with_more(compiled.diagnostics), artifacts=artifacts)
+    made = replace(result, findings=checked.findings.with_more(compiled.diagnostics), artifacts=artifacts)
+    if artifacts is not None:
+        from cellc.tools.cli.kept_builds import keep_build
+
+        keep_build(task, made, checked.graph.cell.packages, started_ns, passing)
+    return made
 
 
 @dataclass(frozen=True, slots=True)

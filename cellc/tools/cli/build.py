@@ -38,6 +38,7 @@ OUTPUT = click.option(
 @click.option(
     "--check", "only_compare", is_flag=True, help="Write nothing; fail where a folder is not what its cell makes."
 )
+@click.option("--full", is_flag=True, help="Compile what is unchanged too, as CI does, instead of reading the cache.")
 @click.option("--force", is_flag=True, help="Discard edits that were made by hand in generated files.")
 @SELECT
 @IGNORE
@@ -49,6 +50,7 @@ def build(
     files: tuple[str, ...],
     output: Path,
     only_compare: bool,
+    full: bool,
     force: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
@@ -72,7 +74,7 @@ def build(
     files = cell_files(files)
     tasks, built = fleet.tasks(files), list[_Built]()
     places: dict[tuple[str, str], Span] = {}
-    for task, result in zip(tasks, results("compile", tasks, fleet.fan), strict=True):
+    for task, result in zip(tasks, results("compile", tasks, fleet.fan, full=full), strict=True):
         folder = folder_of(task.versions)
         built.append(_built(_unless_shared(result, folder, places), output / folder, only_compare, force))
     shown = [selected_and_errors(item.result.findings, wanted) for item in built]
