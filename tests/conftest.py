@@ -6,7 +6,7 @@ import gc
 import os
 import signal
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -73,19 +73,18 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     return True if collection_path in config.stash[_LEFT_OUT] else None
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Let the longest files begin, so that no process waits for another at the end."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Let the longest files begin, so that no process waits for another at the end: first the one that runs mypy."""
     tests = Counter(item.path for item in items)
-    items.sort(key=lambda item: (_rank(item.path), -tests[item.path], str(item.path)))
+    long = {config.rootpath / path: place for place, path in enumerate(config.getini("long_tests"))}
+    rank = {file: _rank(file, long) for file in tests}
+    items.sort(key=lambda item: (rank[item.path], -tests[item.path], str(item.path)))
 
 
-_FIRST = ("installed", "test_quality.py", "test_hostile.py", "test_shadows.py", "test_ctrl_c.py", "test_libraries.py")
-"""Files and folders that take longest, though few tests are in them: the first install the project, and run mypy."""
-
-
-def _rank(file: Path) -> int:
-    places = [_FIRST.index(name) for name in (file.parent.name, file.name) if name in _FIRST]
-    return min(places, default=len(_FIRST))
+def _rank(file: Path, long: Mapping[Path, int]) -> int:
+    if file.name == "test_quality.py":
+        return -1
+    return min((long[place] for place in (file, *file.parents) if place in long), default=len(long))
 
 
 def pytest_collection_finish() -> None:

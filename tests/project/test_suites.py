@@ -15,27 +15,24 @@ from tests.nearest import FOLDERS, nearest
 _INI = '[tool.pytest.ini_options]\ntestpaths = ["tests"]\nlong_tests = ["tests/test_slow.py", "tests/apart"]\n'
 
 
-@pytest.mark.parametrize("workers", [(), ("-n", "1")], ids=["alone", "workers"])
 @pytest.mark.parametrize(
     ("asked", "ran"),
     [
-        ((), {"quick"}),
-        (("--long",), {"slow", "apart"}),
+        (("-n", "1"), {"quick"}),
+        (("--long", "-n", "1"), {"slow", "apart"}),
         (("tests",), {"quick", "slow", "apart"}),
         (("tests/apart",), {"apart"}),
     ],
     ids=["suite", "long", "all", "named"],
 )
-def test_long_tests_wait_for_their_command(
-    asked: tuple[str, ...], ran: set[str], workers: tuple[str, ...], tmp_path: Path
-) -> None:
+def test_long_tests_wait_for_their_command(asked: tuple[str, ...], ran: set[str], tmp_path: Path) -> None:
     (tmp_path / "tests" / "apart").mkdir(parents=True)
     for name in ("quick", "slow", "apart/apart"):
         test = f"def test_that_runs():\n    open({str(tmp_path / Path(name).name)!r}, 'w')\n"
         (tmp_path / "tests" / Path(name).parent / f"test_{Path(name).name}.py").write_text(test, encoding="utf-8")
     (tmp_path / "pyproject.toml").write_text(_INI, encoding="utf-8")
     shutil.copy(ROOT / "tests" / "conftest.py", tmp_path / "tests")
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *asked, *workers]
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *asked]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert {file.name for file in tmp_path.iterdir()} & {"quick", "slow", "apart"} == ran

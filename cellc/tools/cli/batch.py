@@ -152,7 +152,8 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL, *, full: bool =
     Args:
         full: compute what the same files gave before, too.
     """
-    known = {} if full or kind == "check" else _recalled(tasks)
+    # The workers of a cluster are asked even where this computer has the answer.
+    known = {} if full or kind == "check" or fan.cluster is not None else _recalled(tasks)
     left = [task for number, task in enumerate(tasks) if number not in known]
     factory = fan.factory(number_of_workers(kind, len(left)), remark)
     shared = os.getcwd() if fan.cluster is not None else ""
