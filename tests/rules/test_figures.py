@@ -14,7 +14,7 @@ from tests.rules.examples import diagnose_example, examples
 
 FIGURES = {
     # 1280 * 720 pixels of 3 bytes, 30 times a second: 663.552 Mbit/s; 0.8 of 100 Mbit/s.
-    "images-beyond-link": "must take at most 80 Mbit/s of its 100 Mbit/s, and take 664 Mbit/s",
+    "images-beyond-link": "must take at most 80 Mbit/s of its 100 Mbit/s, got 664 Mbit/s",
     # 10 / 30 Hz; 6 fit into 200 ms.
     "queue-older-than-max-age": "at most 200 ms, the `max_age` of `/markers`, got 333.3 ms",
     "max-age-too-short": "must be at least 100 ms (period 100, transport 0, exposure 0 ms), got 50 ms",  # 1 / 10 Hz

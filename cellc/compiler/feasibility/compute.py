@@ -78,7 +78,7 @@ def _budget() -> Budget:
 
 
 def _too_long() -> tuple[str, str]:
-    message = f"shapes and goals must take at most {limits().planning_seconds} s of processor time, and take more"
+    message = f"shapes and goals must take at most {limits().planning_seconds} s of processor time"
     return message, "planning-seconds"
 
 

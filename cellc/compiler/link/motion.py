@@ -160,7 +160,7 @@ def _circle(frames: tuple[Frame, ...], tip: str) -> Frame | None:
 def _not_a_chain(name: str, base: str, tip: str, document: SourceDocument, circle: Frame | None) -> Diagnostic:
     """Report the tip, or the frame on its way that hangs on itself, which is then the cause."""
     path: YamlPath = ("motion", "groups", name, "tip") if circle is None else (*circle.path, "parent")
-    reason = f"`{tip}` does not hang on `{base}`" if circle is None else f"`{circle.name}` hangs on itself"
+    reason = f"`{tip}` is not attached to `{base}`" if circle is None else f"`{circle.name}` is its own ancestor"
     return Diagnostic(
         code="not-a-chain",
         severity=Severity.ERROR,

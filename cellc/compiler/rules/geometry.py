@@ -63,7 +63,7 @@ def within_robot(graph: CellGraph, contacts: Sequence[BodyContact]) -> list[Body
 
 def named(contacts: Sequence[BodyContact]) -> str:
     """Name the first contact, and say how many more there are."""
-    more = f", and {len(contacts) - 1} more such pairs" if len(contacts) > 1 else ""
+    more = f", and {len(contacts) - 1} more pair{'s' if len(contacts) > 2 else ''}" if len(contacts) > 1 else ""
     return f"`{contacts[0].first}` and `{contacts[0].second}` touch{more}"
 
 

@@ -121,5 +121,5 @@ def unwatched_claim(graph: CellGraph) -> Findings:
                 else f"say under `told` of the `device.yaml` of `{name}` which topic reports whether its program runs"
             )
             for _, one in sorted(owners.items(), key=itemgetter(0)):
-                message = f"`{name}` keeps the set points of `{one.name}` over a stop of its program, unheard"
+                message = f"`{name}` keeps the set points of `{one.name}` when its program stops, unreported"
                 yield found(graph, one.path, message, advice)

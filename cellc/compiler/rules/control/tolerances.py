@@ -39,7 +39,7 @@ def missing_goal_time(graph: CellGraph) -> Findings:
             path = controller.path if unstated else (*controller.path, "goal_time")
             message = f"`{controller.name}` does not state `goal_time`"
             if not unstated:
-                message = f"`goal_time` of `{controller.name}` must be above zero, which switches the check off"
+                message = f"`goal_time` of `{controller.name}` must be above zero; zero switches the check off"
             yield found(graph, path, message)
 
 
@@ -57,7 +57,7 @@ def _unwatched_joints(graph: CellGraph, key: str) -> Findings:
         if untold:
             yield found(graph, path, f"`{key}` of `{controller.name}` states nothing for `{untold[0]}`")
         elif not all(figure.value for figure in figures.values()):
-            message = f"`{key}` of `{controller.name}` must be above zero, which switches the check off"
+            message = f"`{key}` of `{controller.name}` must be above zero; zero switches the check off"
             yield found(graph, path, message)
 
 

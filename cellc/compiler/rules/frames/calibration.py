@@ -117,7 +117,7 @@ def coarse_calibration(graph: CellGraph) -> Findings:
         if users and residual_m is not None and residual_m > _COARSEST_M:
             path = (*calibration.path, "residual")
             message = f"the residual of `{calibration.name}` must be at most {_COARSEST_M * 1e3:g} mm,"
-            related = tuple(Related("rests on it", user.span) for user in users)
+            related = tuple(Related("uses it", user.span) for user in users)
             yield found(graph, path, f"{message} got {graph.cell.text(*path)}", related=related)
 
 
@@ -165,7 +165,7 @@ def too_few_samples(graph: CellGraph) -> Findings:
         least = _LEAST_OF_CAMERA if any(user.device in cameras for user in users) else _LEAST_OF_OTHERS
         if users and calibration.samples is not None and calibration.samples < least:
             what = "that of a camera" if least == _LEAST_OF_CAMERA else "any"
-            message = f"calibration `{calibration.name}` must rest on at least {least} samples as {what},"
+            message = f"calibration `{calibration.name}` must have at least {least} samples as {what},"
             yield found(graph, (*calibration.path, "samples"), f"{message} got {calibration.samples}")
 
 
@@ -195,7 +195,7 @@ def unused_calibration(graph: CellGraph) -> Findings:
     used = {frame.calibration for frame in graph.cell.frames}
     for name in graph.cell.calibrations:
         if name not in used:
-            message = f"no frame rests on calibration `{name}`"
+            message = f"no frame uses calibration `{name}`"
             # Links, boxes and the world are designed, too, and nobody measures them.
             designed = [frame for frame in graph.cell.frames if frame.designed and frame.kind is FrameKind.FIXED]
             related = tuple(Related("designed, without a measurement", frame.span) for frame in designed)

@@ -153,7 +153,9 @@ def object_under_another_camera(graph: CellGraph) -> Findings:
         }
         if heard and own not in heard:
             other, interface = next(iter(heard.items()))
-            message = f"`{frame.name}` hangs on `{own}`, but its publisher `{frame.authority}` hears `{other}` alone"
+            message = (
+                f"`{frame.name}` is attached to `{own}`, but its publisher `{frame.authority}` reads `{other}` alone"
+            )
             missed = (
                 interface for interface in graph.cell.interfaces if own in {source.node for source in interface.sources}
             )

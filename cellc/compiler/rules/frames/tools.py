@@ -46,7 +46,7 @@ def tcp_off_the_tool(graph: CellGraph) -> Findings:
         tool = device.tool_frame in chain
         between = graph.frames.chain(device.tcp)[: chain.index(device.tool_frame)] if tool else ()
         if not tool or any(frame.moving or frame.transform_to_parent is None for frame in between):
-            message = f"the TCP of `{device.name}` must hang on `{device.tool_frame}` by fixed transforms"
+            message = f"the TCP of `{device.name}` must be attached to `{device.tool_frame}` by fixed transforms"
             yield found(graph, path, f"{message}, got `{device.tcp}`")
 
 
@@ -62,7 +62,7 @@ def tip_off_the_tool_chain(graph: CellGraph) -> Findings:
             continue
         chain = graph.frames.chain(group.tip_frame)
         if arm.tool_frame not in (frame.name for frame in chain):
-            message = f"tip `{group.tip_frame}` of group `{group.name}` does not hang on `{arm.tool_frame}`"
+            message = f"tip `{group.tip_frame}` of group `{group.name}` is not attached to `{arm.tool_frame}`"
             mounts = [frame for frame in chain if frame.kind is FrameKind.MOUNT and frame.device != arm.name]
             related = tuple(Related(f"`{mount.device}` is mounted on `{mount.parent}`", mount.span) for mount in mounts)
             yield found(graph, (*group.path, "tip"), message, related=related)

@@ -39,7 +39,7 @@ def two_authorities(graph: CellGraph) -> Findings:
             if frame.kind is FrameKind.LINK and frame.device == first.device:
                 continue  # inside one description this is a link with two parents
             message = f"frame `{name}` is published by `{first.authority}` and again by `{frame.authority}`"
-            related = (Related(f"`{name}` already hangs on `{first.parent or WORLD}` here", first.span),)
+            related = (Related(f"`{name}` is attached to `{first.parent or WORLD}` here", first.span),)
             yield Finding(message, frame.span, frame.path, related=related)
 
 

@@ -20,9 +20,12 @@ def interface_kind_mismatch(graph: CellGraph) -> Findings:
         parts = interface.type.split("/")
         expected = _FOLDER[interface.kind]
         if len(parts) == 3 and parts[1] in _FOLDER.values() and parts[1] != expected:
-            message = f"`{interface.name}` is a {interface.kind.value}, but `{interface.type}` is a `{parts[1]}` type"
+            message = (
+                f"{interface.kind.value} `{interface.name}` must have a type of `{expected}`, got `{interface.type}`"
+            )
             path = (*interface.path, interface.kind.value)
-            yield found(graph, path, message, f"use a `{expected}` type, or declare it as what it is")
+            other = next(kind.value for kind, folder in _FOLDER.items() if folder == parts[1])
+            yield found(graph, path, message, f"use a type of `{expected}`, or declare the interface as `{other}`")
 
 
 _TYPE = re.compile(r"[a-z][a-z0-9_]*/(msg|srv|action)/[A-Z][A-Za-z0-9]*")

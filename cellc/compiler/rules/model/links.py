@@ -109,7 +109,7 @@ def several_root_links(graph: CellGraph) -> Findings:
     for part in graph.model.links():
         root = part.device.root_link
         if part.link.name != root and part.link.name in part.device.description.roots():
-            message = f"link `{part.link.name}` hangs on nothing; the root of `{part.device.name}` is `{root}`"
+            message = f"link `{part.link.name}` has no parent; the root of `{part.device.name}` is `{root}`"
             mounted = part.device.description.link(root)
             related = (Related("the root", mounted.span),) if mounted is not None and mounted.span is not None else ()
             yield Finding(message, part.span, part.path, related=related)

@@ -122,7 +122,7 @@ def start_in_collision(graph: CellGraph) -> Findings:
     """Yield a start in which something touches, where no pose `home` says so already."""
     contacts = motion_answer(graph).start
     if contacts and all(pose.name != "home" for pose in graph.cell.poses):
-        message = f"where the cell begins {named(contacts)}"
+        message = f"at the start of the cell {named(contacts)}"
         yield found(graph, ("motion", "poses"), message)
 
 

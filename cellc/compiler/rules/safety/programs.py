@@ -106,7 +106,7 @@ def tool_voltage_mismatch(graph: CellGraph) -> Findings:
         robot = graph.cell.device(link.through)
         place = (*robot.path, "tool_connector")
         if device.name not in _hanging(graph, robot):
-            message = f"`{device.name}` must hang on `{robot.name}`, from whose tool connector it has its power"
+            message = f"`{device.name}` must be attached to `{robot.name}`, whose tool connector powers it"
             yield found(graph, path, message, "name the robot that carries it")
         if robot.tool_connector is None:
             message = f"`{device.name}` has its power from `{robot.name}`, whose tool connector gives nothing stated"

@@ -39,7 +39,7 @@ def package_of_another_distribution(graph: CellGraph) -> Findings:
         digits = 2 if theirs[:1] <= (2,) and package in ("moveit", "rmw_zenoh_cpp") else 1
         of_another = pin.known and ours and theirs and ours[:digits] != theirs[:digits]
         if of_another and not was_released(graph.cell.distro, package, pin.text):
-            message = f"`{pin.text}` is not of {graph.cell.distro}, which releases `{package}` {released}"
+            message = f"`{package}` `{pin.text}` is not released for {graph.cell.distro}, which has {released}"
             yield found(graph, pin.path, message, f"pin the line of {released}")
 
 
