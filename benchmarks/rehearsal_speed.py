@@ -141,12 +141,12 @@ def control_alone(folder: Path, seconds: int = 30) -> float:
     contract = read.contract
     name, manager = next(iter(contract.managers.items()))
     control = ControllerManager(
-        read.urdf, read.parameters[name], distro=contract.distro, plugin_behaviours=contract.plugin_behaviours
+        read.urdf, read.parameters[name], distro=contract.distro, plugin_behaviors=contract.plugin_behaviors
     )
     control.spawn(list(manager.controllers))
-    arm, facts = next(entry for entry in manager.controllers.items() if "trajectory" in (entry[1].behaviour or ""))
+    arm, facts = next(entry for entry in manager.controllers.items() if "trajectory" in (entry[1].behavior or ""))
     for controller, entry in manager.controllers.items():
-        if entry.behaviour == "joint_state_broadcaster":
+        if entry.behavior == "joint_state_broadcaster":
             control.subscribe_joint_states(controller)
     rest = (0.0,) * len(facts.joints)
     points = tuple(
@@ -159,7 +159,7 @@ def control_alone(folder: Path, seconds: int = 30) -> float:
     while control.now_ns < until_ns:
         control.advance(min(until_ns, control.now_ns + 200_000_000))
         for controller, entry in manager.controllers.items():
-            if entry.behaviour == "joint_state_broadcaster":
+            if entry.behavior == "joint_state_broadcaster":
                 control.take_joint_states(controller)
     return seconds / (time.process_time() - start)
 

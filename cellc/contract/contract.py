@@ -24,7 +24,7 @@ from cellc.contract.quantities import (
     Rate,
     Seconds,
 )
-from cellc.contract.vocabulary import Behaviour, Distro, ManagerLock, Moment, Motion, Need, Unmet
+from cellc.contract.vocabulary import Behavior, Distro, ManagerLock, Moment, Motion, Need, Unmet
 
 
 class ContractFiles(ContractModel):
@@ -54,7 +54,7 @@ class ContractClock(ContractModel):
     """A clock that stamps are made on: of a host, or of a device with one of its own."""
 
     domain: str = Field(description="Clock domain.")
-    synchronised_by: str | None = Field(None, description="What disciplines it.")
+    synchronized_by: str | None = Field(None, description="What disciplines it.")
     max_offset_s: Seconds | None = Field(None, description="Bound of its offset; null where nothing bounds it.")
     simulated: bool = Field(False, description="Time comes from /clock.")
     offset_s: Offset = Field(0.0, description="Offset that the mock gives it.")
@@ -82,7 +82,7 @@ class ContractController(ContractModel):
     """A controller, what it claims, and who may command it."""
 
     plugin: str = Field(description="Type as the controller manager loads it.")
-    behaviour: Behaviour = Field(description="What it does.")
+    behavior: Behavior = Field(description="What it does.")
     full_name: str = Field(description="Fully qualified name of its node.")
     targets: tuple[Target, ...] = Field(TARGETS, description="Targets on which it is loaded.")
     device: str | None = Field(None, description="Device whose joints it drives.")
@@ -300,7 +300,7 @@ class Contract(ContractModel):
     clock_of: dict[str, str] = Field(
         default_factory=dict, description="Clock of each node, controller and device that makes or ages stamps."
     )
-    plugin_behaviours: dict[str, Behaviour] = Field(description="Behavior of each controller plugin.")
+    plugin_behaviors: dict[str, Behavior] = Field(description="Behavior of each controller plugin.")
     devices: dict[str, ContractDevice] = Field(description="Devices by name.")
     simulated_joints: dict[str, ContractSimulatedJoint] = Field(
         default_factory=dict, description="What the mock adds to joints, by joint."

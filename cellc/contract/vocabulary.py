@@ -92,7 +92,7 @@ class InterfaceKind(Term):
     ACTION = "action"
 
 
-class Behaviour(Term):
+class Behavior(Term):
     """What a controller does: the kinds of the catalog, and the variants that one plugin or one device has."""
 
     JOINT_TRAJECTORY = "joint_trajectory"
@@ -111,13 +111,13 @@ class Behaviour(Term):
     """A device moves, or lets itself be moved, past its joints' interfaces: force control, hand guiding."""
 
 
-TRAJECTORIES = frozenset({Behaviour.JOINT_TRAJECTORY, Behaviour.SCALED_JOINT_TRAJECTORY})
+TRAJECTORIES = frozenset({Behavior.JOINT_TRAJECTORY, Behavior.SCALED_JOINT_TRAJECTORY})
 """They take FollowJointTrajectory goals."""
 
-PASSIVE = frozenset({Behaviour.BROADCASTER, Behaviour.SERVICE})
+PASSIVE = frozenset({Behavior.BROADCASTER, Behavior.SERVICE})
 """They command no joint: such a kind of a device publishes what the hardware reports, or answers services."""
 
-OF_ONE_DEVICE = PASSIVE | {Behaviour.OWN_MOTION}
+OF_ONE_DEVICE = PASSIVE | {Behavior.OWN_MOTION}
 """They act as no neutral kind: such a kind of a device says itself what it claims, reads, publishes and serves."""
 
 
@@ -125,7 +125,7 @@ class AttemptOutcome(Term):
     """How an attempt ends; each failure is distinguished from every other."""
 
     SUCCEEDED = "succeeded"
-    CANCELLED = "cancelled"
+    CANCELED = "canceled"
     STALE_STATE = "stale_state"
     TF_FAILURE = "tf_failure"
     PLANNING_FAILURE = "planning_failure"
@@ -240,7 +240,7 @@ class Need(Term):
     NO_FAULT = "no_fault"
     AREA_EMPTY = "area_empty"
     NOTHING_HELD = "nothing_held"
-    PAYLOAD_TOLD = "payload_told"
+    PAYLOAD_TOLD = "payload_set"
     HOMED = "homed"
 
 

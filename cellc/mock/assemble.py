@@ -192,7 +192,7 @@ def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerMana
             folder.parameters[name],
             namespace=manager.namespace,
             distro=contract.distro,
-            plugin_behaviours=contract.plugin_behaviours,
+            plugin_behaviors=contract.plugin_behaviors,
             declared={
                 controller: DeclaredInterfaces(facts.command_interfaces, facts.state_interfaces)
                 for controller, facts in manager.controllers.items()

@@ -176,7 +176,7 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
     ]
     if not begun:
         return None
-    if ended.outcome == AttemptOutcome.CANCELLED and ended.cancel is not None:
+    if ended.outcome == AttemptOutcome.CANCELED and ended.cancel is not None:
         return ended.cancel.latency_s
     return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9
 

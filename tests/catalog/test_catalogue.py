@@ -87,7 +87,7 @@ def test_device_speaks_of_known_types_profiles_and_kinds(name: str) -> None:
         assert types.kind_of(action.type) == "action"
     released = {row.distro for row in model.versions if row.part == "driver"}
     for controller in model.controllers.values():
-        assert controller.behaviour in (*controller_kinds(), *OF_ONE_DEVICE)
+        assert controller.behavior in (*controller_kinds(), *OF_ONE_DEVICE)
         # A controller of the vendor exists where its driver is released, one of ros2_controllers everywhere.
         assert set(controller.plugins) in (set(Distro), released)
 

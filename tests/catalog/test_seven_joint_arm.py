@@ -9,7 +9,7 @@ import pytest
 
 from cellc.compiler.catalog.load import CatalogDevice, load_device
 from cellc.compiler.catalog.starter import NamedDevice, starter_spec
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.vocabulary import Behavior, Distro
 from cellc.robot.description.model import Box
 from tests.catalog.chains import Matrix, transform
 
@@ -108,7 +108,7 @@ def test_trajectories_on_the_robot_are_torques_with_the_shipped_gains() -> None:
     control = _device("franka_fr3").model.control
     assert control is not None
     assert control.hardware.real is not None
-    commands = control.hardware.real.commands[Behaviour.JOINT_TRAJECTORY]
+    commands = control.hardware.real.commands[Behavior.JOINT_TRAJECTORY]
     assert commands.interfaces == ("effort",)
     assert commands.parameters == {
         f"gains.{{prefix}}{joint}.{gain}": float(values[index])

@@ -59,7 +59,7 @@ def test_a_line_of_hashes_is_one_comment_to_the_formatter(cell: Path) -> None:
 _DECLARING = f"""\
 controllers:
   lamp:
-    behaviour: broadcaster
+    behavior: broadcaster
     source: made up
     plugins: {{jazzy: {{type: stage/Lamp, package: stage}}}}
     parameters:

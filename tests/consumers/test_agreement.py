@@ -114,7 +114,7 @@ def test_contract_has_the_controllers_of_the_parameter_files(cell: str, distro: 
         for name, one in own_names.items():
             own = told(texts, process.files, one["full_name"])
             joints = own.get("joints", [own["joint"]] if "joint" in own else [])
-            assert joints == one["joints"] or one["behaviour"] == "joint_state_broadcaster", name
+            assert joints == one["joints"] or one["behavior"] == "joint_state_broadcaster", name
             if "command_interfaces" in own:
                 kinds = own["command_interfaces"]
                 assert one["command_interfaces"] == [f"{joint}/{kind}" for joint in joints for kind in kinds]

@@ -54,8 +54,8 @@ def _so(device: dict[str, Any]) -> set[str]:
     way = (
         "headless" if program["played_by"] == "driver" else {"local": "pendant", "remote": "dashboard"}[program["mode"]]
     )
-    told_by = device.get("payload", {}).get("told_by", "installation")
-    return {way, f"payload_by_{told_by}", "thresholds_stated" if "collision" in device else "thresholds_open"}
+    set_by = device.get("payload", {}).get("set_by", "installation")
+    return {way, f"payload_by_{set_by}", "thresholds_stated" if "collision" in device else "thresholds_open"}
 
 
 @pytest.mark.parametrize("distro", DISTROS)

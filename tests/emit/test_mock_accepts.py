@@ -22,7 +22,7 @@ def test_every_controller_becomes_active(cell: str, distro: str) -> None:
         artifacts[contract["files"]["urdf_mock"]],
         artifacts[contract["files"]["parameters"]["control"]],
         distro=Distro(distro),
-        plugin_behaviours=contract["plugin_behaviours"],
+        plugin_behaviors=contract["plugin_behaviors"],
     )
     later = [one["request"] for one in json.loads(artifacts["config/bring_up.json"])["mock"] if "request" in one]
     for request in later:

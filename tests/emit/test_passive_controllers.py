@@ -49,7 +49,7 @@ def _spawners(cell: str) -> list[ElementTree.Element]:
 
 def test_broadcaster_reads_what_it_publishes_and_drives_nothing() -> None:
     scaling = _controllers("ur5e_pick")["scaling"]
-    assert scaling["behaviour"] == "broadcaster"
+    assert scaling["behavior"] == "broadcaster"
     assert scaling["state_interfaces"] == ["arm_speed_scaling/speed_scaling_factor"]
     assert scaling["command_interfaces"] == scaling["joints"] == []
     assert scaling["targets"] == ["mock", "real"]
@@ -140,7 +140,7 @@ def test_mock_runs_a_broadcaster_on_what_it_reads_and_refuses_what_it_has_not() 
         artifacts["urdf/ur5e_pick.mock.urdf"],
         artifacts["config/controllers.yaml"],
         distro=Distro.JAZZY,
-        plugin_behaviours=contract_data(artifacts["contract.json"])["plugin_behaviours"],
+        plugin_behaviors=contract_data(artifacts["contract.json"])["plugin_behaviors"],
         declared={
             name: DeclaredInterfaces(tuple(one["command_interfaces"]), tuple(one["state_interfaces"]))
             for name, one in controllers.items()

@@ -24,7 +24,7 @@ def test_built_cell_passes_its_rehearsals(pick: Path) -> None:
         ("program_stopped", "claim_failure", True),
         ("jogged_and_restarted", "succeeded", True),
         ("gripper_activated", "succeeded", True),
-        ("cancelled", "cancelled", True),
+        ("canceled", "canceled", True),
     ]
 
 
@@ -40,7 +40,7 @@ def test_attempt_records_are_the_same_bytes_from_run_to_run(pick: Path, tmp_path
 def test_records_do_not_depend_on_where_the_folder_lies(pick: Path, tmp_path: Path) -> None:
     moved = tmp_path / "else where"
     moved.symlink_to(pick)
-    near = process("mock", "else where", "--records", "near", "--rehearsal", "cancelled", cwd=tmp_path)
-    far = process("mock", str(pick), "--records", str(tmp_path / "far"), "--rehearsal", "cancelled")
+    near = process("mock", "else where", "--records", "near", "--rehearsal", "canceled", cwd=tmp_path)
+    far = process("mock", str(pick), "--records", str(tmp_path / "far"), "--rehearsal", "canceled")
     assert near.code == far.code == 0
     assert (tmp_path / "near").read_bytes() == (tmp_path / "far").read_bytes()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cellc.compiler.cell.control import Controller, ControllerManager, ControllerSwitch
 from cellc.compiler.graph.claims import ClaimGraph, WrittenParameter, can_switch, explore
 from cellc.contract.diagnostics import Span
-from cellc.contract.vocabulary import Behaviour
+from cellc.contract.vocabulary import Behavior
 
 SPAN = Span("cell.yaml", 1, 1, 1, 2)
 
@@ -18,7 +18,7 @@ def controller(name: str, *claims: str, active: bool = False) -> Controller:
         manager="control",
         label=name,
         kind="forward_command",
-        behaviour=Behaviour.FORWARD_COMMAND,
+        behavior=Behavior.FORWARD_COMMAND,
         plugin="any/Plugin",
         command_interfaces=claims,
         active=active,

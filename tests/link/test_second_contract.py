@@ -77,19 +77,19 @@ def test_alternate_that_claims_effort_by_name_has_the_gains_of_the_vendor(tmp_pa
 
 def test_arm_is_commanded_by_position_on_the_mock_and_by_effort_on_the_robot(cell: Cell) -> None:
     arm = _controller(cell, "arm_trajectory")
-    assert arm.behaviour == cell.behaviours[TRAJECTORY] == "joint_trajectory"
+    assert arm.behavior == cell.behaviors[TRAJECTORY] == "joint_trajectory"
     assert arm.claims("mock") == tuple(f"{joint}/position" for joint in JOINTS)
     assert arm.claims("real") == tuple(f"{joint}/effort" for joint in JOINTS)
-    assert arm.told("mock")["command_interfaces"] == ("position",)
-    assert arm.told("real")["command_interfaces"] == ("effort",)
-    assert not [name for name in arm.told("mock") if name.startswith("gains.")]
-    assert arm.told("real")["gains.fr3_joint1.p"] == 600.0
-    assert arm.told("real")["gains.fr3_joint7.d"] == 5.0
+    assert arm.parameters_on("mock")["command_interfaces"] == ("position",)
+    assert arm.parameters_on("real")["command_interfaces"] == ("effort",)
+    assert not [name for name in arm.parameters_on("mock") if name.startswith("gains.")]
+    assert arm.parameters_on("real")["gains.fr3_joint1.p"] == 600.0
+    assert arm.parameters_on("real")["gains.fr3_joint7.d"] == 5.0
 
 
 def test_parameter_names_carry_the_prefix(tmp_path: Path) -> None:
     prefixed = _changed('    prefix: ""                 # joints', "    prefix: left_  # joints", tmp_path)
-    parameters = _controller(prefixed, "arm_trajectory").told("real")
+    parameters = _controller(prefixed, "arm_trajectory").parameters_on("real")
     assert parameters["gains.left_fr3_joint4.p"] == 600.0
     assert not [name for name in parameters if "{" in name]
     arm = prefixed.device("arm").hardware
@@ -102,8 +102,8 @@ def test_claims_of_the_spec_hold_on_every_target_and_come_before_those_of_the_ve
     changed = _changed(written, f"{written} command_interfaces: [position, velocity],", tmp_path)
     arm = _controller(changed, "arm_trajectory")
     assert arm.claims("mock") == arm.claims("real")
-    assert arm.told("real")["command_interfaces"] == ("position", "velocity")
-    assert not [name for name in arm.told("real") if name.startswith("gains.")]
+    assert arm.parameters_on("real")["command_interfaces"] == ("position", "velocity")
+    assert not [name for name in arm.parameters_on("real") if name.startswith("gains.")]
 
 
 def test_node_of_the_hand_reaches_it_through_the_arm(cell: Cell) -> None:
@@ -139,7 +139,7 @@ def test_cell_links_on_every_distribution(distro: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("distro", "behaviour", "parameter"),
+    ("distro", "behavior", "parameter"),
     [
         ("humble", "scaled_joint_trajectory", "speed_scaling_interface_name"),
         ("jazzy", "scaled_joint_trajectory", "speed_scaling_interface_name"),
@@ -149,10 +149,10 @@ def test_cell_links_on_every_distribution(distro: str, tmp_path: Path) -> None:
     ],
 )
 def test_controller_that_is_told_of_speed_scaling_follows_it(
-    distro: str, behaviour: str, parameter: str, tmp_path: Path
+    distro: str, behavior: str, parameter: str, tmp_path: Path
 ) -> None:
     text = spec_text("ur5e_pick")
     changed = linked(written(tmp_path, text.replace("ros: jazzy", f"ros: {distro}")))
     controller = _controller(changed, "arm_trajectory")
-    assert controller.behaviour == behaviour
+    assert controller.behavior == behavior
     assert controller.parameters[parameter] == "arm_speed_scaling/speed_scaling_factor"

@@ -195,7 +195,7 @@ def test_damaged_numbers_end_in_a_refusal_or_an_outcome(folder: Path, name: str)
         (folder / name).write_text(json.dumps(_marked(whole, path)).replace(f'"{MARK}"', value))
         out, error = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-            code = run_rehearsals(RehearsalOptions(str(folder), rehearsals=("cancelled",)))
+            code = run_rehearsals(RehearsalOptions(str(folder), rehearsals=("canceled",)))
         assert code in ((2,) if value in NO_NUMBER else (0, 1, 2)), (path, value)
         assert (code == 2) == (len(error.getvalue().splitlines()) == 1), (path, value, error.getvalue())
 

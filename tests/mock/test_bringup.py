@@ -48,7 +48,7 @@ def test_unknown_controller_type_fails_in_configure(folder: Path) -> None:
 
 
 def test_claims_stand_in_the_evidence(cell: MockCell) -> None:
-    stages = {stage.stage: stage for stage in cell.run("cancelled").bringup}
+    stages = {stage.stage: stage for stage in cell.run("canceled").bringup}
     assert list(stages) == ["discover", "configure", "observe", "claim"]
     assert "`arm_elbow_joint/position` is claimed by `arm_trajectory`" in stages["claim"].facts
     assert len(stages["claim"].facts) == 7  # six joints of the arm and one of the gripper

@@ -21,10 +21,10 @@ def contract() -> Contract:
 def test_every_host_and_every_device_with_its_own_clock_has_one(contract: Contract) -> None:
     assert contract.clocks == {
         "control_pc": ContractClock(
-            domain="ros", synchronised_by="chrony", max_offset_s=0.001, offset_s=0.0002, drift=5e-6
+            domain="ros", synchronized_by="chrony", max_offset_s=0.001, offset_s=0.0002, drift=5e-6
         ),
         "camera": ContractClock(
-            domain="camera", synchronised_by="global_time", max_offset_s=0.002, offset_s=-0.0015, drift=-20e-6
+            domain="camera", synchronized_by="global_time", max_offset_s=0.002, offset_s=-0.0015, drift=-20e-6
         ),
     }
 

@@ -127,7 +127,7 @@ def test_edit_that_no_run_shows_is_a_note_of_every_result(spoilt: Path) -> None:
         with _edited(spoilt, edit):
             cell = load(spoilt, edited=True)
         assert any(note.startswith(f"`{edit.file}` ") and edit.not_shown in note for note in cell.notes), edit
-        assert cell.run("cancelled").edited
+        assert cell.run("canceled").edited
 
 
 def test_a_page_of_an_edited_folder_names_what_is_not_executed(spoilt: Path) -> None:

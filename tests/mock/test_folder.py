@@ -151,7 +151,7 @@ def test_fault_on_something_unknown_is_refused(load_with: LoadWith) -> None:
 
 
 def test_unknown_rehearsal_lists_those_that_exist(cell: MockCell) -> None:
-    with pytest.raises(MockError, match=r"it has `pick_and_place`, `stale_camera`, .*`cancelled`"):
+    with pytest.raises(MockError, match=r"it has `pick_and_place`, `stale_camera`, .*`canceled`"):
         cell.run("pick")
 
 
@@ -218,14 +218,14 @@ def test_edited_folder_has_an_id_of_its_own_in_every_result(folder: Path, cell: 
     path = folder / "config" / "controllers.yaml"
     path.write_text(path.read_text() + "# by hand\n")
     edited = load(folder, edited=True)
-    result = edited.run("cancelled")
+    result = edited.run("canceled")
     ids = {record.configuration_id for record in result.attempts}
     assert result.edited
     assert ids == {edited.contract.configuration_id}
     assert edited.contract.configuration_id.startswith("edited-")
     path.write_text(path.read_text() + "# more\n")
     assert load(folder, edited=True).contract.configuration_id not in ids
-    assert not cell.run("cancelled").edited
+    assert not cell.run("canceled").edited
 
 
 def test_no_gate_of_an_edited_folder_is_signed(folder: Path, cell: MockCell) -> None:
@@ -243,13 +243,13 @@ def test_no_gate_of_an_edited_folder_is_signed(folder: Path, cell: MockCell) -> 
 def test_edited_folder_is_refused_and_run_by_the_command(folder: Path, tmp_path: Path) -> None:
     path = folder / "config" / "controllers.yaml"
     path.write_text(path.read_text() + "# by hand\n")
-    refused = run("mock", str(folder), "--rehearsal", "cancelled")
+    refused = run("mock", str(folder), "--rehearsal", "canceled")
     assert (refused.code, "differs from the manifest" in refused.err) == (2, True)
-    told = run("mock", str(folder), "--rehearsal", "cancelled", "--edited", "--records", str(tmp_path / "records"))
+    told = run("mock", str(folder), "--rehearsal", "canceled", "--edited", "--records", str(tmp_path / "records"))
     assert told.out.startswith("note: `config/controllers.yaml` differs from the manifest")
-    assert "passed  cancelled of an edited folder: cancelled" in told.out
+    assert "passed  canceled of an edited folder: canceled" in told.out
     assert '"configuration_id":"edited-' in (tmp_path / "records").read_text()
-    as_json = json.loads(run("mock", str(folder), "--rehearsal", "cancelled", "--edited", "--json").out)
+    as_json = json.loads(run("mock", str(folder), "--rehearsal", "canceled", "--edited", "--json").out)
     assert as_json["rehearsals"][0]["edited"] is True
     assert as_json["configuration_id"].startswith("edited-")
 
@@ -283,7 +283,7 @@ def test_mock_runs_without_the_rest_of_the_compiler(built_folder: Path, tmp_path
         "program_stopped": "claim_failure",
         "jogged_and_restarted": "succeeded",
         "gripper_activated": "succeeded",
-        "cancelled": "cancelled",
+        "canceled": "canceled",
     }
     assert all(entry["passed"] for entry in summary["rehearsals"])
 

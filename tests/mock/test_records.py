@@ -40,7 +40,7 @@ def test_every_record_has_every_field_of_the_checkpoint(cell: MockCell) -> None:
 
 
 def test_fields_that_the_contract_asks_for_are_recorded(cell: MockCell) -> None:
-    record = json.loads(to_json_lines(cell.run("cancelled").attempts).splitlines()[0])
+    record = json.loads(to_json_lines(cell.run("canceled").attempts).splitlines()[0])
     for field in cell.contract.attempt_fields:
         assert set(field.split("/")) <= set(record)
 
@@ -87,14 +87,14 @@ def test_records_are_the_same_to_the_byte_in_two_processes(built_folder: Path, t
 
 def test_another_seed_gives_other_goal_ids_and_the_same_seed_the_same(cell: MockCell) -> None:
     def goal_ids(seed: int) -> list[str | None]:
-        return [attempt.action_goal_id for attempt in cell.run("cancelled", seed=seed).attempts]
+        return [attempt.action_goal_id for attempt in cell.run("canceled", seed=seed).attempts]
 
     assert goal_ids(7) == goal_ids(7)
     assert goal_ids(7) != goal_ids(8)
 
 
 def test_order_of_rehearsals_does_not_matter(cell: MockCell) -> None:
-    first = to_json_lines(cell.run("cancelled").attempts)
+    first = to_json_lines(cell.run("canceled").attempts)
     cell.run("pick_and_place")
     cell.run("stale_camera")
-    assert to_json_lines(cell.run("cancelled").attempts) == first
+    assert to_json_lines(cell.run("canceled").attempts) == first

@@ -44,7 +44,7 @@ def test_frozen_camera_ends_in_stale_state_when_the_last_observation_is_as_old_a
 
 
 def test_cancel_holds_within_its_bound(cell: MockCell) -> None:
-    result = cell.run("cancelled")
+    result = cell.run("canceled")
     assert result.passed
     cancel = result.attempts[-2].cancel
     assert cancel is not None
@@ -53,9 +53,9 @@ def test_cancel_holds_within_its_bound(cell: MockCell) -> None:
 
 
 def test_a_bound_that_is_not_held_fails_the_rehearsal(load_with: LoadWith) -> None:
-    cell = load_with(fault("cancel", "move", 3.0), expect="cancelled", within_s=0.001)
+    cell = load_with(fault("cancel", "move", 3.0), expect="canceled", within_s=0.001)
     result = cell.run("faulty")
-    assert result.outcome == "cancelled"
+    assert result.outcome == "canceled"
     assert not result.passed
 
 
@@ -80,7 +80,7 @@ CASES: list[tuple[str, Fault, str, str]] = [
     ("missed cycles", fault("skip_cycles", "", 1.0, cycles=5), "missed_cycle", "update cycles missed, 0 allowed"),
     ("update loop stops", fault("skip_cycles", "", 1.0, cycles=100_000), "missed_cycle", "cycles missed"),
     ("protective stop", fault("protective_stop", "arm", 1.0), "protective_stop", "arm_hardware is inactive"),
-    ("cancelled grip", fault("cancel", "grip", 1.0), "cancelled", "the grip was canceled as asked"),
+    ("canceled grip", fault("cancel", "grip", 1.0), "canceled", "the grip was canceled as asked"),
 ]
 
 
@@ -105,7 +105,7 @@ def test_protective_stop_outranks_a_stale_observation(load_with: LoadWith) -> No
     assert failed.operator_intervention == "required: acknowledge by operator"
 
 
-def test_rehearsal_that_takes_too_long_is_cancelled_and_held(load_with: LoadWith) -> None:
+def test_rehearsal_that_takes_too_long_is_canceled_and_held(load_with: LoadWith) -> None:
     failed = last_attempt(load_with(timeout_s=1.0))
     assert failed.outcome == "timeout"
     assert failed.cancel is not None
@@ -121,4 +121,4 @@ def test_fault_that_ends_before_it_is_met_changes_nothing(load_with: LoadWith) -
 def test_two_controller_managers_share_one_clock(two_managers: MockCell) -> None:
     own = [entry for entry in two_managers.entries if entry.bring_up == "mock"]  # only that plan is for two managers
     outcomes = [two_managers.run(entry.name).outcome for entry in own]
-    assert outcomes == ["succeeded", "stale_state", "claim_failure", "succeeded", "cancelled"]
+    assert outcomes == ["succeeded", "stale_state", "claim_failure", "succeeded", "canceled"]

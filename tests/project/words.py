@@ -76,13 +76,10 @@ _SEAM = re.compile(r"_|(?<=[a-z])(?=[A-Z])")
 _COMMENT = re.compile(r"(?:^ *|  )# (.*)$", re.MULTILINE)
 _QUOTES = re.compile(
     r"^ *(?:logged|said|not|image): *\[.*$"
-    r"|current goal cancelled during deactivate transition|^cancelled due to$"
-    r"|\bexpect: *cancelled\b|^controller \{controller\} behaviour$",
+    r"|current goal cancelled during deactivate transition|^cancelled due to$",
     re.MULTILINE | re.IGNORECASE,
 )
 """What users and programs of others write, and keys and values of a spec: their spelling is not ours."""
-_IN_KEYS = {"behaviour", "behaviours", "cancelled"}
-"""Words of keys and of values in files that users have written: an attribute is called like its key."""
 
 
 def banned(text: str) -> list[str]:
@@ -155,7 +152,7 @@ def _of_module(text: str) -> tuple[list[str], list[str]]:
             names.append(node.arg)
         elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
             names.append(node.target.id)
-    read = [" ".join(word for word in _SEAM.split(name) if word.lower() not in _IN_KEYS) for name in names]
+    read = [" ".join(_SEAM.split(name)) for name in names]
     shown = [value for key, value in literals.items() if key not in prose]
     explained = [value for key, value in literals.items() if key in prose]
     return shown, [*explained, *read, *_COMMENT.findall(text), *re.findall(r"\bfor one in\b", text)]

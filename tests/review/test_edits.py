@@ -26,7 +26,7 @@ STATES = "controller /controller_manager joint_states inactive"
 STOPPED = "topic /arm_io/robot_program_running std_msgs/msg/Bool data value False"
 LESS_ALONE = f"lost {ALONE}, /perception; new {ALONE}"
 STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, expect: stale_state}"
-CANCELLED = "cancelled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: cancelled, within: 200 ms}"
+CANCELED = "canceled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: canceled, within: 200 ms}"
 
 
 def _first_goal(by: float, seconds: float) -> str:
@@ -69,7 +69,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             ("residual: 0.8 mm", "residual: 1.2 mm"),
             ("recovery_time: 120 s", "recovery_time: 180 s"),
             (f"  {STALE}\n", ""),
-            (CANCELLED, CANCELLED.replace("within: 200 ms", "within: 400 ms")),
+            (CANCELED, CANCELED.replace("within: 200 ms", "within: 400 ms")),
             ("limits: controls, watchdogs", "limits: robot, watchdogs"),
             ("timeout: 20 s\n", "timeout: 10 s\n"),
         ),
@@ -85,7 +85,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous payload | arm | payload set in the robot | 1.0 kg, tool included, "
             f"center of mass 0 0 58 mm {LOOKED_AT} -> 1.5 kg, tool included, "
             f"center of mass 0 0 58 mm {LOOKED_AT}",
-            "dangerous rehearsals | cancelled | bound of the outcome | 200 ms -> 400 ms | +100 %",
+            "dangerous rehearsals | canceled | bound of the outcome | 200 ms -> 400 ms | +100 %",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",
             "review interfaces | /move_action | timeout | 20 s -> 10 s | -50 %",

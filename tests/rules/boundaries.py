@@ -22,7 +22,7 @@ _LIMIT = (
     '<joint name="turn" type="revolute"><parent link="base"/> <child link="arm"/> <axis xyz="0 0 1"/>'
     '<limit lower="{value}" upper="1" velocity="1" effort="10"/></joint>'
 )
-_STAMP = "{{source: hardware, clock: camera, exposure: 8 ms, synchronised_by: global_time, max_offset: {value}}}"
+_STAMP = "{{source: hardware, clock: camera, exposure: 8 ms, synchronized_by: global_time, max_offset: {value}}}"
 _TOPIC = "{{from: {{perception: {{reliability: reliable, depth: 1, {value}}}}}}}"
 _FIRST = (
     "{{joint: arm/joint_6, direction: +, max_delta: {delta}, velocity: {velocity}, timeout: 5 s, stop_if: [overshoot]}}"
@@ -117,7 +117,7 @@ BOUNDARIES: list[Case] = [
     *_spec(
         "host-offset-beyond-age",
         "hosts: {{control_pc: {{nics: {{cell: {{address: 10.20.0.10/24, carries: [ros]}}}}}},"
-        " vision_pc: {{scheduling: generic, clock: {{domain: ros, synchronised_by: chrony, max_offset: {value}}},"
+        " vision_pc: {{scheduling: generic, clock: {{domain: ros, synchronized_by: chrony, max_offset: {value}}},"
         " nics: {{cell: {{address: 10.20.0.11/24, carries: [ros]}}}}}}}}\n"
         "network: {{discovery: multicast}}\nnodes: {{perception: {{host: vision_pc}}}}\n"
         "safety: {{stop: {{independent_of: [control_pc, vision_pc]}}}}",

@@ -23,7 +23,7 @@ rehearsals: {{pick_and_place: {{steps: [{{move: home}}, {{detect: object}}, {{mo
 """
 _GRASP, _TRIGGER = "action: control_msgs/action/ParallelGripperCommand, server", "service: std_srvs/srv/Trigger, server"
 _BOUND = ", frame: world, timeout: 5 s, on_timeout: cancel_and_hold, cancel_within: 200 ms"
-_STAMP = "devices: {{camera: {{stamp: {{source: hardware, clock: {}, synchronised_by: {}, max_offset: {}}}}}}}\n"
+_STAMP = "devices: {{camera: {{stamp: {{source: hardware, clock: {}, synchronized_by: {}, max_offset: {}}}}}}}\n"
 _QUEUE = "interfaces: {{/object_pose: {{wants: {}, max_age: {}, to: {{task: {{reliability: {}, depth: {}}}}}}}}}"
 _SPARE = (
     "calibrations: {spare: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 0.3 mm, "
@@ -100,13 +100,13 @@ def test_queue_that_fits_into_the_age_is_advised(max_age: str, depth: int, most:
 @pytest.mark.parametrize(
     ("fragment", "field"),
     [
-        (_STAMP.format("camera", "null", "2 ms"), "synchronised_by"),
+        (_STAMP.format("camera", "null", "2 ms"), "synchronized_by"),
         (_STAMP.format("camera", "ptp", "null"), "max_offset"),
-        (_STAMP.format("camera", "null", "null"), "synchronised_by"),  # the first of both
+        (_STAMP.format("camera", "null", "null"), "synchronized_by"),  # the first of both
         (_STAMP.format("camera", "ptp", "2 ms"), None),
         (_STAMP.format("ros", "null", "null"), None),  # the clock of the hosts
         (_PLANT + _STAMP.format("plant", "null", "null"), None),
-        (_PLANT + _STAMP.format("ros", "null", "null"), "synchronised_by"),  # which no host has here
+        (_PLANT + _STAMP.format("ros", "null", "null"), "synchronized_by"),  # which no host has here
     ],
 )
 def test_clock_of_a_sensor_is_that_of_a_host_or_bound_to_it(fragment: str, field: str | None, folder: Path) -> None:

@@ -109,7 +109,7 @@ def test_what_is_told_as_a_pattern_is_filled_with_the_names_of_the_cell(case: Ca
 @every_kind
 def test_a_kind_is_told_what_the_vendor_s_own_configuration_tells(case: Case, kind: str) -> None:
     target, told = real_target(case), _told(case, kind)
-    given = dict(_controller(target, kind).told("real"))
+    given = dict(_controller(target, kind).parameters_on("real"))
     declared = told.get("declared_parameters")
     assert declared is None or set(given) <= set(declared)
     for name, value in told["parameters"].items():
@@ -170,7 +170,7 @@ def test_the_state_of_an_fr3_is_published_as_its_vendor_publishes_it(case: Case)
     told = facts(case.release, "controllers")["vendor_bringup"]["active"]["franka_robot_state_broadcaster"]
     assert controller.plugin == told["type"]
     assert controller.command_interfaces == ()
-    given = controller.told("real")
+    given = controller.parameters_on("real")
     assert {name: given[name] for name in told["parameters"]} == told["parameters"]
     published = facts(case.release, "nodes")["franka_robot_state_broadcaster"]["publishes"]
     enclave = permissions(target.texts["security/policy.xml"])["/fr3_hand/controller_manager"]

@@ -11,7 +11,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from cellc.contract.vocabulary import (
-    Behaviour,
+    Behavior,
     CommandAuthority,
     Distro,
     GateCode,
@@ -48,7 +48,7 @@ RepositoryUrl = Annotated[str, StringConstraints(pattern=URL, max_length=300)]
 DAY = r"^\d{4}-\d{2}-\d{2}\Z"
 Date = Annotated[str, StringConstraints(pattern=DAY)]
 DistroName = Annotated[Distro, Strict(False)]
-BehaviourName = Annotated[Behaviour, Strict(False)]
+BehaviorName = Annotated[Behavior, Strict(False)]
 MomentName = Annotated[Moment, Strict(False)]
 MotionName = Annotated[Motion, Strict(False)]
 AuthorityName = Annotated[CommandAuthority, Strict(False)]

@@ -6,7 +6,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.compiler.catalog.catalog_model import (
-    BehaviourName,
+    BehaviorName,
     CatalogModel,
     Date,
     DistroName,
@@ -138,7 +138,7 @@ class ControllerKind(CatalogModel):
     """
 
     format: Literal[1]
-    kind: BehaviourName
+    kind: BehaviorName
     summary: Text
     as_of: Date
     sources: tuple[Text, ...] = Field(min_length=1)

@@ -96,7 +96,7 @@ class SafetyFacts(CatalogModel):
     Attributes:
         stop_authority: What has the authority to stop the device, such as its safety controller.
         states: States of the device's own safety controller.
-        told: Topics that say in which state the device is.
+        reported_by: Topics that say in which state the device is.
         modes: Operating modes of the device, by the vendor's names.
         recovery: Recovery from the states that stop the device.
         ending: What people do at the device when nothing is claimed any more, before its driver ends.
@@ -108,7 +108,7 @@ class SafetyFacts(CatalogModel):
 
     stop_authority: Text
     states: tuple[SafetyStateFacts, ...] = ()
-    told: tuple[StateTopicFacts, ...] = ()
+    reported_by: tuple[StateTopicFacts, ...] = ()
     modes: tuple[Text, ...] = ()
     recovery: tuple[RecoveryFacts, ...] = ()
     ending: tuple[HumanStep, ...] = ()

@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from cellc.compiler.catalog.catalog_model import BehaviourName, CatalogModel, DistroName, Text
+from cellc.compiler.catalog.catalog_model import BehaviorName, CatalogModel, DistroName, Text
 from cellc.compiler.catalog.controller_kind import (
     ControllerAction,
     ControllerKind,
@@ -21,7 +21,7 @@ class DeviceController(CatalogModel):
     Kinds of ``broadcaster``, ``service`` and ``own_motion`` act as no neutral kind: they say themselves what they take.
 
     Attributes:
-        behaviour: Neutral kind that the controller acts as, or ``broadcaster``, ``service`` or ``own_motion``.
+        behavior: Neutral kind that the controller acts as, or ``broadcaster``, ``service`` or ``own_motion``.
         command_interfaces: Interfaces that it claims of each joint if the spec says nothing; empty for those of the
             neutral kind.
         claims: Full names of interfaces that it claims; ``name_[0..3]`` counts for four of them.
@@ -36,7 +36,7 @@ class DeviceController(CatalogModel):
         source: Line of code or document from which this was read.
     """
 
-    behaviour: BehaviourName
+    behavior: BehaviorName
     command_interfaces: tuple[InterfaceName, ...] = ()
     claims: tuple[Text, ...] = ()
     reads: tuple[Text, ...] = ()
@@ -55,12 +55,12 @@ class DeviceController(CatalogModel):
         Args:
             as_of: date of the device's entry.
         """
-        if self.behaviour not in OF_ONE_DEVICE:
+        if self.behavior not in OF_ONE_DEVICE:
             return None
         return ControllerKind(
             format=1,
-            kind=self.behaviour,
-            summary=f"a {self.behaviour} of one device",
+            kind=self.behavior,
+            summary=f"a {self.behavior} of one device",
             as_of=as_of,
             sources=(self.source,),
             scope="sensor",

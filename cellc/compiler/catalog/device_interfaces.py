@@ -8,7 +8,7 @@ from pydantic import Field, StringConstraints
 
 from cellc.compiler.catalog.catalog_model import (
     BareName,
-    BehaviourName,
+    BehaviorName,
     CatalogModel,
     DistroName,
     GraphName,
@@ -121,7 +121,7 @@ class HardwareFacts(CatalogModel):
         commands: What a kind of controller claims on this hardware, by kind.
         effects: What the plugin does in the world at each moment, such as ``activate``.
         start: How the component must be brought up, if it cannot go to active by itself.
-        told: Topics that say whether a need holds, such as ``program_running``.
+        reported_by: Topics that say whether a need holds, such as ``program_running``.
         command_timeout: Longest silence of the controller manager before the device ends what it does.
         nodes: Nodes that the plugin makes in the process of the controller manager.
         modes: Command modes that exclude each other.
@@ -135,10 +135,10 @@ class HardwareFacts(CatalogModel):
     parameters: dict[Text, ParameterText] = Field(default_factory=dict)
     left_out_when_empty: tuple[Text, ...] = ()
     releases: tuple[HardwareRelease, ...] = ()
-    commands: dict[BehaviourName, CommandFacts] = Field(default_factory=dict)
+    commands: dict[BehaviorName, CommandFacts] = Field(default_factory=dict)
     effects: dict[MomentName, EffectFacts] = Field(default_factory=dict)
     start: StartFacts | None = None
-    told: dict[NeedName, NeedStatusFacts] = Field(default_factory=dict)
+    reported_by: dict[NeedName, NeedStatusFacts] = Field(default_factory=dict)
     command_timeout: PositiveDuration | None = None
     nodes: tuple[InnerNodeFacts, ...] = ()
     modes: CommandModes | None = None
@@ -215,7 +215,7 @@ class PluginUse(CatalogModel):
         package: ROS package that has the plugin.
         claims: Full names of interfaces that the controller claims in this distribution besides its ``claims`` in all.
         reads: Full names of interfaces that the controller reads in this distribution besides its ``reads`` in all.
-        behaviour: What the plugin does in this distribution, if that is not the behavior of its kind.
+        behavior: What the plugin does in this distribution, if that is not the behavior of its kind.
         parameters: Parameters of the controller in this distribution, by name.
     """
 
@@ -223,7 +223,7 @@ class PluginUse(CatalogModel):
     package: Token
     claims: tuple[Text, ...] = ()
     reads: tuple[Text, ...] = ()
-    behaviour: BehaviourName | None = None
+    behavior: BehaviorName | None = None
     parameters: dict[Text, ParameterFact] = Field(default_factory=dict)
 
 

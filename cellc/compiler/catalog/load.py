@@ -241,4 +241,4 @@ def kind_behind(type_: str, device: DeviceModel | None) -> ControllerKind | None
         return load_controller_kind(type_).value if type_ in controller_kinds() else None
     assert device is not None  # it has the controller
     kind = own.own_kind(device.as_of)
-    return kind if kind is not None else load_controller_kind(own.behaviour).value
+    return kind if kind is not None else load_controller_kind(own.behavior).value

@@ -101,8 +101,8 @@ def _joints_named(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
 
 def _of_catalog(model: DeviceModel, catalog: CatalogNames) -> Iterator[_Reference]:
     for name, own in model.controllers.items():
-        path = ("controllers", name, "behaviour")
-        yield _Reference(path, own.behaviour, "kind of controller", catalog.kinds, "catalog")
+        path = ("controllers", name, "behavior")
+        yield _Reference(path, own.behavior, "kind of controller", catalog.kinds, "catalog")
     for at, use in _profiles_named(model):
         if isinstance(use, str):
             yield _Reference(at, use, "QoS profile", catalog.profiles, "catalog")

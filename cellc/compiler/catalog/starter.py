@@ -10,7 +10,7 @@ from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.load import CatalogDevice
 from cellc.compiler.catalog.starter_mounts import mounts_of
 from cellc.compiler.catalog.starter_wires import Wires, outputs_controller, switching, wires_of
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.vocabulary import Behavior, Distro
 from cellc.robot.description.model import Joint
 
 _ASIDE = {False: math.radians(20.0), True: 0.05}
@@ -152,7 +152,7 @@ def _of_device(name: str, one: NamedDevice, distro: Distro, wires: Wires) -> Ite
 def _telling_kinds(model: DeviceModel) -> dict[str, None]:
     """Return the kinds of controllers that tell whether the device listens, each once."""
     real = None if model.control is None else model.control.hardware.real
-    return {} if real is None else {told.controller: None for told in real.told.values()}
+    return {} if real is None else {told.controller: None for told in real.reported_by.values()}
 
 
 def _trajectory_kind(model: DeviceModel, distro: Distro) -> str:
@@ -161,7 +161,7 @@ def _trajectory_kind(model: DeviceModel, distro: Distro) -> str:
     One that claims interfaces of its own is left to a person: a mock moves on position commands.
     """
     for kind, own in model.controllers.items():
-        if own.behaviour is Behaviour.JOINT_TRAJECTORY and not own.command_interfaces and distro in own.plugins:
+        if own.behavior is Behavior.JOINT_TRAJECTORY and not own.command_interfaces and distro in own.plugins:
             return kind
     return "joint_trajectory"
 

@@ -29,7 +29,7 @@ from cellc.compiler.cell.uncertainty import Uncertainty
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
-from cellc.contract.vocabulary import Behaviour, Distro, InterfaceKind
+from cellc.contract.vocabulary import Behavior, Distro, InterfaceKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,7 @@ class Cell:
         harmless_programs: the same of programs.
         hardware_packages: packages that the catalog knows to reach hardware.
         implied: what nodes have at the ROS graph by what they are.
-        behaviours: controller plugin type string → what it does, for the plugins in use.
+        behaviors: controller plugin type string → what it does, for the plugins in use.
         packages: further folders in which packages lie, as the current folder sees them.
     """
 
@@ -100,7 +100,7 @@ class Cell:
     rehearsals: tuple[Rehearsal, ...] = ()
     uncertainty: Uncertainty | None = None
     implied: ImpliedEndpoints = field(default_factory=ImpliedEndpoints)
-    behaviours: Mapping[str, Behaviour] = field(default_factory=dict)
+    behaviors: Mapping[str, Behavior] = field(default_factory=dict)
     packages: tuple[str, ...] = ()
 
     def locate(self, *path: str | int) -> Span:

@@ -10,7 +10,7 @@ from cellc.compiler.cell.entity import Entity
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import TARGETS, Target
-from cellc.contract.vocabulary import Behaviour
+from cellc.contract.vocabulary import Behavior
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,7 +54,7 @@ class Controller(Entity):
         targets: targets on which it is spawned; the others lack its hardware, or parts of it.
         stand_in: what takes its goals on the real target where it is not spawned there.
         kind: kind in the catalog, such as ``joint_trajectory``.
-        behaviour: what it does; a vendor's scaled variant is ``scaled_joint_trajectory``.
+        behavior: what it does; a vendor's scaled variant is ``scaled_joint_trajectory``.
         plugin: type string for the controller manager.
         command_interfaces: full names that it claims on the mock, such as ``arm_elbow_joint/position``.
         on_real: what it claims and gets on the real target; None where that is the same.
@@ -72,7 +72,7 @@ class Controller(Entity):
     manager: str
     label: str
     kind: str
-    behaviour: Behaviour
+    behavior: Behavior
     plugin: str
     namespace: str = ""
     targets: tuple[Target, ...] = TARGETS
@@ -107,7 +107,7 @@ class Controller(Entity):
         """Return the full names of the command interfaces that it claims on ``mock`` or ``real``."""
         return self.command_interfaces if self.on_real is None or target != "real" else self.on_real.command_interfaces
 
-    def told(self, target: Target) -> Mapping[str, ParameterValue]:
+    def parameters_on(self, target: Target) -> Mapping[str, ParameterValue]:
         """Return everything that goes to its node on ``mock`` or ``real``."""
         return self.parameters if self.on_real is None or target != "real" else self.on_real.parameters
 

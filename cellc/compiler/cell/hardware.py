@@ -48,7 +48,7 @@ class Effect:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Told:
+class NeedReport:
     """Where a cell hears whether a need holds: ``field`` of the newest message of a controller's topic is ``value``.
 
     Args:
@@ -95,7 +95,7 @@ class HardwareComponent:
         initial_state: the state in which the real one must start.
         at_once: from there it must become active in one call, without a stay in between.
         enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
-        told: where the cell hears whether a need holds.
+        reported_by: where the cell hears whether a need holds.
         nodes: those that the real plugin makes in the process of the controller manager.
         command_timeout_s: the longest silence before the device ends what it does; None where it is not stated.
         modes: command modes of the real one that exclude each other; None where it is not stated.
@@ -114,7 +114,7 @@ class HardwareComponent:
     at_once: bool = False
     enforce_command_limits: bool | None
     command_timeout_s: float | None = None
-    told: Mapping[Need, Told] = field(default_factory=dict)
+    reported_by: Mapping[Need, NeedReport] = field(default_factory=dict)
     nodes: tuple[InnerNode, ...] = ()
     modes: CommandModes | None = None
     fixed_joint_names: bool = False
@@ -127,9 +127,9 @@ class HardwareComponent:
         return tuple(need for need, otherwise in unmet.items() if otherwise is Unmet.KEEPS_SET_POINTS)
 
     @property
-    def heard_before_a_claim(self) -> tuple[Told, ...]:
+    def heard_before_a_claim(self) -> tuple[NeedReport, ...]:
         """Where the cell hears whether these needs hold, as far as the catalog tells."""
-        return tuple(self.told[need] for need in self.kept_by_a_claim if need in self.told)
+        return tuple(self.reported_by[need] for need in self.kept_by_a_claim if need in self.reported_by)
 
     @property
     def is_activation_known(self) -> bool:

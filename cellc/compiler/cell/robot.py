@@ -27,14 +27,14 @@ class Payload:
     Args:
         center_of_mass: in the tool frame, m.
         inertia: about the center of mass, in axes parallel to the tool frame; None where it is not stated.
-        told_by: installation or service.
+        set_by: installation or service.
         load: the part of it that a service tells beside the tool, or None.
     """
 
     mass_kg: float
     center_of_mass: Vector3
     inertia: Moments6 | None
-    told_by: str
+    set_by: str
     load: Load | None
 
 

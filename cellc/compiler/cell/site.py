@@ -35,7 +35,7 @@ class Clock:
     """A clock with its bound to the others; the mock gives it ``simulated_offset_s`` and ``simulated_drift`` in s/s."""
 
     domain: str = "ros"
-    synchronised_by: str | None = None
+    synchronized_by: str | None = None
     max_offset_s: float | None = None
     simulated_offset_s: float = 0.0
     simulated_drift: float = 0.0

@@ -43,11 +43,11 @@ class Switched:
     accepted_by: str | None
 
     @property
-    def told_states(self) -> tuple[str, ...]:
+    def distinct_states(self) -> tuple[str, ...]:
         """The states that the sensors that are wired tell from every other one."""
-        return tuple(name for name in self.states if self._is_told(name))
+        return tuple(name for name in self.states if self._is_distinct(name))
 
-    def _is_told(self, state: str) -> bool:
+    def _is_distinct(self, state: str) -> bool:
         read = self.states[state].sensors
         others = (one.sensors for name, one in self.states.items() if name != state)
         return bool(read) and all(any(other.get(name) != value for name, value in read.items()) for other in others)

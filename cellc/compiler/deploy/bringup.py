@@ -59,7 +59,7 @@ from cellc.contract.bring_up import (
     Watch,
 )
 from cellc.contract.entities import Target
-from cellc.contract.vocabulary import Behaviour, BringUpPhase, InterfaceKind, Moment, Need
+from cellc.contract.vocabulary import Behavior, BringUpPhase, InterfaceKind, Moment, Need
 
 WATCH = "watch"
 """What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
@@ -342,7 +342,7 @@ def watches(cell: Cell) -> Iterator[Watch]:
                 owner.name
                 for owner in manager.controllers
                 if is_claiming(cell, owner, ())
-                if own & set(owner.joints) or (owner.behaviour is Behaviour.OWN_MOTION and owner.device == device.name)
+                if own & set(owner.joints) or (owner.behavior is Behavior.OWN_MOTION and owner.device == device.name)
             )
             yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
 

@@ -29,7 +29,7 @@ _NOT_RESTED_ON = frozenset(
     {
         *("name", "places", "summary", "owners"),  # who answers is no part of what was tried
         "packages",  # where a description was found; what it says is that of the devices
-        *("implied", "behaviours", "harmless_plugins", "harmless_programs", "hardware_packages"),  # the catalog's lists
+        *("implied", "behaviors", "harmless_plugins", "harmless_programs", "hardware_packages"),  # the catalog's lists
     }
 )
 """Fields of a cell that leave evidence as it is."""

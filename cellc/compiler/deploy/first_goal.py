@@ -73,7 +73,7 @@ def _takers(cell: Cell) -> Iterator[tuple[str, tuple[str, ...], str]]:
     """Yield what takes trajectories on the real target: its action, its joints, and where their states arrive."""
     for controller in cell.controllers:
         if (
-            controller.behaviour in TRAJECTORIES
+            controller.behavior in TRAJECTORIES
             and controller.active
             and "real" in controller.targets
             and controller.action

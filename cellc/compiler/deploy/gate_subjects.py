@@ -161,7 +161,7 @@ def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
             moments = text(*payload, "inertia")
             inertia = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
             stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), inertia
-            yield *stated, device.tool_frame or device.root_link, device.payload.told_by
+            yield *stated, device.tool_frame or device.root_link, device.payload.set_by
 
 
 def _tool_centers(graph: CellGraph) -> Iterator[Values]:
@@ -344,7 +344,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "idle_joint_states": (("topic",), _idle_joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
-    "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "told_by"), _loaded_devices),
+    "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "set_by"), _loaded_devices),
     "tool_center": (("device", "tcp", "frame", "xyz", "turn", "rpy", "command"), _tool_centers),
     "tool_connector": (("device", "voltage", "tools"), _tool_connectors),
     "servo": (("node", "starts", "controller", "linear", "rotational", "joint", "timeout", "command"), _servo),

@@ -10,7 +10,7 @@ from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device, DeviceDriver
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.formats.numbers import shortest
-from cellc.contract.vocabulary import PASSIVE, Behaviour, InterfaceKind
+from cellc.contract.vocabulary import PASSIVE, Behavior, InterfaceKind
 
 TF_RATE_HZ = 20.0
 """Default of robot_state_publisher's ``publish_frequency``; the launch file states it."""
@@ -192,9 +192,9 @@ def units(cell: Cell, controller: Controller) -> str:
         _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
         for joint, _, kind in (name.rpartition("/") for name in controller.all_claims)
     )
-    if controller.behaviour in PASSIVE:
+    if controller.behavior in PASSIVE:
         return "per service type"
-    return "per device" if controller.behaviour is Behaviour.OWN_MOTION else ", ".join(dict.fromkeys(found))
+    return "per device" if controller.behavior is Behavior.OWN_MOTION else ", ".join(dict.fromkeys(found))
 
 
 def folded(names: Iterable[str]) -> Iterator[str]:

@@ -12,7 +12,7 @@ from cellc.compiler.cell.interface import Node
 from cellc.compiler.deploy.processes import asks_for_motion
 from cellc.compiler.graph.claims import crosses_a_joint
 from cellc.contract.entities import Target
-from cellc.contract.vocabulary import PASSIVE, Behaviour
+from cellc.contract.vocabulary import PASSIVE, Behavior
 
 
 def components_of(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[Device]:
@@ -42,7 +42,7 @@ def is_claiming(cell: Cell, controller: Controller, later: tuple[Device, ...]) -
     hardware starts later, or where it claims a joint itself, whatever its kind is called.
     """
     joints = {joint.name for device in cell.devices for joint in device.joints}
-    served_early = controller.behaviour in PASSIVE and controller.device not in {device.name for device in later}
+    served_early = controller.behavior in PASSIVE and controller.device not in {device.name for device in later}
     moves = any(interface.rpartition("/")[0] in joints for interface in controller.command_interfaces)
     return bool(controller.command_interfaces) and (moves or not served_early)
 
@@ -67,7 +67,7 @@ def is_exported(cell: Cell, manager: ControllerManager, reader: Controller, targ
 def components_read(cell: Cell, manager: ControllerManager, reader: Controller, target: Target) -> tuple[Device, ...]:
     """Return the components that a controller reads; joint_state_broadcaster reads all, whatever its device is."""
     components = tuple(components_of(cell, manager, target))
-    if reader.behaviour is Behaviour.JOINT_STATE_BROADCASTER or reader.device is None:
+    if reader.behavior is Behavior.JOINT_STATE_BROADCASTER or reader.device is None:
         named = {interface.rpartition("/")[0] for interface in reader.state_interfaces}
         return tuple(device for device in components if not named or named & {joint.name for joint in device.joints})
     return tuple(device for device in components if device.name == reader.device)

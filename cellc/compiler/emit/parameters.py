@@ -68,7 +68,7 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
 
 
 def _of_controller(manager: ControllerManager, controller: Controller, target: Target) -> NodeParameters:
-    return NodeParameters(f"{manager.namespace}/{controller.name}", controller.path, controller.told(target))
+    return NodeParameters(f"{manager.namespace}/{controller.name}", controller.path, controller.parameters_on(target))
 
 
 def _of_nodes(graph: CellGraph, header: Header) -> Iterator[Artifact]:

@@ -19,7 +19,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.control import ManagerSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, YamlPath
-from cellc.contract.vocabulary import Behaviour, CommandAuthority, InterfaceKind, ManagerLock, Motion
+from cellc.contract.vocabulary import Behavior, CommandAuthority, InterfaceKind, ManagerLock, Motion
 
 
 def link_managers(context: ControlContext) -> Outcome[tuple[ControllerManager, ...]]:
@@ -196,7 +196,7 @@ def _adapted_device(device: Device, adapted: AdaptedDevice, nodes: Iterable[Node
         node=adapted.node,
         program=f"{node.package}/{node.executable}",
         joint_states=adapted.state_topic,
-        actions={Behaviour.JOINT_TRAJECTORY.value: (adapted.action, TRAJECTORY_ACTION)},
+        actions={Behavior.JOINT_TRAJECTORY.value: (adapted.action, TRAJECTORY_ACTION)},
     )
     return replace(bare, driver=driver, starts={adapted.node: _CONNECTS})
 

@@ -23,7 +23,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.control import ControllerSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
 from cellc.contract.entities import TARGETS, Target
-from cellc.contract.vocabulary import OF_ONE_DEVICE, Behaviour, Distro
+from cellc.contract.vocabulary import OF_ONE_DEVICE, Behavior, Distro
 
 _MOVES_THE_MOCK = {"position", "velocity", "acceleration"}
 
@@ -184,7 +184,7 @@ def _controller(
         targets=targets,
         stand_in=None if device is None or "real" in targets else _stand_in(kind, device),
         kind=written.type,
-        behaviour=_behaviour(chosen, context.distro),
+        behavior=_behavior(chosen, context.distro),
         plugin=plugin.type,
         package=plugin.package,
         declared=kind,
@@ -209,20 +209,20 @@ def _controller(
     )
 
 
-def _behaviour(chosen: _Chosen, distro: Distro) -> Behaviour:
+def _behavior(chosen: _Chosen, distro: Distro) -> Behavior:
     """Return what a plugin does: what its kind does, unless the distribution's plugin does otherwise.
 
     A trajectory controller that is told of the device's speed scaling follows it.
     """
-    usual = chosen.plugin.behaviour or chosen.kind.kind
+    usual = chosen.plugin.behavior or chosen.kind.kind
     neutral = chosen.kind.plugins.get(distro)
     scaling = None if chosen.bound is None else chosen.bound.facts.speed_scaling
-    if usual is not Behaviour.JOINT_TRAJECTORY or scaling is None:
+    if usual is not Behavior.JOINT_TRAJECTORY or scaling is None:
         return usual
     if neutral is not None and neutral.type == chosen.plugin.type:
         return usual  # where the upstream plugin is used it takes the factor by parameters of its own
     follows = scaling.state_interface in chosen.plugin.parameters.values()
-    return Behaviour.SCALED_JOINT_TRAJECTORY if follows else usual
+    return Behavior.SCALED_JOINT_TRAJECTORY if follows else usual
 
 
 def _plugin_parameters(own: DeviceController | None) -> frozenset[str]:
@@ -294,11 +294,11 @@ def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:
 
 def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chosen) -> _Interfaces:
     kind, bound, own = chosen.kind, chosen.bound, chosen.own
-    if bound is not None and own is not None and own.behaviour in OF_ONE_DEVICE:
+    if bound is not None and own is not None and own.behavior in OF_ONE_DEVICE:
         # It drives no joint, and names what it takes in full.
         command, state = (tuple(map(bound.names.fill, names)) for names in own.taken(chosen.plugin))
         return _Interfaces((), (), (), command, state, UNSTATED)
-    if kind.kind is Behaviour.GPIO_COMMAND:
+    if kind.kind is Behavior.GPIO_COMMAND:
         command, state = (_of_gpios(written, which, bound) for which in ("command", "state"))
         return _Interfaces((), (), (), command, state, UNSTATED)
     claims = (

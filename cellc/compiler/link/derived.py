@@ -209,7 +209,7 @@ def control_interfaces(source: Derivation) -> Iterator[Interface]:
     for manager in source.managers:
         for controller in manager.controllers:
             yield from _actions(source, controller)
-            if controller.behaviour in OF_ONE_DEVICE:
+            if controller.behavior in OF_ONE_DEVICE:
                 yield from _of_one_device(source, controller)
 
 
@@ -248,7 +248,7 @@ def _action(
 def _goal_unit(source: Derivation, controller: Controller) -> str:
     """Return the units of a goal's figures: those of the joints, and time or force."""
     lengths = {source.joint_types.get(joint) == "prismatic" for joint in controller.joints}
-    if controller.behaviour in TRAJECTORIES:
+    if controller.behavior in TRAJECTORIES:
         return ", ".join([*(["rad"] if False in lengths else []), *(["m"] if True in lengths else []), "s"])
     return "m, N" if lengths == {True} else "rad, N m"
 

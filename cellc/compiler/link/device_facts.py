@@ -303,7 +303,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
         ),
         topics=tuple(
             f"{known.values[kind]}/{facts.topic}"
-            for facts in safety.told
+            for facts in safety.reported_by
             if (kind := f"controller_{facts.controller}") in known.values
         ),
         ending=told(safety.ending),

@@ -16,7 +16,7 @@ from cellc.compiler.catalog.device_interfaces import (
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.effects import EffectFacts
 from cellc.compiler.cell.device import DeviceDriver, OfferedInterface
-from cellc.compiler.cell.hardware import CommandModes, Effect, HardwareComponent, InterfaceGroup, Told
+from cellc.compiler.cell.hardware import CommandModes, Effect, HardwareComponent, InterfaceGroup, NeedReport
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.programs import inner_nodes
@@ -95,9 +95,11 @@ def _with_effects(component: HardwareComponent, real: HardwareFacts, distro: Dis
         initial_state="active" if start is None else start.initial_state,
         at_once=start is not None and start.at_once,
         command_timeout_s=None if timeout is None else timeout.si,
-        told={
-            need: Told(controller_kind=one.controller, topic=one.topic, type=one.type, field=one.field, value=one.value)
-            for need, one in real.told.items()
+        reported_by={
+            need: NeedReport(
+                controller_kind=one.controller, topic=one.topic, type=one.type, field=one.field, value=one.value
+            )
+            for need, one in real.reported_by.items()
         },
     )
 

@@ -163,7 +163,7 @@ def _link_with_devices(
         adapters=tuple(bind_adapters(devices, controllers, (*written, *derived))),
         rehearsals=rehearsals.value or (),
         uncertainty=uncertainty.value,
-        behaviours={controller.plugin: controller.behaviour for controller in controllers},
+        behaviors={controller.plugin: controller.behavior for controller in controllers},
     )
     parts = (linked_devices, placed, centers, nodes, managers, interfaces, planned, rehearsals, uncertainty)
     linked = as_driven(_with_plans(cell, planned.value))

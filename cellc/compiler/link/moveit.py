@@ -16,7 +16,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.interfaces import TopicSpec
 from cellc.compiler.spec.moveit import OctomapSpec, ServoSpec
 from cellc.contract.diagnostics import Outcome
-from cellc.contract.vocabulary import Behaviour
+from cellc.contract.vocabulary import Behavior
 
 _MADE_OF_IMAGES = ("model_depth", "filtered_label", "octomap_input_without_robot")
 _MADE_OF_CLOUDS = ("octomap_input_without_robot",)
@@ -82,7 +82,7 @@ def link_servo(
     if unknown or group not in {group.name for group in groups}:
         return Outcome(None, tuple(unknown))
     controller = known[written.controller]
-    streamed = controller.behaviour is Behaviour.FORWARD_COMMAND
+    streamed = controller.behavior is Behavior.FORWARD_COMMAND
     kinds = {name.rpartition("/")[2] for name in controller.all_claims}
     return Outcome(
         Servo(

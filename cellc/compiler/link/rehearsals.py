@@ -190,7 +190,7 @@ def _switched_step(step: SetStep | SenseStep, document: SourceDocument, path: Ya
         fits = {name: one for name, one in names.switched.items() if one.inputs}
     problem = _missing("unknown-device", device, noun, tuple(fits), document, (*path, kind))
     if device in fits:
-        known = fits[device].states if kind == "set" else tuple(fits[device].told_states)
+        known = fits[device].states if kind == "set" else tuple(fits[device].distinct_states)
         problem = _missing("unknown-state", step.state, "state", tuple(known), document, (*path, "state"))
     span = document.locate(path)
     return Outcome(Step(name=device, path=path, span=span, kind=kind, state=step.state), problem)

@@ -76,7 +76,7 @@ def chosen_way(facts: DeviceModel, written: DeviceSpec) -> ProgramWay | None:
 def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
     """Return what is so of a device, of all that a step of its vendor's procedure may be bound to."""
     way = chosen_way(facts, written)
-    told_by = "installation" if written.payload is None else written.payload.told_by
+    set_by = "installation" if written.payload is None else written.payload.set_by
     thresholds = "open" if written.collision is None else "stated"
     name = "" if way is None else way.name
     impedance = written.impedance
@@ -86,7 +86,7 @@ def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
         "cartesian_impedance_stated": impedance is not None and impedance.cartesian is not None,
     }
     more = (name for name, so in stated.items() if so)
-    told = (name, *more, f"payload_by_{told_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
+    told = (name, *more, f"payload_by_{set_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
     return frozenset(told)
 
 
@@ -154,7 +154,7 @@ def _payload(written: DeviceSpec) -> Payload | None:
         mass_kg=payload.mass.si,
         center_of_mass=vector(payload.center_of_mass),
         inertia=None if payload.inertia is None else _moments(payload.inertia),
-        told_by=payload.told_by,
+        set_by=payload.set_by,
         load=_load(payload),
     )
 

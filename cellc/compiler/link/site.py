@@ -103,7 +103,7 @@ def bind_clock(written: ClockSpec | StampSpec, domain: str) -> Clock:
     """Return the clock of a host or a sensor."""
     return Clock(
         domain=domain,
-        synchronised_by=written.synchronised_by,
+        synchronized_by=written.synchronized_by,
         max_offset_s=si(written.max_offset),
         simulated_offset_s=si(written.simulated_offset) or 0.0,
         simulated_drift=si(written.simulated_drift) or 0.0,

@@ -90,7 +90,7 @@ class StampSpec(SpecModel):
     )
     clock: Text = Field(UNKNOWN, description="Clock domain of the stamps.", examples=["camera"])
     exposure: Duration | None = Field(None, description="Exposure time.", examples=["8 ms"])
-    synchronised_by: Text | None = Field(
+    synchronized_by: Text | None = Field(
         None, description="What ties the clock to the host's.", examples=["global_time"]
     )
     max_offset: Duration | None = Field(None, description="Bound of the offset to the host's clock.", examples=["1 ms"])

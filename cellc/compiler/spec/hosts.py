@@ -56,7 +56,7 @@ class ClockSpec(SpecModel):
     """The clock of a host and the bound that keeps it near the others."""
 
     domain: Text = Field("ros", description="Clock domain that the host's stamps belong to.", examples=["ros"])
-    synchronised_by: Text | None = Field(None, description="What disciplines the clock.", examples=["chrony"])
+    synchronized_by: Text | None = Field(None, description="What disciplines the clock.", examples=["chrony"])
     max_offset: Duration | None = Field(None, description="Bound of the offset to the other hosts.", examples=["1 ms"])
     simulated_offset: TimeShift | None = Field(
         None, description="Offset that the mock gives this clock; none if absent.", examples=["0.5 ms"]
@@ -75,7 +75,7 @@ class HostSpec(SpecModel):
     clock: ClockSpec = Field(
         default_factory=ClockSpec,
         description="Clock domain and synchronization.",
-        examples=[{"domain": "ros", "synchronised_by": "chrony", "max_offset": "1 ms"}],
+        examples=[{"domain": "ros", "synchronized_by": "chrony", "max_offset": "1 ms"}],
     )
     nics: dict[Name, NicSpec] = Field(
         default_factory=dict,

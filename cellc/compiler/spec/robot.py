@@ -44,7 +44,7 @@ class PayloadSpec(SpecModel):
         description="Inertia about the center of mass, in axes parallel to that frame: ixx iyy izz ixy ixz iyz.",
         examples=["0.0011 0.0011 0.0009 0 0 0 kg m^2"],
     )
-    told_by: Literal["installation", "service"] = Field(
+    set_by: Literal["installation", "service"] = Field(
         "installation",
         description="How the robot gets it: by what is saved on it, or by a service of its driver.",
         examples=["installation"],

@@ -76,7 +76,7 @@ class FollowerStatus(str, Enum):
     FOLLOWING = "following"
     HOLDING = "holding"  # canceled or given up, and not at standstill yet
     SUCCEEDED = "succeeded"
-    CANCELLED = "cancelled"
+    CANCELED = "canceled"
     PATH_TOLERANCE_VIOLATED = "path tolerance violated"
     STOPPED = "stopped"  # the device stopped or refused
 
@@ -129,7 +129,7 @@ class TrajectoryFollower:
 
     def cancel(self) -> None:
         """Hold; the result comes with standstill."""
-        self._give_up(FollowerResult(FollowerStatus.CANCELLED))
+        self._give_up(FollowerResult(FollowerStatus.CANCELED))
 
     def _follow(self, state: DeviceState) -> None:
         away, joint = self._worst(state)

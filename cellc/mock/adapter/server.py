@@ -103,7 +103,7 @@ _SAME = 1e-9
 """rad or m: a position nearer than this to the last command is the commanded one."""
 _ENDINGS = {
     FollowerStatus.SUCCEEDED: (GoalStatus.SUCCEEDED, 0),
-    FollowerStatus.CANCELLED: (GoalStatus.CANCELED, 0),
+    FollowerStatus.CANCELED: (GoalStatus.CANCELED, 0),
     FollowerStatus.PATH_TOLERANCE_VIOLATED: (GoalStatus.ABORTED, -4),
     FollowerStatus.STOPPED: (GoalStatus.ABORTED, -4),
 }

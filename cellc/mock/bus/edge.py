@@ -32,7 +32,7 @@ class Edge(Generic[Sample]):
     a reliable reader sees a change when all before it are seen, a best-effort one when none after it was).
 
     Attributes:
-        behaviour: of the network, from the next sample on.
+        behavior: of the network, from the next sample on.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class Edge(Generic[Sample]):
             deliver: is given each sample that reaches the reader, with the time at which it expires.
             lose: is told how many samples never will, when the reader knows.
         """
-        self.behaviour = IDEAL
+        self.behavior = IDEAL
         self._reliable = reliable
         self._depth = depth
         self._random = random
@@ -68,25 +68,25 @@ class Edge(Generic[Sample]):
     def send(self, sample: Sample, expires_ns: int | None) -> None:
         """Send the next sample of the writer."""
         self._sent += 1
-        if self.behaviour.is_ideal and self._seen == self._sent - 1 and not self._overtaken:
+        if self.behavior.is_ideal and self._seen == self._sent - 1 and not self._overtaken:
             self._seen = self._sent  # nothing is on its way: what both branches of ``_arrive`` come to
             self._deliver(sample, expires_ns)
             return
         sent = Sent(self._sent, sample, expires_ns)
-        if self.behaviour.is_ideal:
+        if self.behavior.is_ideal:
             self._arrive(sent)
-        elif self._random.random() < self.behaviour.reordering:
+        elif self._random.random() < self.behavior.reordering:
             self._overtaken.append(sent)
         else:
             self._transmit(sent)
 
     def _transmit(self, sent: Sent[Sample]) -> None:
-        behaviour, now_ns = self.behaviour, self._timers.now_ns
-        travel_s = behaviour.latency_s + behaviour.jitter_s * self._random.random()
-        if self._random.random() >= behaviour.loss:
+        behavior, now_ns = self.behavior, self._timers.now_ns
+        travel_s = behavior.latency_s + behavior.jitter_s * self._random.random()
+        if self._random.random() >= behavior.loss:
             self._timers.at_background(now_ns + round(travel_s * 1e9), lambda: self._arrive(sent))
         elif self._reliable:
-            self._timers.at_background(now_ns + round(behaviour.retry_s * 1e9), lambda: self._send_again(sent))
+            self._timers.at_background(now_ns + round(behavior.retry_s * 1e9), lambda: self._send_again(sent))
 
     def _send_again(self, sent: Sent[Sample]) -> None:
         if self._depth is None or self._sent - sent.number < self._depth:

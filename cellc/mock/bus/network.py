@@ -19,7 +19,7 @@ NACK_RESPONSE_S = 0.005
 
 
 @dataclass(frozen=True, slots=True)
-class EdgeBehaviour:
+class EdgeBehavior:
     """How samples travel; each is drawn on its own from the seed of the edge.
 
     Attributes:
@@ -45,8 +45,8 @@ class EdgeBehaviour:
         return 2.0 * (self.latency_s + self.jitter_s) + HEARTBEAT_RESPONSE_S + NACK_RESPONSE_S
 
 
-IDEAL = EdgeBehaviour()
-SEVERED = EdgeBehaviour(loss=1.0)
+IDEAL = EdgeBehavior()
+SEVERED = EdgeBehavior(loss=1.0)
 """Nothing arrives: a cable that was pulled."""
 
 
@@ -127,7 +127,7 @@ class EdgeName:
     sink: str
 
 
-Apply = Callable[[EdgeBehaviour], None]
+Apply = Callable[[EdgeBehavior], None]
 """Gives an edge another behavior from now on."""
 
 
@@ -158,32 +158,32 @@ class Network:
         self._silent: set[str] = set()
         self._declared = {name: _declared(interface) for name, interface in interfaces.items()}
         self._edges: dict[EdgeName, list[Apply]] = {}
-        self._disturbed: list[tuple[str, str | None, str | None, EdgeBehaviour]] = []
+        self._disturbed: list[tuple[str, str | None, str | None, EdgeBehavior]] = []
         self._cuts: list[tuple[frozenset[str], frozenset[str] | None]] = []
 
     def attach(self, edge: EdgeName, apply: Apply) -> None:
         """Let an edge be told of its behavior, now and whenever it changes."""
         self._edges.setdefault(edge, []).append(apply)
-        apply(self.behaviour(edge))
+        apply(self.behavior(edge))
 
     def random(self, edge: EdgeName) -> Random:
         """Return the random numbers of an edge, from their beginning."""
         return edge_random(self._seed, edge.topic, edge.source, edge.sink)
 
-    def behaviour(self, edge: EdgeName) -> EdgeBehaviour:
+    def behavior(self, edge: EdgeName) -> EdgeBehavior:
         """Return how an edge behaves now: severed where it is cut, else as last disturbed, else as declared."""
         if self.is_cut(edge.source, edge.sink):
             return SEVERED
-        for topic, source, sink, behaviour in reversed(self._disturbed):
+        for topic, source, sink, behavior in reversed(self._disturbed):
             if topic == edge.topic and source in (None, edge.source) and sink in (None, edge.sink):
-                return behaviour
+                return behavior
         return self._declared.get(edge.topic, IDEAL)
 
     def disturb(
-        self, topic: str, behaviour: EdgeBehaviour, *, source: str | None = None, sink: str | None = None
+        self, topic: str, behavior: EdgeBehavior, *, source: str | None = None, sink: str | None = None
     ) -> None:
         """Change how the edges of a topic behave from now on; all, or those from a source or to a sink."""
-        self._disturbed.append((topic, source, sink, behaviour))
+        self._disturbed.append((topic, source, sink, behavior))
         self._tell()
 
     def restore_topic(self, topic: str) -> None:
@@ -245,13 +245,13 @@ class Network:
 
     def _tell(self) -> None:
         for edge, applies in self._edges.items():
-            behaviour = self.behaviour(edge)
+            behavior = self.behavior(edge)
             for apply in applies:
-                apply(behaviour)
+                apply(behavior)
 
 
-def _declared(interface: ContractInterface) -> EdgeBehaviour:
+def _declared(interface: ContractInterface) -> EdgeBehavior:
     stated = interface.simulated
     if stated is None:
         return IDEAL
-    return EdgeBehaviour(stated.latency_s, stated.jitter_s, stated.loss, stated.reordering)
+    return EdgeBehavior(stated.latency_s, stated.jitter_s, stated.loss, stated.reordering)

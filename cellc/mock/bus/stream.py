@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from cellc.contract.entities import Qos
-from cellc.mock.bus.network import EdgeBehaviour, EdgeName, Network
+from cellc.mock.bus.network import EdgeBehavior, EdgeName, Network
 
 IntArray = npt.NDArray[np.int64]
 FloatArray = npt.NDArray[np.float64]
@@ -24,11 +24,11 @@ _MOST_RETRIES = 4096
 
 
 @dataclass(frozen=True, slots=True)
-class BehaviourSince:
+class BehaviorSince:
     """How an edge behaves from a simulated instant on."""
 
     from_ns: int
-    behaviour: EdgeBehaviour
+    behavior: EdgeBehavior
 
 
 class StreamEdge:
@@ -45,7 +45,7 @@ class StreamEdge:
         self._depth = None if offered.history == "keep_all" else max(1, offered.depth)
         self._seed = network.random(name).getrandbits(63)
         self._timers = network.timers
-        self._since: list[BehaviourSince] = []
+        self._since: list[BehaviorSince] = []
         network.attach(name, self._behave)
 
     def arrivals(self, published_ns: IntArray) -> IntArray:
@@ -57,10 +57,10 @@ class StreamEdge:
             return _without_overtaken(arrivals)
         return _in_order(arrivals)
 
-    def _behave(self, behaviour: EdgeBehaviour) -> None:
+    def _behave(self, behavior: EdgeBehavior) -> None:
         now_ns = self._timers.now_ns if self._since else 0
-        self._since.append(BehaviourSince(now_ns, behaviour))
-        self.ideal = self.ideal and behaviour.is_ideal
+        self._since.append(BehaviorSince(now_ns, behavior))
+        self.ideal = self.ideal and behavior.is_ideal
 
     def _first_arrivals(self, published_ns: IntArray) -> IntArray:
         """Return when samples arrive, each on its own: sent, sent again where the pair is reliable, or lost."""
@@ -82,7 +82,7 @@ class StreamEdge:
         """Tell which of the instants are not in an outage that goes on: there is no use in sending into it again."""
         last = self._since[-1]
         return (
-            np.asarray(sent_ns < last.from_ns) if last.behaviour.loss >= 1.0 else np.ones(len(sent_ns), dtype=np.bool_)
+            np.asarray(sent_ns < last.from_ns) if last.behavior.loss >= 1.0 else np.ones(len(sent_ns), dtype=np.bool_)
         )
 
     def _kept(self, open_: IntArray, sent_ns: IntArray, published_ns: IntArray) -> npt.NDArray[np.bool_]:
@@ -97,19 +97,19 @@ class StreamEdge:
         """Return travel time, loss and time to the next attempt of samples that are sent at given instants."""
         begins = [each.from_ns for each in self._since]
         index = np.maximum(np.searchsorted(begins, at_ns, side="right") - 1, 0)
-        behaviours = [each.behaviour for each in self._since]
+        behaviors = [each.behavior for each in self._since]
         jitter = self._draw(published_ns, 2 * attempt + 1)
-        travel_s = np.array([each.latency_s for each in behaviours])[index]
-        travel_s = travel_s + np.array([each.jitter_s for each in behaviours])[index] * jitter
-        loss = np.array([each.loss for each in behaviours])[index]
-        retry_s = np.array([each.retry_s for each in behaviours])[index]
+        travel_s = np.array([each.latency_s for each in behaviors])[index]
+        travel_s = travel_s + np.array([each.jitter_s for each in behaviors])[index] * jitter
+        loss = np.array([each.loss for each in behaviors])[index]
+        retry_s = np.array([each.retry_s for each in behaviors])[index]
         return np.rint(travel_s * 1e9).astype(np.int64), loss, np.rint(retry_s * 1e9).astype(np.int64)
 
     def _overtake(self, arrivals: IntArray, published_ns: IntArray) -> IntArray:
         """Let the samples that are overtaken arrive right after the next one that is not."""
         begins = [each.from_ns for each in self._since]
         index = np.maximum(np.searchsorted(begins, published_ns, side="right") - 1, 0)
-        share = np.array([each.behaviour.reordering for each in self._since])[index]
+        share = np.array([each.behavior.reordering for each in self._since])[index]
         late = self._draw(published_ns, -1) < share
         places = np.where(late, len(arrivals), np.arange(len(arrivals)))
         following = np.minimum.accumulate(places[::-1])[::-1]

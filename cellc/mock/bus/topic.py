@@ -8,7 +8,7 @@ from typing import Generic
 
 from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.mock.bus.edge import Edge, Reader, Sample, Subscription
-from cellc.mock.bus.network import SEVERED, EdgeBehaviour, EdgeName, Network, QosEvent, QosEventKind
+from cellc.mock.bus.network import SEVERED, EdgeBehavior, EdgeName, Network, QosEvent, QosEventKind
 from cellc.mock.bus.timers import DeadlineWatch, Lease
 
 
@@ -44,15 +44,15 @@ class Match(Generic[Sample]):
 
     def hear_assertion(self) -> None:
         """Let the reader hear that the publisher asserted itself without a sample."""
-        if self._lease is not None and self._edge.behaviour != SEVERED:
+        if self._lease is not None and self._edge.behavior != SEVERED:
             self._lease.assert_alive()
 
-    def _behave(self, behaviour: EdgeBehaviour) -> None:
-        was_severed = self._edge.behaviour == SEVERED
-        self._edge.behaviour = behaviour
+    def _behave(self, behavior: EdgeBehavior) -> None:
+        was_severed = self._edge.behavior == SEVERED
+        self._edge.behavior = behavior
         if self._lease is None or self._manual:
             return
-        if behaviour != SEVERED:
+        if behavior != SEVERED:
             self._lease.hold()
         elif not was_severed and self._lease.alive:
             self._lease.assert_alive()  # the last assertion that the middleware could send

@@ -153,7 +153,7 @@ def _sends_trajectories(contract: Contract, controller: str) -> bool:
     if controller in contract.adapters:
         return True
     entries = (manager.controllers.get(controller) for manager in contract.managers.values())
-    return any(entry is not None and entry.behaviour in TRAJECTORIES for entry in entries)
+    return any(entry is not None and entry.behavior in TRAJECTORIES for entry in entries)
 
 
 @dataclass(frozen=True, slots=True)

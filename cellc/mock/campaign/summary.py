@@ -16,7 +16,7 @@ from cellc.mock.result import RunOutcome
 
 SHORT: dict[RunOutcome, str] = {
     AttemptOutcome.SUCCEEDED: "ok",
-    AttemptOutcome.CANCELLED: "cancel",
+    AttemptOutcome.CANCELED: "cancel",
     AttemptOutcome.STALE_STATE: "stale",
     AttemptOutcome.TF_FAILURE: "tf",
     AttemptOutcome.PLANNING_FAILURE: "plan",

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from cellc.contract.contract import ContractManager
 from cellc.contract.limits import limits
-from cellc.contract.vocabulary import Behaviour
+from cellc.contract.vocabulary import Behavior
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.control import (
     ControlEvent,
@@ -129,7 +129,7 @@ class ControlStack:
         adapted = {joint for server in self.adapters.values() for joint in server.adapter.model.joint_names}
         for name, manager in contracts.items():
             for controller, facts in manager.controllers.items():
-                if facts.behaviour is Behaviour.JOINT_STATE_BROADCASTER:
+                if facts.behavior is Behavior.JOINT_STATE_BROADCASTER:
                     foreign = _joints(entry for other, entry in contracts.items() if other != name) | adapted
                     history = JointStateHistory(horizon_s, managers[name].period_ns, foreign, controller)
                     self.histories[(name, controller)] = history

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import harmless_json
-from cellc.contract.vocabulary import TRAJECTORIES, Behaviour
+from cellc.contract.vocabulary import TRAJECTORIES, Behavior
 from cellc.mock.evidence.topics import (
     ATTEMPTS,
     DIAGNOSTICS,
@@ -26,7 +26,7 @@ Json = Mapping[str, object]
 
 def to_layout(contract: Contract) -> str:
     """Return the layout as the text of a file."""
-    broadcasters = list(_controllers(contract, (Behaviour.JOINT_STATE_BROADCASTER,)))
+    broadcasters = list(_controllers(contract, (Behavior.JOINT_STATE_BROADCASTER,)))
     followers = list(_controllers(contract, TRAJECTORIES))
     positions = dict.fromkeys(
         f"{joint_states_topic(contract, *broadcaster).name}.position[:]" for broadcaster in broadcasters
@@ -54,10 +54,10 @@ def to_layout(contract: Contract) -> str:
     return harmless_json(json.dumps(layout, ensure_ascii=False, indent=2)) + "\n"
 
 
-def _controllers(contract: Contract, behaviours: Iterable[str]) -> Iterable[tuple[str, str]]:
+def _controllers(contract: Contract, behaviors: Iterable[str]) -> Iterable[tuple[str, str]]:
     for name, manager in contract.managers.items():
         for controller, facts in manager.controllers.items():
-            if facts.behaviour in behaviours:
+            if facts.behavior in behaviors:
                 yield name, controller
 
 

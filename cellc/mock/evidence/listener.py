@@ -42,7 +42,7 @@ class RunListener:
         """Record every trajectory controller, update by update."""
         for name, manager in self._plant.contract.managers.items():
             for controller, facts in manager.controllers.items():
-                if facts.behaviour in TRAJECTORIES:
+                if facts.behavior in TRAJECTORIES:
                     rate_hz = manager.update_rate_hz
                     self._recorders[controller] = self._plant.control.managers[name].record(controller, rate_hz)
 

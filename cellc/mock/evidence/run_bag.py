@@ -151,10 +151,10 @@ class RunBag:
         self._goals: dict[str, int] = {}
         for name, manager in contract.managers.items():
             for controller, facts in manager.controllers.items():
-                if facts.behaviour in TRAJECTORIES:
+                if facts.behavior in TRAJECTORIES:
                     self._states[controller] = self._declare(controller_state_topic(contract, name, controller))
                 if facts.action is not None:
-                    topic = goal_topic(controller, gripper=facts.behaviour not in TRAJECTORIES)
+                    topic = goal_topic(controller, gripper=facts.behavior not in TRAJECTORIES)
                     self._goals[controller] = self._declare(topic)
         for device in contract.adapters:
             self._goals[device] = self._declare(goal_topic(device, gripper=False))

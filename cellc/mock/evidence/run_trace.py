@@ -144,7 +144,7 @@ class RunTrace:
         self._ended_ns = 0
         self._missed = 0
         controllers = [each for manager in plant.contract.managers.values() for each in manager.controllers.values()]
-        self._followed = {joint for each in controllers if each.behaviour in TRAJECTORIES for joint in each.joints}
+        self._followed = {joint for each in controllers if each.behavior in TRAJECTORIES for joint in each.joints}
         self._commanded = {interface for each in controllers for interface in each.command_interfaces}
 
     def joint_states(self, manager: str, broadcaster: str, block: JointStateBlock) -> None:

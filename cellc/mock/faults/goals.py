@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractController
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import TRAJECTORIES, AttemptOutcome, Behaviour, FaultKind
+from cellc.contract.vocabulary import TRAJECTORIES, AttemptOutcome, Behavior, FaultKind
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, cell_steps, controllers, ends_in, fault_case
 from cellc.mock.faults.endings import Bounds
@@ -70,7 +70,7 @@ class Cancel:
         for kind in STEPS_WITH_GOALS:
             if kind in kinds:
                 entry = FaultEntry(kind=cls.kind, target=kind)
-                yield fault_case(entry, contract, partial(_cancelled, kind, cancel_bound_s(contract)), at_once=True)
+                yield fault_case(entry, contract, partial(_canceled, kind, cancel_bound_s(contract)), at_once=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """Ask."""
@@ -97,7 +97,7 @@ class Reject:
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
         """Yield every controller that takes goals, and every one that publishes joint states."""
         for name, facts in controllers(contract).items():
-            broadcasts = facts.behaviour is Behaviour.JOINT_STATE_BROADCASTER
+            broadcasts = facts.behavior is Behavior.JOINT_STATE_BROADCASTER
             if facts.active and (facts.action is not None or broadcasts):
                 entry = FaultEntry(kind=cls.kind, target=name)
                 yield fault_case(entry, contract, partial(_rejected, Bounds(contract), name, facts))
@@ -148,7 +148,7 @@ class SecondCommander:
 
     def _goal(self, positions: dict[str, float]) -> TrajectoryGoal | GripperGoal:
         here = tuple(positions[joint] for joint in self.facts.joints)
-        if self.facts.behaviour in TRAJECTORIES:
+        if self.facts.behavior in TRAJECTORIES:
             point = TrajectoryPoint(positions=here, time_from_start_ns=DURATION_NS)
             return TrajectoryGoal(joint_names=self.facts.joints, points=(point,))
         return GripperGoal(position=here, joint_names=self.facts.joints)
@@ -207,8 +207,8 @@ def _unreachable(bounds: Bounds, goal: str, step: CellStep) -> Ending:
     return ends_in(AttemptOutcome.PLANNING_FAILURE, within_s=bounds.asked_s())
 
 
-def _cancelled(kind: str, within_s: float, step: CellStep) -> Ending:
-    return ends_in(AttemptOutcome.CANCELLED, within_s=within_s) if step.kind == kind and step.controllers else BORNE
+def _canceled(kind: str, within_s: float, step: CellStep) -> Ending:
+    return ends_in(AttemptOutcome.CANCELED, within_s=within_s) if step.kind == kind and step.controllers else BORNE
 
 
 def _rejected(bounds: Bounds, name: str, facts: ContractController, step: CellStep) -> Ending:

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome, Behaviour, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome, Behavior, FaultKind
 from cellc.mock.faults.cases import (
     BORNE,
     CellStep,
@@ -208,6 +208,6 @@ def _displacement(contract: Contract, joint: str) -> float:
 def _scaled(bounds: Bounds, device: str, step: CellStep) -> Ending:
     """A controller that follows the scaling stops; where the arm is already at its goal, that is tolerated."""
     used = [facts for name, facts in controllers(bounds.contract).items() if name in step.controllers]
-    if not any(facts.device == device and facts.behaviour is Behaviour.SCALED_JOINT_TRAJECTORY for facts in used):
+    if not any(facts.device == device and facts.behavior is Behavior.SCALED_JOINT_TRAJECTORY for facts in used):
         return BORNE
     return ends_in(AttemptOutcome.TIMEOUT, AttemptOutcome.SUCCEEDED, within_s=bounds.execution_s(step))

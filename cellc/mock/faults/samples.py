@@ -9,7 +9,7 @@ from typing import ClassVar
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome, FaultKind
-from cellc.mock.bus.network import EdgeBehaviour
+from cellc.mock.bus.network import EdgeBehavior
 from cellc.mock.faults.cases import (
     CellStep,
     Ending,
@@ -95,7 +95,7 @@ class Delay:
     def begin(self, ports: FaultPorts) -> None:
         """Delay what is stamped from now on."""
         if self.topic is not None:
-            ports.network.disturb(self.topic, EdgeBehaviour(latency_s=self.delay_s))
+            ports.network.disturb(self.topic, EdgeBehavior(latency_s=self.delay_s))
         ports.samples.hold_back(ports.samples.of_joints(self.joints), round(self.delay_s * 1e9))
 
     def end(self, ports: FaultPorts) -> None:

@@ -60,7 +60,7 @@ def cancel_trace(evidence: GateEvidence, controller: str) -> GateCheck:
     for run, attempt in evidence.attempts(controller):
         cancel = attempt.cancel
         moved = run.has_mark(attempt, PacketStep.DRIVEN)
-        if cancel is None or attempt.outcome != AttemptOutcome.CANCELLED or not moved:
+        if cancel is None or attempt.outcome != AttemptOutcome.CANCELED or not moved:
             continue
         if cancel.latency_s is None or cancel.latency_s > bound_s:
             bad.append(f"{run.name}, {attempt.step}: not held within {bound_s:g} s")

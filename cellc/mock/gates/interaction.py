@@ -30,7 +30,7 @@ def interaction_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
             continue
         yield _missing_responder(evidence, name, interface)
         if interface.kind == "action":
-            yield _cancelled_goal(evidence, name)
+            yield _canceled_goal(evidence, name)
     yield unknown("A hard servo loop meets its worst-case timing", "a measurement on the real controller")
 
 
@@ -55,7 +55,7 @@ def _missing_responder(evidence: GateEvidence, name: str, interface: ContractInt
     return _bounded(text, runs, "a run in which its server does not answer")
 
 
-def _cancelled_goal(evidence: GateEvidence, name: str) -> GateCheck:
+def _canceled_goal(evidence: GateEvidence, name: str) -> GateCheck:
     for manager in evidence.contract.managers.values():
         for controller, facts in manager.controllers.items():
             if facts.action == name:

@@ -160,7 +160,7 @@ def execute_together(
         yield from _results(context, kind, sent, timeout_s)
     except AttemptError as failure:
         held = not sent or (yield from cancel_and_hold(context, attempt, sent))
-        if failure.outcome is AttemptOutcome.CANCELLED and not held:
+        if failure.outcome is AttemptOutcome.CANCELED and not held:
             raise AttemptError(AttemptOutcome.TIMEOUT, "canceled, and the joints did not stand still in time") from None
         raise
     finally:
@@ -178,7 +178,7 @@ def require_success(ended: GoalEnded, context: TaskContext) -> None:
         return
     context.check_cell()
     if ended.status is GoalStatus.CANCELED:
-        raise AttemptError(AttemptOutcome.CANCELLED, "canceled by another client")
+        raise AttemptError(AttemptOutcome.CANCELED, "canceled by another client")
     if isinstance(ended, TrajectoryEnded):
         text = f"{ended.error_code}: {ended.error_string}"
         violated = ended.error_code in (-4, -5)  # PATH_ and GOAL_TOLERANCE_VIOLATED of FollowJointTrajectory
@@ -210,7 +210,7 @@ def _results(context: TaskContext, kind: str, sent: Sequence[SentGoal], timeout_
         for ended in (context.ended[goal.key] for goal in sent if goal not in waiting):
             require_success(ended, context)
         if context.node.requests.is_cancel_asked(kind):
-            raise AttemptError(AttemptOutcome.CANCELLED, f"the {kind} was canceled as asked")
+            raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as asked")
         names = " and ".join(goal.controller for goal in waiting)
         if context.now_ns >= until_ns:
             raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {names} within {timeout_s:g} s")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from cellc.contract.contract import ContractGripper
-from cellc.contract.vocabulary import AttemptOutcome, Behaviour
+from cellc.contract.vocabulary import AttemptOutcome, Behavior
 from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.bounds import grip_timeout_s
@@ -52,7 +52,7 @@ def _goal(context: TaskContext, facts: ContractGripper, position: float) -> Grip
     """Return the goal; GripperCommand has a field for effort, ParallelGripperCommand needs an interface for it."""
     for manager in context.contract.managers.values():
         controller = manager.controllers.get(facts.controller or "")
-        if controller is not None and controller.behaviour is Behaviour.POSITION_GRIPPER:
+        if controller is not None and controller.behavior is Behavior.POSITION_GRIPPER:
             return GripperGoal(position=(position,), effort=(facts.max_effort,))
     return GripperGoal(position=(position,), joint_names=(facts.joint,))
 

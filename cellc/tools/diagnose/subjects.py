@@ -92,7 +92,7 @@ def _trajectories(cell: Cell) -> Rows:
         _controller(controller, manager)
         for manager in cell.managers
         for controller in manager.controllers
-        if cell.behaviours.get(controller.plugin) in TRAJECTORIES
+        if cell.behaviors.get(controller.plugin) in TRAJECTORIES
     ]
 
 

@@ -202,7 +202,7 @@ def _commanding(cell: Cell) -> Iterator[Controller]:
     commanding = (
         controller
         for controller in cell.controllers
-        if controller.behaviour not in PASSIVE and "real" in controller.targets
+        if controller.behavior not in PASSIVE and "real" in controller.targets
     )
     return (controller for controller in commanding if controller.claims("real"))
 

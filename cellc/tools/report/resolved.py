@@ -77,7 +77,7 @@ _KEYS = {
 }
 _FROM_CATALOG = {
     Device: {"root_link", "frames", "joints", "hardware", "tool_frame"},
-    Controller: {"behaviour", "plugin", "joints", "command_interfaces", "state_interfaces", "action", "action_type"},
+    Controller: {"behavior", "plugin", "joints", "command_interfaces", "state_interfaces", "action", "action_type"},
     Frame: {"parent", "transform_to_parent", "kind", "moving", "device"},
 }
 

@@ -81,7 +81,7 @@ ROWS: Sequence[Row] = (
     # Who commands, and by what.
     Row("claim {interface}", _A.CONTROL, "controller that claims it", Rule.CLAIM, why=_SECOND),
     Row("controller {controller} plugin", _A.CONTROL, "plugin", Rule.DANGEROUS),
-    Row("controller {controller} behaviour", _A.CONTROL, "behavior", Rule.DANGEROUS),
+    Row("controller {controller} behavior", _A.CONTROL, "behavior", Rule.DANGEROUS),
     Row("controller {controller} client", _A.CONTROL, "permitted client", Rule.DANGEROUS, why=_SECOND),
     Row("controller {controller} active", _A.CONTROL, "active from the start", Rule.DANGEROUS, why=_SECOND),
     Row("controller {controller} on_violation", _A.CONTROL, "action on a violation", Rule.DANGEROUS),
@@ -284,7 +284,7 @@ FOLLOWS: Sequence[str] = (
     "manifest version_tuple ...",
     "contract distro",
     "contract files ...",
-    "contract plugin_behaviours ...",
+    "contract plugin_behaviors ...",
     "controller {controller} command_interfaces",
     "controller {controller} full_name",
     "parameters {_} {node} ros__parameters constraints goal_time",

@@ -86,7 +86,7 @@ def test_no_command_is_faster_than_the_limits_of_the_cell(cell: MockCell) -> Non
 
 def test_cancel_holds_the_arm_within_its_stop_time(cell: MockCell) -> None:
     result, _ = run(cell, FaultEntry(kind="cancel", target="move", at_s=0.6))
-    assert result.outcome == "cancelled"
+    assert result.outcome == "canceled"
     cancel = result.attempts[-2].cancel
     assert cancel is not None
     assert cancel.latency_s is not None

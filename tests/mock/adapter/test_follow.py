@@ -76,11 +76,11 @@ def test_segment_meets_position_velocity_and_acceleration_at_both_ends() -> None
 def test_cancel_ends_at_standstill_before_the_stop_time_is_over() -> None:
     arm = Arm(rest_to_rest(1.0, 2.0))
     arm.run(1.0)
-    cancelled_ns = arm.now_ns
+    canceled_ns = arm.now_ns
     arm.follower.cancel()
     result = arm.run(1.0)
-    assert result == FollowerResult(FollowerStatus.CANCELLED)
-    assert (arm.now_ns - cancelled_ns) / 1e9 <= 0.1 + PERIOD_S
+    assert result == FollowerResult(FollowerStatus.CANCELED)
+    assert (arm.now_ns - canceled_ns) / 1e9 <= 0.1 + PERIOD_S
     # Half way at 15/16 rad/s, then slowed down evenly for 0.1 s: half of what that speed would have covered.
     assert arm.adapter.read().positions[0] == pytest.approx(0.5 + 0.9375 * 0.05, abs=0.003)
 

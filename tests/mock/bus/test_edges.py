@@ -12,7 +12,7 @@ from random import Random
 import pytest
 
 from cellc.contract.entities import Qos, SimulatedNetwork
-from cellc.mock.bus.network import SEVERED, EdgeBehaviour, QosEventKind, edge_random
+from cellc.mock.bus.network import SEVERED, EdgeBehavior, QosEventKind, edge_random
 from tests.mock.bus.bench import MS, TOPIC, Bench, qos
 
 BEST_EFFORT = qos(reliability="best_effort")
@@ -158,7 +158,7 @@ def test_seed_decides_what_is_lost(seed: int, same: bool) -> None:
 def test_disturbance_of_one_sink_leaves_others_alone() -> None:
     bench = Bench(BEST_EFFORT, BEST_EFFORT)
     bench.listen()
-    bench.network.disturb(TOPIC, EdgeBehaviour(loss=1.0), sink="somebody_else")
+    bench.network.disturb(TOPIC, EdgeBehavior(loss=1.0), sink="somebody_else")
     bench.publish_every(1, count=2)
     assert len(bench.received) == 2
 

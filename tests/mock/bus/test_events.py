@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.mock.bus.network import EdgeBehaviour, QosEventKind
+from cellc.mock.bus.network import EdgeBehavior, QosEventKind
 from cellc.mock.bus.qos import ZENOH
 from cellc.mock.bus.timers import StreamDeadline
 from tests.mock.bus.bench import MS, TOPIC, Bench, StepClock, qos
@@ -56,7 +56,7 @@ def test_lost_samples_are_missed_by_the_reader_alone() -> None:
     bench = Bench(qos(reliability="best_effort", deadline_s=0.1), qos(reliability="best_effort", deadline_s=0.1))
     bench.listen()
     bench.topic.publish("talker", 1)
-    bench.network.disturb(TOPIC, EdgeBehaviour(loss=1.0))
+    bench.network.disturb(TOPIC, EdgeBehavior(loss=1.0))
     bench.clock.run_until(50)
     bench.publish_every(50, count=4, first=2)  # up to 200 ms
     assert bench.events("talker") == []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TypeVar
 
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control import (
     ControlEvent,
     ControllerManager,
@@ -67,13 +67,13 @@ def bench(
     distro: Distro = Distro.KILTED,
     description: str = "",
     start_ns: int = 0,
-    behaviours: dict[str, Behaviour] | None = None,
+    behaviors: dict[str, Behavior] | None = None,
     up: tuple[str, ...] = ("joints", "arm", "hand"),
 ) -> ControllerManager:
     """Start the cell with parameters that differ from the usual ones, and let half a second pass."""
     text = parameters(arm, hand, types=types)
     manager = ControllerManager(
-        description or urdf(), text, distro=distro, plugin_behaviours=behaviours or {}, start_ns=start_ns
+        description or urdf(), text, distro=distro, plugin_behaviors=behaviors or {}, start_ns=start_ns
     )
     if up:
         spawned = manager.spawn(list(up))

@@ -20,7 +20,7 @@ def _manager(*unconfigured: str, inactive: tuple[str, ...] = ()) -> ControllerMa
     states = {"unconfigured": list(unconfigured), "inactive": list(inactive)}
     told = {f"hardware_components_initial_state.{state}": names for state, names in states.items() if names}
     text["controller_manager"]["ros__parameters"] |= told
-    manager = ControllerManager(urdf(), json.dumps(text), distro=Distro.KILTED, plugin_behaviours={}, start_ns=0)
+    manager = ControllerManager(urdf(), json.dumps(text), distro=Distro.KILTED, plugin_behaviors={}, start_ns=0)
     assert manager.spawn(["joints", "arm", "hand"], inactive=True).ok
     return manager
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control import (
     ControllerChanged,
     ControllerManager,
@@ -136,8 +136,8 @@ def test_older_gripper_controller_exists_only_where_its_package_does() -> None:
 def test_type_that_the_caller_names_behaves_as_told() -> None:
     text = parameters().replace("joint_trajectory_controller/JointTrajectoryController", "vendor/Scaled")
     assert not ControllerManager(urdf(), text).spawn(["arm"]).ok
-    named = {"vendor/Scaled": Behaviour.SCALED_JOINT_TRAJECTORY}
-    manager = ControllerManager(urdf(), text, plugin_behaviours=named)
+    named = {"vendor/Scaled": Behavior.SCALED_JOINT_TRAJECTORY}
+    manager = ControllerManager(urdf(), text, plugin_behaviors=named)
     answer = manager.spawn(["arm"])
     # The interface that the scaled controller wants does not exist in this cell.
     assert "speed_scaling/speed_scaling_factor" in answer.reason

@@ -16,13 +16,13 @@ from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.device_interfaces import GroupInterfaces, counted
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
-from cellc.contract.vocabulary import PASSIVE, TRAJECTORIES, Behaviour, Distro
+from cellc.contract.vocabulary import PASSIVE, TRAJECTORIES, Behavior, Distro
 from cellc.mock import load
 from tests.cells import build_into, written
 
 SIMULATED = (("position",), ("velocity",))
 """What moves a joint of GenericSystem: one of these alone; it refuses effort and two at once, as was observed."""
-GRIPPERS = (Behaviour.PARALLEL_GRIPPER, Behaviour.POSITION_GRIPPER)
+GRIPPERS = (Behavior.PARALLEL_GRIPPER, Behavior.POSITION_GRIPPER)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Offer:
 
     type: str
     device: str
-    behaviour: Behaviour
+    behavior: Behavior
     distros: tuple[Distro, ...]
     written: str = ""
 
@@ -85,11 +85,11 @@ def _written(kind: ControllerKind, catalog: CatalogDevice) -> Iterator[str]:
     for wanted in _combinations(kind, device):
         by_pid = kind.kind in TRAJECTORIES and "position" not in wanted
         yield f", command_interfaces: [{', '.join(wanted)}]{_gains(catalog) if by_pid else ''}"
-    if kind.kind is Behaviour.FORCE_TORQUE_SENSOR_BROADCASTER:
+    if kind.kind is Behavior.FORCE_TORQUE_SENSOR_BROADCASTER:
         for name, group in _simulated(control.sensors).items():
             if set(kind.state_interfaces) <= set(group.state):
                 yield f', parameters: {{sensor_name: "{{prefix}}{name}", frame_id: world}}'
-    if kind.kind is Behaviour.GPIO_COMMAND:
+    if kind.kind is Behavior.GPIO_COMMAND:
         for name, group in _simulated(control.gpios).items():
             gpio, taken = f"{{prefix}}{name}", f"[{', '.join(counted(group.command))}]"
             yield f', parameters: {{gpios: ["{gpio}"], "command_interfaces.{gpio}.interfaces": {taken}}}'
@@ -109,10 +109,10 @@ def _offers() -> Iterator[Offer]:
                 yield Offer(kind.kind.value, name, kind.kind, tuple(kind.plugins), text)
         for own, facts in device.model.controllers.items():
             moves = not facts.command_interfaces or facts.command_interfaces in SIMULATED
-            moves = moves and facts.behaviour is not Behaviour.OWN_MOTION
-            framed = facts.behaviour is Behaviour.FORCE_TORQUE_SENSOR_BROADCASTER
+            moves = moves and facts.behavior is not Behavior.OWN_MOTION
+            framed = facts.behavior is Behavior.FORCE_TORQUE_SENSOR_BROADCASTER
             said = ", parameters: {frame_id: world}" if framed else "" if moves else ", active: false"
-            yield Offer(own, name, facts.behaviour, tuple(facts.plugins), said)
+            yield Offer(own, name, facts.behavior, tuple(facts.plugins), said)
 
 
 OFFERS = tuple(_offers())
@@ -124,9 +124,9 @@ def _spec(offer: Offer, distro: Distro) -> str:
     unit = "m" if any(joint.type == "prismatic" for joint in device.description.joints) else "rad"
     bounds = f", goal_time: 1 s, path_tolerance: 0.02 {unit}, goal_tolerance: 0.01 {unit}"  # fits a finger of 40 mm
     tested = f"    tested: {{type: {offer.type}, device: dev{offer.written}{bounds if _follows(offer) else ''}}}\n"
-    if offer.behaviour is Behaviour.JOINT_STATE_BROADCASTER:
+    if offer.behavior is Behavior.JOINT_STATE_BROADCASTER:
         tested = ""
-    steps = "grip: close}, {grip: open" if offer.behaviour in GRIPPERS else "wait: 100 ms"
+    steps = "grip: close}, {grip: open" if offer.behavior in GRIPPERS else "wait: 100 ms"
     control = device.model.control
     rates = () if control is None else control.update_rates
     real = None if control is None else control.hardware.real
@@ -141,21 +141,21 @@ def _spec(offer: Offer, distro: Distro) -> str:
 
 
 def _follows(offer: Offer) -> bool:
-    return offer.behaviour in TRAJECTORIES
+    return offer.behavior in TRAJECTORIES
 
 
-def _expected(offer: Offer, distro: Distro) -> Behaviour:
+def _expected(offer: Offer, distro: Distro) -> Behavior:
     """Return what the plugin of a distribution does, as ros2_controllers and the vendors' packages have it."""
-    if offer.behaviour is Behaviour.PARALLEL_GRIPPER and distro is Distro.HUMBLE:
-        return Behaviour.POSITION_GRIPPER
+    if offer.behavior is Behavior.PARALLEL_GRIPPER and distro is Distro.HUMBLE:
+        return Behavior.POSITION_GRIPPER
     # The UR's own is deprecated on Kilted and gone on Lyrical, where upstream's scales by a state interface.
     if offer.type == "scaled_joint_trajectory" and distro in (Distro.HUMBLE, Distro.JAZZY):
-        return Behaviour.SCALED_JOINT_TRAJECTORY
-    return offer.behaviour
+        return Behavior.SCALED_JOINT_TRAJECTORY
+    return offer.behavior
 
 
 def _runs() -> Iterator[tuple[Offer, Distro]]:
-    """Yield each controller with a distribution for each behaviour that its plugins have."""
+    """Yield each controller with a distribution for each behavior that its plugins have."""
     for offer in OFFERS:
         yield from {_expected(offer, distro): (offer, distro) for distro in offer.distros}.values()
 
@@ -164,22 +164,22 @@ def _runs() -> Iterator[tuple[Offer, Distro]]:
 def test_controller_of_the_catalogue_runs_on_the_mock(offer: Offer, distro: Distro, tmp_path: Path) -> None:
     cell = load(build_into(tmp_path / "built", written(tmp_path, _spec(offer, distro))))
     (manager,) = cell.contract.managers.values()
-    name = "joints" if offer.behaviour is Behaviour.JOINT_STATE_BROADCASTER else "tested"
+    name = "joints" if offer.behavior is Behavior.JOINT_STATE_BROADCASTER else "tested"
     controller = manager.controllers[name]
     result = cell.run("ready")
     assert result.outcome == "succeeded", result.bringup[-1]
-    assert cell.contract.plugin_behaviours[controller.plugin] is controller.behaviour
+    assert cell.contract.plugin_behaviors[controller.plugin] is controller.behavior
     if "mock" in controller.targets:
-        assert controller.behaviour is _expected(offer, distro)
+        assert controller.behavior is _expected(offer, distro)
 
 
 def test_every_kind_is_offered_by_a_device() -> None:
     assert {offer.type for offer in OFFERS} >= set(controller_kinds())
 
 
-def test_every_behaviour_is_named_by_the_catalogue() -> None:
+def test_every_behavior_is_named_by_the_catalogue() -> None:
     run = {_expected(offer, distro) for offer in OFFERS for distro in offer.distros}
-    assert run | PASSIVE == set(Behaviour)
+    assert run | PASSIVE == set(Behavior)
 
 
 # A gpio that the driver exports and no description lists, and joints by effort alone, which GenericSystem refuses.
@@ -197,7 +197,7 @@ def test_controller_that_takes_what_mock_hardware_lacks_is_started_on_the_real_t
     device, kind, what, gpio = BEYOND_THE_MOCK[taken]
     named = f'{{gpios: ["{{prefix}}gpio"], "{what}_interfaces.{{prefix}}gpio.interfaces": [{gpio}]}}'
     said = f", parameters: {named}" if gpio else f", command_interfaces: [{what}]"
-    offer = Offer(kind, device, Behaviour(kind), (Distro.JAZZY,), said)
+    offer = Offer(kind, device, Behavior(kind), (Distro.JAZZY,), said)
     cell = load(build_into(tmp_path / "built", written(tmp_path, _spec(offer, Distro.JAZZY))))
     (manager,) = cell.contract.managers.values()
     assert manager.controllers["tested"].targets == ("real",)

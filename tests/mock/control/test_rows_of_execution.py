@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from cellc.contract.vocabulary import Behaviour
+from cellc.contract.vocabulary import Behavior
 from cellc.mock.control import ControllerManager, GoalStatus, TrajectoryEnded
 
 from .bench import S, Value, bench, commands, ending, only, point, positions, send, urdf, wait
@@ -176,9 +176,9 @@ def test_scaled_controller_reads_the_factor_of_the_hardware() -> None:
         '<param name="initial_value">0.5</param></state_interface></gpio><sensor name="wrist">',
     )
     vendor = {"arm": "vendor_controllers/ScaledTrajectory"}
-    behaviours = {"vendor_controllers/ScaledTrajectory": Behaviour.SCALED_JOINT_TRAJECTORY}
+    behaviors = {"vendor_controllers/ScaledTrajectory": Behavior.SCALED_JOINT_TRAJECTORY}
     named: dict[str, Value] = {"speed_scaling_interface_name": "speed_scaling/speed_scaling_factor"}
-    manager = bench(named, types=vendor, description=described, behaviours=behaviours)
+    manager = bench(named, types=vendor, description=described, behaviors=behaviors)
     sent_ns = manager.now_ns
     send(manager, point(0.4, 0.0))
     ended = only(wait(manager, 5.0), TrajectoryEnded)

@@ -100,7 +100,7 @@ def test_rate_does_not_drift(simulation: Simulation) -> None:
     assert ticks[300] == 10_000_000_000  # the 300th period of 1/30 s ends after exactly 10 s
 
 
-@pytest.mark.parametrize("rehearsal", ["pick_and_place", "stale_camera", "cancelled"])
+@pytest.mark.parametrize("rehearsal", ["pick_and_place", "stale_camera", "canceled"])
 def test_long_blocks_give_the_same_records_as_a_stop_at_every_event(
     cell: MockCell, rehearsal: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

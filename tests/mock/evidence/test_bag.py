@@ -54,7 +54,7 @@ def test_mcap_finds_every_topic_with_its_type_and_no_damage(written: Written) ->
 
 
 def test_header_names_the_profile_and_no_version_of_a_library(written: Written) -> None:
-    with written.bag("cancelled").open("rb") as file:
+    with written.bag("canceled").open("rb") as file:
         header = make_reader(file).get_header()
     assert (header.profile, header.library) == ("ros2", "cellc mock")
 
@@ -62,14 +62,14 @@ def test_header_names_the_profile_and_no_version_of_a_library(written: Written) 
 def test_rosbags_decodes_every_message_by_the_definitions_in_the_bag(written: Written) -> None:
     from rosbags.highlevel import AnyReader
 
-    with AnyReader([written.bag("cancelled")]) as reader:
+    with AnyReader([written.bag("canceled")]) as reader:
         assert {connection.topic: connection.msgtype for connection in reader.connections} == TOPICS
         for connection, _, data in reader.messages():
             reader.deserialize(data, connection.msgtype)
 
 
 def test_profiles_are_those_of_the_contract_in_the_form_of_rosbag2(written: Written, cell: MockCell) -> None:
-    with written.bag("cancelled").open("rb") as file:
+    with written.bag("canceled").open("rb") as file:
         summary = make_reader(file).get_summary()
     assert summary is not None
     offered = {each.topic: yaml.safe_load(each.metadata["offered_qos_profiles"]) for each in summary.channels.values()}
@@ -229,7 +229,7 @@ def test_diagnostics_tell_when_all_controllers_are_active(written: Written) -> N
 
 
 def test_metadata_names_configuration_and_seed(written: Written, cell: MockCell) -> None:
-    with written.bag("cancelled").open("rb") as file:
+    with written.bag("canceled").open("rb") as file:
         (metadata,) = make_reader(file).iter_metadata()
     assert metadata.metadata["configuration_id"] == cell.contract.configuration_id
     assert metadata.metadata["seed"] == "0"
@@ -241,17 +241,17 @@ def test_watching_changes_nothing(written: Written, cell: MockCell) -> None:
         assert cell.run(rehearsal) == result
 
 
-def test_cancelled_goal_has_its_latency_among_the_figures(written: Written) -> None:
-    content = json.loads((written.folder / "cancelled.kpis.json").read_text(encoding="utf-8"))
+def test_canceled_goal_has_its_latency_among_the_figures(written: Written) -> None:
+    content = json.loads((written.folder / "canceled.kpis.json").read_text(encoding="utf-8"))
     figures = {figure["name"]: figure for figure in content["kpis"]}
-    cancels = [record.cancel for record in written.results["cancelled"].attempts if record.cancel is not None]
+    cancels = [record.cancel for record in written.results["canceled"].attempts if record.cancel is not None]
     assert cancels[0].held_ns is not None
     by_hand = (cancels[0].held_ns - cancels[0].requested_ns) / 1e9
     assert figures["cancel_s"]["value"] == by_hand
     assert figures["cancel_s"]["met"] == (by_hand <= 0.2)
 
 
-@pytest.mark.parametrize("name", ["pick_and_place", "cancelled"])
+@pytest.mark.parametrize("name", ["pick_and_place", "canceled"])
 def test_undisturbed_runs_have_no_owner_that_the_contract_does_not_state(written: Written, name: str) -> None:
     content = json.loads((written.folder / f"{name}.kpis.json").read_text(encoding="utf-8"))
     figures = {figure["name"]: figure for figure in content["kpis"]}

@@ -33,13 +33,13 @@ def test_index_names_every_file_with_its_hash(written: Written) -> None:
 
 def test_folder_is_replaced_and_files_of_others_stay(cell: MockCell, tmp_path: Path) -> None:
     folder = tmp_path / "evidence"
-    write_evidence(cell, folder, "cancelled", "stale_camera")
+    write_evidence(cell, folder, "canceled", "stale_camera")
     (folder / "signed.md").write_text("by hand")
-    write_evidence(cell, folder, "cancelled", seed=1)
+    write_evidence(cell, folder, "canceled", seed=1)
     assert sorted(contents(folder)) == [
-        "cancelled.kpis.json",
-        "cancelled.mcap",
-        "cancelled.records.jsonl",
+        "canceled.kpis.json",
+        "canceled.mcap",
+        "canceled.records.jsonl",
         "evidence.json",
         "layout.json",
         "report.html",
@@ -49,13 +49,13 @@ def test_folder_is_replaced_and_files_of_others_stay(cell: MockCell, tmp_path: P
     assert [path.name for path in tmp_path.iterdir()] == ["evidence"]
 
 
-@pytest.mark.parametrize("name", ["report.html", "cancelled.records.jsonl"])
+@pytest.mark.parametrize("name", ["report.html", "canceled.records.jsonl"])
 def test_file_edited_by_hand_is_not_overwritten(name: str, cell: MockCell, tmp_path: Path) -> None:
-    write_evidence(cell, tmp_path / "evidence", "cancelled")
+    write_evidence(cell, tmp_path / "evidence", "canceled")
     (tmp_path / "evidence" / name).write_text("mine")
     before = contents(tmp_path / "evidence")
     with pytest.raises(MockError, match=f"{name}: is not as cellc wrote it"):
-        write_evidence(cell, tmp_path / "evidence", "cancelled")
+        write_evidence(cell, tmp_path / "evidence", "canceled")
     assert contents(tmp_path / "evidence") == before
     assert [path.name for path in tmp_path.iterdir()] == ["evidence"]
 
@@ -63,7 +63,7 @@ def test_file_edited_by_hand_is_not_overwritten(name: str, cell: MockCell, tmp_p
 def test_foreign_file_of_the_same_name_is_not_overwritten(cell: MockCell, tmp_path: Path) -> None:
     (tmp_path / "report.html").write_text("somebody else's")
     with pytest.raises(MockError, match="is not as cellc wrote it"):
-        write_evidence(cell, tmp_path, "cancelled")
+        write_evidence(cell, tmp_path, "canceled")
     assert (tmp_path / "report.html").read_text() == "somebody else's"
 
 
@@ -75,18 +75,18 @@ def test_interrupted_call_leaves_the_folder_as_it_was(
     cell: MockCell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = tmp_path / "evidence"
-    write_evidence(cell, folder, "cancelled")
+    write_evidence(cell, folder, "canceled")
     before = contents(folder)
     monkeypatch.setattr("cellc.mock.command.evidence.to_report", _interrupt)
     with pytest.raises(KeyboardInterrupt):
-        write_evidence(cell, folder, "cancelled", seed=3)
+        write_evidence(cell, folder, "canceled", seed=3)
     assert contents(folder) == before
     assert [path.name for path in tmp_path.iterdir()] == ["evidence"]
 
 
 def test_swap_that_fails_puts_every_file_back(cell: MockCell, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = tmp_path / "evidence"
-    write_evidence(cell, folder, "cancelled")
+    write_evidence(cell, folder, "canceled")
     before = contents(folder)
     put = []
 
@@ -96,7 +96,7 @@ def test_swap_that_fails_puts_every_file_back(cell: MockCell, tmp_path: Path, mo
 
     monkeypatch.setattr("cellc.contract.store.swap.Swap.settle", lambda swap: fail(swap, ""))
     with pytest.raises(MockError, match="no space left on device"):
-        write_evidence(cell, folder, "cancelled", seed=9)
+        write_evidence(cell, folder, "canceled", seed=9)
     assert put
     assert contents(folder) == before
     assert [path.name for path in tmp_path.iterdir()] == ["evidence"]
@@ -105,7 +105,7 @@ def test_swap_that_fails_puts_every_file_back(cell: MockCell, tmp_path: Path, mo
 def test_file_in_place_of_the_folder_is_refused(cell: MockCell, tmp_path: Path) -> None:
     (tmp_path / "evidence").write_text("a file")
     with pytest.raises(MockError, match="is not a folder"):
-        write_evidence(cell, tmp_path / "evidence", "cancelled")
+        write_evidence(cell, tmp_path / "evidence", "canceled")
 
 
 def test_index_of_a_stranger_makes_nothing_else_disappear(cell: MockCell, tmp_path: Path) -> None:
@@ -114,7 +114,7 @@ def test_index_of_a_stranger_makes_nothing_else_disappear(cell: MockCell, tmp_pa
     (tmp_path / "precious").write_text("x")
     digest = hashlib.sha256(b"x").hexdigest()
     (folder / "evidence.json").write_text(json.dumps({"files": {"../precious": digest}}))
-    write_evidence(cell, folder, "cancelled")
+    write_evidence(cell, folder, "canceled")
     assert (tmp_path / "precious").read_text() == "x"
 
 
@@ -133,7 +133,7 @@ def test_names_of_rehearsals_become_names_of_files_on_every_file_system() -> Non
 
 def test_layout_for_foxglove_names_topics_of_the_bags_and_panels_that_it_places(written: Written) -> None:
     layout = json.loads((written.folder / "layout.json").read_text(encoding="utf-8"))
-    with written.bag("cancelled").open("rb") as file:
+    with written.bag("canceled").open("rb") as file:
         summary = make_reader(file).get_summary()
     assert summary is not None
     types = {each.topic: summary.schemas[each.schema_id].name for each in summary.channels.values()}

@@ -35,7 +35,7 @@ def test_neighbours_of_the_list_of_faults_end_together_in_a_named_outcome_of_eit
             (during(3, FaultKind.FREEZE, "camera"), during(3, FaultKind.PROTECTIVE_STOP, "arm", after_s=0.35)),
             "protective_stop",
         ),
-        ((during(3, FaultKind.FREEZE, "arm"), during(3, FaultKind.CANCEL, "move")), "cancelled"),
+        ((during(3, FaultKind.FREEZE, "arm"), during(3, FaultKind.CANCEL, "move")), "canceled"),
         ((during(3, FaultKind.SKIP_CYCLES, cycles=5), during(3, FaultKind.EMERGENCY_STOP, "arm")), "emergency_stop"),
         (
             (during(3, FaultKind.UNRESPONSIVE, "arm_trajectory"), during(3, FaultKind.RESTART_DRIVER, "arm")),
@@ -56,7 +56,7 @@ def test_the_graver_or_the_earlier_of_two_faults_names_the_outcome(
 def test_faults_at_a_time_and_with_an_event_go_together(run: Rehearse) -> None:
     # Steps 1 and 2 take 0.1 s; the plan of step 3 is executed from 0.15 s on.
     at_time = FaultEntry(kind="freeze", target="camera", at_s=0.3)
-    assert run(at_time, during(3, FaultKind.CANCEL, "move", after_s=0.05)).failed.outcome == "cancelled"
+    assert run(at_time, during(3, FaultKind.CANCEL, "move", after_s=0.05)).failed.outcome == "canceled"
     assert run(at_time, during(3, FaultKind.CANCEL, "move", after_s=1.0)).failed.outcome == "stale_state"
 
 

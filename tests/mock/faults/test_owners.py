@@ -32,7 +32,7 @@ def test_wrong_owner_events_are_counted(run: Rehearse) -> None:
     assert len(run(*faults).plant.task.actions.foreign) == 2
 
 
-def test_goals_of_both_clients_are_cancelled_and_the_arm_is_held(run: Rehearse) -> None:
+def test_goals_of_both_clients_are_canceled_and_the_arm_is_held(run: Rehearse) -> None:
     done = run(during(3, FaultKind.SECOND_COMMANDER, "arm_trajectory"))
     assert done.failed.cancel is not None
     assert done.failed.cancel.held_ns is not None

@@ -22,7 +22,7 @@ def pick() -> MockCell:
 
 @pytest.fixture(scope="session")
 def rehearsed(pick: MockCell) -> tuple[JudgedRun, ...]:
-    """Its declared rehearsals: one that succeeds, a stale camera, a cancelled goal."""
+    """Its declared rehearsals: one that succeeds, a stale camera, a canceled goal."""
     return judged_rehearsals(pick.entries, [pick.run(name) for name in pick.rehearsals])
 
 

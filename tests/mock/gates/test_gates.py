@@ -40,7 +40,7 @@ def test_rehearsals_confirm_what_they_showed_and_leave_the_rest_unknown(pick: Mo
     assert line(command_path, "A goal to arm_trajectory is accepted, driven and answered").verdict is PASSED
     cancel = line(command_path, "A canceled goal of arm_trajectory is held within 0.2 s on mock hardware")
     assert cancel.verdict is PASSED
-    assert cancel.evidence[0].startswith("cancelled, move pick: held after ")
+    assert cancel.evidence[0].startswith("canceled, move pick: held after ")
     assert line(command_path, "A canceled goal of gripper_action").verdict is UNKNOWN
     assert line(command_path, "A violated tolerance of arm_trajectory").verdict is UNKNOWN
     assert command_path.verdict is UNKNOWN
@@ -99,18 +99,18 @@ def test_file_edited_by_hand_fails_the_model(pick: MockCell, rehearsed: Runs) ->
 
 
 def test_cancel_that_is_not_held_fails_its_line(pick: MockCell, rehearsed: Runs) -> None:
-    moving = run(rehearsed, "cancelled")
+    moving = run(rehearsed, "canceled")
     late = CancelRecord(requested_ns=1_000_000_000, held_ns=1_250_000_000, latency_s=0.25, return_code=0)
     never = replace(late, held_ns=None, latency_s=None)
     for cancel in (late, never):
         spoiled = (with_attempt(moving, "move pick", partial(replace, cancel=cancel)),)
         check = line(gate("G2", pick.folder, spoiled), "A canceled goal of arm_trajectory")
         assert check.verdict is FAILED
-        assert check.evidence == ("cancelled, move pick: not held within 0.2 s",)
+        assert check.evidence == ("canceled, move pick: not held within 0.2 s",)
 
 
 def test_cancel_of_a_goal_that_moved_nothing_is_no_evidence(pick: MockCell, rehearsed: Runs) -> None:
-    still = with_attempt(run(rehearsed, "cancelled"), "move pick", partial(replace, trace=()))
+    still = with_attempt(run(rehearsed, "canceled"), "move pick", partial(replace, trace=()))
     assert line(gate("L6", pick.folder, (still,)), "A canceled goal of arm_trajectory").verdict is UNKNOWN
 
 

@@ -92,8 +92,8 @@ def test_who_comes_late_receives_what_is_latched_and_each_rehearsal_is_a_session
     cell: MockCell, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with _watched(monkeypatch, 1000.0) as watched:
-        watched.view.run(cell, "cancelled", 0)
-        watched.view.run(cell, "cancelled", 0)
+        watched.view.run(cell, "canceled", 0)
+        watched.view.run(cell, "canceled", 0)
         late = watched.connect("/robot_description", "/tf_static", "/tf")
     assert watched.viewers[0].sessions == 2
     assert {topic: len(messages) for topic, messages in late.received.items()} == {
@@ -135,4 +135,4 @@ def test_missing_sdk_is_told_with_what_to_install(built_folder: Path, monkeypatc
     monkeypatch.setitem(sys.modules, "foxglove", None)
     told = re.escape("-m pip install 'foxglove-sdk>=0.30' 'mcap>=1.1'`")
     with pytest.raises(MissingExtraError, match=told):
-        run_rehearsals(RehearsalOptions(str(built_folder), rehearsals=("cancelled",), live=Live("127.0.0.1:0", 1.0)))
+        run_rehearsals(RehearsalOptions(str(built_folder), rehearsals=("canceled",), live=Live("127.0.0.1:0", 1.0)))

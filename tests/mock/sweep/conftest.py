@@ -16,7 +16,7 @@ _MORE = """
 calibrations:
   nest: {revision: 1, measured: 2026-07-02, method: touch probe, samples: 5, residual: 1 mm, owner: perception}
 frames: {nest: {parent: world, xyz: 450 100 50 mm, calibration: nest, reference_points: 3}}
-hosts: {pc: {clock: {domain: ros, synchronised_by: chrony, max_offset: 1 ms}}}
+hosts: {pc: {clock: {domain: ros, synchronized_by: chrony, max_offset: 1 ms}}}
 uncertainty: {tolerances: {put: 1.5 mm}, repeatability: {arm: 0 mm}}
 """
 

@@ -160,7 +160,7 @@ def _controller(
     device = next((device for device in cell.devices if device.name == controller.device), None)
     hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
     rate = controller.update_rate_hz or manager.update_rate_hz
-    behaviour = "" if action is None else f"; {failure_label(action)}"
+    behavior = "" if action is None else f"; {failure_label(action)}"
     name, client = controller.action or controller.full_name, controller.client or "no client"
     return (
         f"{client} → {code(name)} → {controller.label} → {hardware}{_alone(controller.targets)}",
@@ -170,7 +170,7 @@ def _controller(
         (action.time_source if action is not None else None) or f"clock of {manager.host or 'its host'}",
         _NOT_STATED if action is None else _qos((*action.sinks, *action.sources)),
         watchdog(cell, controller),
-        f"on violation {controller.on_violation}{behaviour}",
+        f"on violation {controller.on_violation}{behavior}",
     )
 
 
@@ -245,7 +245,7 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
                 f"`{manager.namespace}/{controller.name}`",
                 f"{manager.host or 'not stated'}{_alone(controller.targets)}",
             )
-            yield name, controller.plugin, host, owner, _code(controller.told("real"))
+            yield name, controller.plugin, host, owner, _code(controller.parameters_on("real"))
 
 
 def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:

@@ -54,7 +54,7 @@ def _clock_name(cell: Cell, device: Device) -> str:
 def _clock(clock: Clock) -> ContractClock:
     return ContractClock(
         domain=clock.domain,
-        synchronised_by=clock.synchronised_by,
+        synchronized_by=clock.synchronized_by,
         max_offset_s=clock.max_offset_s,
         offset_s=clock.simulated_offset_s,
         drift=clock.simulated_drift,

@@ -59,7 +59,7 @@ def _contract(graph: CellGraph, plan: Deployment) -> Contract:
         managers=managers(cell),
         clocks=clocks(cell),
         clock_of=clock_of(cell),
-        plugin_behaviours=dict(cell.behaviours),
+        plugin_behaviors=dict(cell.behaviors),
         devices=devices(cell),
         simulated_joints=simulated_joints(cell),
         adapters=adapters(cell),

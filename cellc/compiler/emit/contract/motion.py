@@ -146,7 +146,7 @@ def _controller(controller: Controller) -> ContractController:
     return ContractController.model_validate(
         {
             "plugin": controller.plugin,
-            "behaviour": controller.behaviour,
+            "behavior": controller.behavior,
             "full_name": controller.full_name,
             "targets": controller.targets,
             "device": controller.device,

@@ -84,8 +84,8 @@ def unsynchronized_hosts(graph: CellGraph) -> Findings:
     if len(hosts) < 2:
         return
     for name, host in hosts.items():
-        if host.clock.synchronised_by is None or host.clock.max_offset_s is None:
-            field = "synchronised_by" if host.clock.synchronised_by is None else "max_offset"
+        if host.clock.synchronized_by is None or host.clock.max_offset_s is None:
+            field = "synchronized_by" if host.clock.synchronized_by is None else "max_offset"
             message = f"the clock of host `{name}` does not state `{field}`"
             path = ("hosts", name, "clock", field)
             yield found(graph, path, message)
@@ -99,8 +99,8 @@ def unsynchronized_sensor_clock(graph: CellGraph) -> Findings:
         stamp = device.stamp
         if stamp is None or stamp.source != "hardware" or stamp.clock.domain in (UNKNOWN, *host_domains):
             continue
-        if stamp.clock.synchronised_by is None or stamp.clock.max_offset_s is None:
-            field = "synchronised_by" if stamp.clock.synchronised_by is None else "max_offset"
+        if stamp.clock.synchronized_by is None or stamp.clock.max_offset_s is None:
+            field = "synchronized_by" if stamp.clock.synchronized_by is None else "max_offset"
             message = f"clock `{stamp.clock.domain}` of `{device.name}` does not state `{field}`"
             path = (*device.path, "stamp", field)
             yield found(graph, path, message)

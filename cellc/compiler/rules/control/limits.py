@@ -9,7 +9,7 @@ from cellc.compiler.rules.described import described
 from cellc.compiler.rules.excuses import spared
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.contract.quantities import SMALLEST
-from cellc.contract.vocabulary import Behaviour
+from cellc.contract.vocabulary import Behavior
 
 
 @rule(Severity.BLOCKER)
@@ -43,7 +43,7 @@ def assumed_speed_scaling(graph: CellGraph) -> Findings:
     """Yield controllers that read a scaling factor though their device has none."""
     scaling = {device.name for device in graph.cell.devices if device.speed_scaling is not None}
     for controller in graph.cell.controllers:
-        reads = controller.behaviour is Behaviour.SCALED_JOINT_TRAJECTORY or bool(
+        reads = controller.behavior is Behavior.SCALED_JOINT_TRAJECTORY or bool(
             controller.parameters.get("speed_scaling.state_interface")
         )
         if reads and controller.device is not None and controller.device not in scaling:
@@ -127,7 +127,7 @@ def unscaled_trajectory(graph: CellGraph) -> Findings:
     """Yield trajectory controllers on a scaling device that do not read its factor."""
     scaling = {device.name: device for device in graph.cell.devices if device.speed_scaling is not None}
     for controller in graph.cell.controllers:
-        if controller.behaviour is not Behaviour.JOINT_TRAJECTORY or controller.device not in scaling:
+        if controller.behavior is not Behavior.JOINT_TRAJECTORY or controller.device not in scaling:
             continue
         if not controller.parameters.get("speed_scaling.state_interface"):
             message = f"`{controller.device}` scales its speed, `{controller.name}` does not follow"

@@ -7,7 +7,7 @@ from operator import itemgetter
 
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.vocabulary import Behaviour
+from cellc.contract.vocabulary import Behavior
 
 
 @rule(Severity.ERROR)
@@ -43,7 +43,7 @@ def device_apart_from_its_manager(graph: CellGraph) -> Findings:
 def missing_joint_states(graph: CellGraph) -> Findings:
     """Yield managers that drive joints without an active joint state broadcaster."""
     for manager in graph.cell.managers:
-        publishing = any(c.behaviour is Behaviour.JOINT_STATE_BROADCASTER and c.active for c in manager.controllers)
+        publishing = any(c.behavior is Behavior.JOINT_STATE_BROADCASTER and c.active for c in manager.controllers)
         if not publishing and any(c.command_interfaces and c.joints for c in manager.controllers):
             path = (*manager.path, "controllers")
             message = f"no controller of `{manager.name}` publishes joint states"

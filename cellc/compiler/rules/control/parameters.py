@@ -143,9 +143,9 @@ def trajectory_without_gains(graph: CellGraph) -> Findings:
     for controller in graph.cell.controllers:
         target = controller.targets[-1]  # the real one where it is there
         kinds = {interface.rpartition("/")[2] for interface in controller.claims(target)}
-        if controller.behaviour not in TRAJECTORIES or len(kinds) != 1 or not kinds <= {"velocity", "effort"}:
+        if controller.behavior not in TRAJECTORIES or len(kinds) != 1 or not kinds <= {"velocity", "effort"}:
             continue
-        without = [joint for joint in controller.joints if not controller.told(target).get(f"gains.{joint}.p")]
+        without = [joint for joint in controller.joints if not controller.parameters_on(target).get(f"gains.{joint}.p")]
         if without:
             more = f" and {len(without) - 1} more" if len(without) > 1 else ""
             message = f"`{controller.name}` commands {kinds.pop()} alone and must have gains, `gains.{without[0]}.p`"

@@ -110,9 +110,9 @@ def payload_lighter_than_tool(graph: CellGraph) -> Findings:
 def payload_set_too_late(graph: CellGraph) -> Findings:
     """Yield payloads set by a service that is missing, or is refused until after the brakes open."""
     for device in graph.cell.devices:
-        if device.payload is None or device.payload.told_by != "service":
+        if device.payload is None or device.payload.set_by != "service":
             continue
-        path = (*device.path, "payload", "told_by")
+        path = (*device.path, "payload", "set_by")
         if not device.robot.payload_service:
             yield found(graph, path, f"no service tells `{device.name}` its payload")
         elif device.robot.ways and (device.program is None or device.program.mode == "local"):

@@ -32,7 +32,7 @@ def goal_looser_than_path(graph: CellGraph) -> Findings:
 def missing_goal_time(graph: CellGraph) -> Findings:
     """Yield trajectory controllers without the value, and with zero, which switches the check off."""
     for controller in graph.cell.controllers:
-        if controller.behaviour not in TRAJECTORIES:
+        if controller.behavior not in TRAJECTORIES:
             continue
         if not controller.goal_time_s:
             unstated = controller.goal_time_s is None
@@ -46,7 +46,7 @@ def missing_goal_time(graph: CellGraph) -> Findings:
 def _unwatched_joints(graph: CellGraph, key: str) -> Findings:
     """Yield trajectory controllers that state no tolerance, or none for some joint, or zero, which is no check."""
     for controller in graph.cell.controllers:
-        if controller.behaviour not in TRAJECTORIES:
+        if controller.behavior not in TRAJECTORIES:
             continue
         figures = dict(stated(controller))[key]
         if figures is None:
@@ -75,7 +75,7 @@ _MOVING_END = "allow_nonzero_velocity_at_trajectory_end"
 def moving_trajectory_end(graph: CellGraph) -> Findings:
     """Yield trajectory controllers that accept such trajectories."""
     for controller in graph.cell.controllers:
-        if controller.behaviour in TRAJECTORIES and controller.written_parameters.get(_MOVING_END) is True:
+        if controller.behavior in TRAJECTORIES and controller.written_parameters.get(_MOVING_END) is True:
             message = f"trajectories of `{controller.name}` must end at rest, but it takes those that do not"
             yield found(graph, (*controller.path, "parameters", _MOVING_END), message)
 
@@ -107,7 +107,7 @@ def path_tolerance_without_effect(graph: CellGraph) -> Findings:
     """Yield trajectory controllers whose tolerance exceeds half of a joint's range, or 1 rad."""
     joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
     for controller in graph.cell.controllers:
-        if controller.behaviour not in TRAJECTORIES or controller.path_tolerance is None:
+        if controller.behavior not in TRAJECTORIES or controller.path_tolerance is None:
             continue
         bounds = _bounds(joints, controller)
         wide = [(bounds[name], name) for name, one in controller.path_tolerance.items() if one.value > bounds[name]]
@@ -140,7 +140,7 @@ def unmeetable_tolerance(graph: CellGraph) -> Findings:
     speeds = {joint.name: joint.velocity or 0.0 for device in graph.cell.devices for joint in device.joints}
     for manager in graph.cell.managers:
         for controller in manager.controllers:
-            if controller.behaviour not in TRAJECTORIES:
+            if controller.behavior not in TRAJECTORIES:
                 continue
             for key, bound, why in _unmet(speeds, controller, manager.update_rate_hz):
                 path = (*controller.path, key)

@@ -40,7 +40,7 @@ _LAYERS = {
     "unresponsive": ("timeout",),
     "unreachable": ("planning_failure",),
     "reject": ("goal_rejection", "stale_state"),  # the latter of a broadcaster
-    "cancel": ("cancelled",),
+    "cancel": ("canceled",),
     "second_commander": ("wrong_owner",),
     "switch": ("wrong_owner", "goal_rejection"),
     "stick": ("tolerance_violation",),
@@ -94,7 +94,7 @@ def unrehearsed_failure(graph: CellGraph) -> Findings:
     if not graph.cell.rehearsals or not any(goal.frame in dynamic for goal in graph.cell.goals):
         return
     expected = {rehearsal.expect for rehearsal in graph.cell.rehearsals}
-    missing = [outcome for outcome in ("stale_state", "cancelled") if outcome not in expected]
+    missing = [outcome for outcome in ("stale_state", "canceled") if outcome not in expected]
     if missing:
         names = " and ".join(f"`{outcome}`" for outcome in missing)
         yield found(graph, ("rehearsals",), f"no rehearsal ends in {names}")

@@ -207,7 +207,7 @@ def unread_sensor(graph: CellGraph) -> Findings:
         # What no output switches may be in any state at first; the others are where their outputs have them.
         unread = {name: "" for name, one in sensed.items() if not one.signals}
         for step in rehearsal.steps:
-            if step.kind == "set" and step.name in sensed and step.state in sensed[step.name].told_states:
+            if step.kind == "set" and step.name in sensed and step.state in sensed[step.name].distinct_states:
                 unread[step.name] = step.state or ""
             elif step.kind == "sense":
                 unread.pop(step.name, None)

@@ -8,7 +8,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.motion import Servo
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.vocabulary import TRAJECTORIES, Behaviour, Distro, InterfaceKind
+from cellc.contract.vocabulary import TRAJECTORIES, Behavior, Distro, InterfaceKind
 
 
 @rule(Severity.BLOCKER)
@@ -40,7 +40,7 @@ def controller_of_another_client(graph: CellGraph) -> Findings:
     declared = {(interface.name, end.node) for interface in actions for end in interface.sinks}
     for controller in graph.cell.controllers:
         client = controller.client
-        if controller.behaviour not in TRAJECTORIES or client is None or not executing or client in executing:
+        if controller.behavior not in TRAJECTORIES or client is None or not executing or client in executing:
             continue
         commands = graph.data.path_to_motion(client)[1:2] != (controller.label,)
         asks = any(
@@ -103,7 +103,7 @@ def direct_sdk_without_bounded_command(graph: CellGraph) -> Findings:
 def own_motion_at_start(graph: CellGraph) -> Findings:
     """Yield controllers of a device's own motion that no step switches to."""
     for controller in graph.cell.controllers:
-        if controller.behaviour is Behaviour.OWN_MOTION and controller.active:
+        if controller.behavior is Behavior.OWN_MOTION and controller.active:
             message = f"`{controller.name}` moves `{controller.device}` past its joints, and is active from the start"
             yield found(graph, controller.path, message)
 
@@ -194,8 +194,8 @@ def unfit_servo(graph: CellGraph) -> Findings:
 
 def _refused_servo(cell: Cell, servo: Servo, controller: Controller) -> Iterator[str]:
     """Yield why a controller must not be commanded by Servo."""
-    streamed = controller.behaviour is Behaviour.FORWARD_COMMAND
-    if not streamed and controller.behaviour not in TRAJECTORIES:
+    streamed = controller.behavior is Behavior.FORWARD_COMMAND
+    if not streamed and controller.behavior not in TRAJECTORIES:
         yield f"`{controller.name}` must take positions or velocities of joints by a topic, got {controller.kind}"
     if streamed and servo.positions == servo.velocities:
         yield f"`{controller.name}` must command position or velocity, and one of them alone"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.hardware import CommandLimiter, Disturbances
@@ -29,14 +29,14 @@ class NodeOptions:
     Attributes:
         namespace: namespace of the manager and its controllers.
         distro: ROS distribution.
-        behaviours: behaviors of further controller types.
+        behaviors: behaviors of further controller types.
         start_ns: simulated time of the first cycle.
         declared: interfaces of controllers that only the cell tells, by name.
     """
 
     namespace: str
     distro: Distro
-    behaviours: Mapping[str, Behaviour]
+    behaviors: Mapping[str, Behavior]
     start_ns: int
     declared: Mapping[str, DeclaredInterfaces]
 
@@ -140,7 +140,7 @@ def assemble(
         if settings.enforce_command_limits:
             limiter = CommandLimiter(all_limits(description), table, period_ns, log)
     registry = ControllerRegistry(
-        file, options.namespace, options.distro, options.behaviours, log, events, options.declared
+        file, options.namespace, options.distro, options.behaviors, log, events, options.declared
     )
     registry.attach(description, table, limiter, period_ns, rate)
     checker = SwitchChecker(registry, hardware, table, log)

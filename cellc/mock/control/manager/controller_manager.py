@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control.controllers.base import Controller, DeclaredInterfaces
 from cellc.mock.control.controllers.broadcasters import JointStateBlock, JointStateBroadcaster
 from cellc.mock.control.controllers.forward_command import ForwardCommandController, GpioCommandController
@@ -44,7 +44,7 @@ class ControllerManager:
         parameters: text of the parameter file (controllers.yaml); empty for none.
         namespace: namespace of the manager and its controllers.
         distro: ROS distribution.
-        plugin_behaviours: behavior of further controller plugin types.
+        plugin_behaviors: behavior of further controller plugin types.
         start_ns: simulated time of the first update cycle.
         declared: interfaces of controllers that only the cell tells, by name.
 
@@ -59,11 +59,11 @@ class ControllerManager:
         *,
         namespace: str = "",
         distro: Distro = Distro.KILTED,
-        plugin_behaviours: Mapping[str, Behaviour] | None = None,
+        plugin_behaviors: Mapping[str, Behavior] | None = None,
         start_ns: int = 0,
         declared: Mapping[str, DeclaredInterfaces] | None = None,
     ) -> None:
-        options = NodeOptions(namespace, distro, plugin_behaviours or {}, start_ns, declared or {})
+        options = NodeOptions(namespace, distro, plugin_behaviors or {}, start_ns, declared or {})
         stack = assemble(robot_description, parameters, options, self._touch)
         self.log, self.disturbances = stack.log, stack.disturbances
         self.journal = stack.table.journal

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cellc.mock.control.controllers.plugins import HARDWARE_BEHAVIOURS
+from cellc.mock.control.controllers.plugins import HARDWARE_BEHAVIORS
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.hardware import Disturbances, GenericSystem
 from cellc.mock.control.interfaces import InterfaceTable
@@ -217,7 +217,7 @@ def _is_due(component: Component, time_ns: int, rate: int) -> bool:
 def _check_plugin(kind: str, plugin: str) -> None:
     if kind not in ("system", "actuator", "sensor"):
         raise DescriptionError("Discrepancy between robot description file (urdf) and actually exported HW interfaces.")
-    if kind != "system" or plugin not in HARDWARE_BEHAVIOURS:
+    if kind != "system" or plugin not in HARDWARE_BEHAVIORS:
         raise DescriptionError(
             "Caught exception of type : N9pluginlib20LibraryLoadExceptionE while loading hardware: According to the "
             f"loaded plugin descriptions the class {plugin} with base class type "

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from cellc.contract.vocabulary import Behaviour, Distro
+from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control.controllers.base import ConfigureError, Context, Controller, DeclaredInterfaces
 from cellc.mock.control.controllers.plugins import controller_factory
 from cellc.mock.control.hardware import CommandLimiter
@@ -81,7 +81,7 @@ class ControllerRegistry:
         file: parameters of the manager's process.
         namespace: namespace of the manager.
         distro: ROS distribution.
-        behaviours: behaviors of further plugin types.
+        behaviors: behaviors of further plugin types.
         log: the log.
         events: where changes are told.
         declared: interfaces of controllers that only the cell tells, by name.
@@ -92,7 +92,7 @@ class ControllerRegistry:
         file: ParameterFile,
         namespace: str,
         distro: Distro,
-        behaviours: Mapping[str, Behaviour],
+        behaviors: Mapping[str, Behavior],
         log: Log,
         events: list[ControlEvent],
         declared: Mapping[str, DeclaredInterfaces],
@@ -101,7 +101,7 @@ class ControllerRegistry:
         self._file = file
         self._namespace = namespace
         self._distro = distro
-        self._behaviours = behaviours
+        self._behaviors = behaviors
         self._log = log
         self._events = events
         self._own = file.of_node(NODE_NAME, namespace)
@@ -140,7 +140,7 @@ class ControllerRegistry:
             return self._refuse(f"A controller named '{name}' was already loaded inside the controller manager")
         if not isinstance(given, str) or not given:
             return self._refuse(f"The 'type' param was not defined for '{name}'.")
-        factory = controller_factory(given, self._distro, self._behaviours)
+        factory = controller_factory(given, self._distro, self._behaviors)
         if factory is None:
             return self._refuse(f"Loader for controller '{name}' (type '{given}') not found.")
         context = Context(
