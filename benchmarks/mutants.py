@@ -326,7 +326,8 @@ def candidates(mutant: Mutant, reached: Reached) -> list[str]:
     """
     folders = [(f"{name}/", f"{name}::") for name in nearest(mutant.file)]
     near = {test for test in reached.took if any(test.startswith(one) for one in folders)}
-    direct = _executing(mutant, reached) & near if mutant.statements else reached.called.get(mutant.file, set()) & near
+    executing = _executing(mutant, reached) if mutant.statements else reached.called.get(mutant.file, set())
+    direct = executing & near or executing  # where none of its own folder executes it, those that do are the nearest
     own, around = Path(mutant.file).stem, f"/{Path(mutant.file).parent.name}/"
     files = {test.partition("::")[0] for test in direct}
     at_import = _at_import(mutant, reached)

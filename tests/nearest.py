@@ -30,10 +30,10 @@ FOLDERS = {
     "compiler": "report",
     "compute": "compute",
     "contract": "spec mock",
-    "deploy": "deploy",
+    "deploy": "deploy consumers",
     "diagnostics": "report",
     "edit": "cli",
-    "emit": "emit",
+    "emit": "emit consumers",
     "emit/launch/bring_up_program.py": _PROGRAMS,
     "emit/launch/first_goal_program.py": _PROGRAMS,
     "emit/launch/installed_versions_program.py": _PROGRAMS,
@@ -44,7 +44,8 @@ FOLDERS = {
     "pipeline.py": "cli project/test_package.py",
     "printing.py": "printing",
     "robot": "description",
-    "report/text_report.py": "report cli/test_diagnose.py",
+    "report/fleet.py": "cli/test_fleet.py report",
+    "report/text_report.py": "report output cli/test_diagnose.py",
     "rules": "rules corpus",
     "signals.py": "cli",
     "store": "store",
@@ -55,7 +56,8 @@ FOLDERS = {
 }
 """The nearest tests of a stage, or of one of its files, where they are others than the folder of its name.
 
-A command is tested where its subject is, by the command line: `cellc diff` among the reviews.
+A command is tested where its subject is, by the command line: `cellc diff` among the reviews. What is emitted is
+tested where it is read, too: by the schemas and readers of those that consume it.
 """
 
 
