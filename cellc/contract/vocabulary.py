@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
-from typing import Final
+from typing import Final, Literal
 
 UNKNOWN: Final = "UNKNOWN"
 """The answer of a person who does not guess; it blocks the real target and is in the audit."""
@@ -296,6 +296,12 @@ PROMOTION_GATES = tuple(code for code in GateCode if code.startswith("G"))
 """Gates of the first bring-up, in order."""
 NETWORK_GATES = tuple(code for code in GateCode if code.startswith("L"))
 """Gates from layer to layer of a cell that runs, in order."""
+
+
+RobotSetting = Literal[
+    "payload", "tcp", "load", "thresholds", "joint_impedance", "tool_impedance", "tool_voltage", "first_motion"
+]
+"""What a gate has set, checked or tried in the controller of a robot."""
 
 
 class Grade(Term):

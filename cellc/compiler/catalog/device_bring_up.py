@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, DistroName, GateName, Text, Token
 from cellc.compiler.catalog.robot_facts import DrivenBy, HumanStep, StepCondition
-from cellc.contract.vocabulary import GateCode
+from cellc.contract.vocabulary import GateCode, RobotSetting
 
 
 class PortFacts(CatalogModel):
@@ -127,6 +127,7 @@ class CommissioningStep(CatalogModel):
         run: Commands that only read; ``{address}`` in them becomes a word of the shell.
         shows: Whether the step says what must be seen after the release of the gate.
         powers: Whether the drives have power after the step, so that the stop can be tried.
+        sets: What the step sets in the robot; `cellc diff` compares it.
         only: Distributions on which the step is done; empty for all.
         when: The step is done only if one of these holds for the device in the spec; empty for always.
         by: Only if the device is reached in this way: ``driver`` for the ROS driver, ``adapter`` for an adapter. Both
@@ -140,6 +141,7 @@ class CommissioningStep(CatalogModel):
     run: tuple[Text, ...] = ()
     shows: bool = False
     powers: bool = False
+    sets: RobotSetting | None = None
     only: tuple[DistroName, ...] = ()
     when: tuple[StepCondition, ...] = ()
     by: DrivenBy | None = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cellc.contract.vocabulary import GateCode
+from cellc.contract.vocabulary import GateCode, RobotSetting
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,15 +55,16 @@ class CommissioningStep:
     """What a person does at the real device in a gate, by its vendor's procedure.
 
     ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
-    power by it, so that the stop can be tried. ``log`` where it is in the driver's log: what the lines hold of
-    which the newest counts. ``run`` are commands that read; ``{address}`` in them is that of the device. ``by`` is the
-    ``driver`` or the ``adapter`` where it belongs to one of both alone.
+    power by it, so that the stop can be tried. ``sets`` is what it sets in the robot. ``log`` where it is in the
+    driver's log: what the lines hold of which the newest counts. ``run`` are commands that read; ``{address}`` in them
+    is that of the device. ``by`` is the ``driver`` or the ``adapter`` where it belongs to one of both alone.
     """
 
     gate: GateCode
     does: str
     shows: bool
     powers: bool
+    sets: RobotSetting | None
     log: tuple[str, ...]
     run: tuple[str, ...]
     by: str | None

@@ -159,8 +159,8 @@ def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
         if device.payload is not None:
             payload = (*device.path, "payload")
             moments = text(*payload, "inertia")
-            inertia = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
-            stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), inertia
+            said = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
+            stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), moments, said
             yield *stated, device.tool_frame or device.root_link, device.payload.set_by
 
 
@@ -171,9 +171,9 @@ def _tool_centers(graph: CellGraph) -> Iterator[Values]:
             continue
         pose = graph.frames.pose_in(device.tcp, device.tool_frame)
         if pose is not None:
-            xyz = _figures((1000.0 * value for value in pose.position), 2)
-            turn = _figures(pose.rotation_vector(), 4)
-            rpy = _figures(map(math.degrees, pose.rpy()), 2)
+            xyz = _figures((1000.0 * value for value in pose.position), 2) + " mm"
+            turn = _figures(pose.rotation_vector(), 4) + " rad"
+            rpy = _figures(map(math.degrees, pose.rpy()), 2) + " deg"
             yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph, device)
 
 
@@ -225,7 +225,7 @@ def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) 
         for step in device.commissioning:
             if (step.shows, step.powers) == (shows, powers):
                 commands = (*(_addressed(device, command) for command in step.run), *_of_this_launch(step.log))
-                yield device.name, step.does, "\n".join(commands), step.gate
+                yield device.name, step.does, "\n".join(commands), step.gate, step.sets or ""
 
 
 def _addressed(device: Device, command: str) -> str:
@@ -324,6 +324,8 @@ def _each(values: tuple[str, ...]) -> Iterator[Values]:
     return ((value,) for value in values)
 
 
+_VENDOR_STEP = ("device", "does", "command", "gate", "sets")
+_PAYLOAD = ("device", "mass", "center_of_mass", "inertia", "and_inertia", "frame", "set_by")
 _FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name", "si")
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
     "installed_part": (("part", "version", "command"), _installed),
@@ -344,8 +346,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "idle_joint_states": (("topic",), _idle_joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
-    "loaded_device": (("device", "mass", "center_of_mass", "inertia", "frame", "set_by"), _loaded_devices),
-    "tool_center": (("device", "tcp", "frame", "xyz", "turn", "rpy", "command"), _tool_centers),
+    "loaded_device": (_PAYLOAD, _loaded_devices),
+    "tool_center": (("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "command"), _tool_centers),
     "tool_connector": (("device", "voltage", "tools"), _tool_connectors),
     "servo": (("node", "starts", "controller", "linear", "rotational", "joint", "timeout", "command"), _servo),
     "stop_evidence": (("evidence",), lambda graph: _each(graph.cell.safety.stop.evidence)),
@@ -355,9 +357,9 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "guided": ((*_FIRST_MOTION, "does"), guided),
     "missing_first_motion": ((), missing_first_motion),
     "stop_reason": (("reason",), stop_reasons),
-    "vendor_step": (("device", "does", "command", "gate"), _by_vendors),
-    "vendor_power": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, powers=True)),
-    "vendor_sign": (("device", "does", "command", "gate"), lambda graph: _by_vendors(graph, shows=True)),
+    "vendor_step": (_VENDOR_STEP, _by_vendors),
+    "vendor_power": (_VENDOR_STEP, lambda graph: _by_vendors(graph, powers=True)),
+    "vendor_sign": (_VENDOR_STEP, lambda graph: _by_vendors(graph, shows=True)),
     "real_activation": (("where", "command"), lambda graph: released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
     "real_claim": (("where", "command"), lambda graph: released(graph, CLAIM, BringUpPhase.CLAIM)),
     "real_motion": (("where", "command"), lambda graph: move_real(graph.cell)),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from string import Formatter
-from typing import Annotated
+from typing import Annotated, cast
 
 from pydantic import Field, Strict, field_validator, model_validator
 
@@ -18,11 +18,22 @@ from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_ro
 from cellc.compiler.formats.escape import code, shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.vocabulary import GateCode
+from cellc.contract.gates import GateSetting
+from cellc.contract.vocabulary import GateCode, RobotSetting
 
 _FIELD = re.compile(r"`\{(\w+)\}`|\{(\w+)\}")
 _COMMANDS = ("build", "cancel", "command", "record", "start_mock")
 """Fields that are commands; every other is one word of a command."""
+
+_SETTINGS: Mapping[str, RobotSetting] = {
+    "loaded_device": "payload",
+    "tool_center": "tcp",
+    "tool_connector": "tool_voltage",
+    "first_motion": "first_motion",
+}
+"""Subjects that are set or tried in a robot; a vendor's step names what it sets itself."""
+_UNSTATED = (*_COMMANDS, "gate", "sets", "device", "and_inertia", "name", "si")
+"""Fields that say how, when or on which device, or repeat another."""
 
 FILE = Path(__file__).with_name("gates.yaml")
 _STARTS = ("ros2 launch ", "ros2 bag record ")
@@ -30,10 +41,14 @@ _STARTS = ("ros2 launch ", "ros2 bag record ")
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One line to tick; ``commands`` read and never change anything at the cell, or start what its gate releases."""
+    """One line to tick; ``commands`` read and never change anything at the cell, or start what its gate releases.
+
+    ``setting`` is what it has set in a robot.
+    """
 
     text: str
     commands: tuple[str, ...] = ()
+    setting: GateSetting | None = None
 
     @property
     def starts(self) -> bool:
@@ -171,7 +186,19 @@ def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
         filled = {**base, **row}
         words = ({name: _word(name, value) for name, value in {**filled, **other}.items()} for other in repeated)
         commands = (command.format_map(known) for known in words for command in line.run)
-        yield Check(_said(line.text, filled), tuple(command for command in commands if command))
+        run = tuple(command for command in commands if command)
+        yield Check(_said(line.text, filled), run, _setting(base["gate"], line.of, row))
+
+
+def _setting(gate: str, subject: str, row: Row) -> GateSetting | None:
+    sets = row.get("sets") or _SETTINGS.get(subject)
+    if sets is None:
+        return None
+    device = row.get("device") or row["joint"].partition("/")[0]
+    stated = {name: value for name, value in row.items() if value and name not in _UNSTATED}
+    if "si" in row:
+        stated["max_delta"] += f" ({row['si']})"
+    return GateSetting(gate=GateCode(gate), sets=cast("RobotSetting", sets), device=device, values=stated)
 
 
 def _said(text: str, row: Row) -> str:

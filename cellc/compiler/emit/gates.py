@@ -1,5 +1,7 @@
 """``gates/promotion.md`` and ``gates/network.md``: G0–G7 and L1–L6 for this cell.
 
+``gates/gates.json`` is what they have set in robots, and what is known of the versions, as data.
+
 Markdown checklists for the people at the cell. Commands read, or start what is authorized at that gate; steps of a
 vendor's procedure, which enable or move anything, are words. The page is copied into the evidence folder of an attempt,
 filled in there and signed.
@@ -14,7 +16,10 @@ from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST
 from cellc.compiler.deploy.gates import Check, Gate
 from cellc.compiler.formats.escape import markdown, markdown_comment
+from cellc.compiler.formats.json_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.versions import compatibility
+from cellc.contract.gates import GATES, Gates, GateSetting, PinAnswer
 
 _PROMOTION = (
     "Pass the gates in order, each with its evidence. Skip none. If a gate fails, repeat it from its first line."
@@ -34,12 +39,21 @@ _RESULT = "Result (passed or stopped): ________ Name: ________________ Date, tim
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
-    """Yield both checklists."""
+    """Yield both checklists, and what they hold as data."""
     name = graph.cell.name
     promotion = _page(plan, f"{name}: From the manifest to a trajectory", _PROMOTION, plan.promotion)
     network = _page(plan, f"{name}: From the cable to the command path", _NETWORK, plan.network)
     yield Artifact(PROMOTION_CHECKLIST, promotion)
     yield Artifact(NETWORK_CHECKLIST, network)
+    checks = (check for gate in (*plan.promotion, *plan.network) for check in gate.checks)
+    settings = list[GateSetting]()
+    for setting in (check.setting for check in checks if check.setting is not None):
+        settings += () if setting in settings else (setting,)
+    versions = tuple(
+        PinAnswer(holder=judged.pin.holder, part=judged.pin.part, answer=judged.answer.value, reason=judged.evidence)
+        for judged in compatibility(graph.cell)
+    )
+    yield Artifact(GATES, render(Gates(format=1, settings=tuple(settings), versions=versions)))
 
 
 def _page(plan: Deployment, title: str, text: str, gates: tuple[Gate, ...]) -> str:

@@ -71,6 +71,7 @@ _FILES = (
     ("graph/nodes.svg", "who talks to whom: each node once, with a list of the arrows"),
     ("graph/responsibility.svg", "contract and owner of each arrow; `.mmd` is the same graph"),
     ("gates/promotion.md", "checklist of gates G0 to G7 for one attempt; `gates/network.md` has layers L1 to L6"),
+    ("gates/gates.json", "what the gates set in robots, and what is known of each version, for programs"),
     ("audit.md", "open questions, version tuple, command paths, expected nodes and interfaces, owners"),
     ("config/recording_qos.yaml", "what an attempt records, with the command"),
     ("manifest.json", "version tuple, hash of every file, configuration ID"),

@@ -274,6 +274,7 @@ def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
         does=known.fill(facts.does),
         shows=facts.shows,
         powers=facts.powers,
+        sets=facts.sets,
         log=facts.log,
         run=facts.run,
         by=facts.by,

@@ -10,7 +10,7 @@ from pathlib import PurePosixPath
 from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.edges import edge_changes, offers_less
-from cellc.tools.review.facts import OF_SPEC, Facts
+from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import moved_places
 from cellc.tools.review.grading import grade
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
@@ -98,10 +98,9 @@ def _reviewed(change: Change, subjects: Sequence[str], owner: str) -> ReviewChan
 def _told(before: Facts, after: Facts) -> list[Change]:
     # What only specs say is compared where both sides were made of one.
     both = before.cell is not None and after.cell is not None
+    one_sided = (*(() if both else OF_SPEC), *(() if before.has_gates and after.has_gates else OF_GATES))
     deltas = [
-        difference
-        for difference in differences(before.leaves, after.leaves)
-        if both or difference.path[0] not in OF_SPEC
+        difference for difference in differences(before.leaves, after.leaves) if difference.path[0] not in one_sided
     ]
     came_or_went, rest = _things(deltas, before, after)
     primary = [delta for delta in rest if not _follows(delta.path)]

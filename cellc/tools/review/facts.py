@@ -18,6 +18,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.entities import TARGETS, ContractInterface
 from cellc.contract.errors import CellcError
+from cellc.contract.gates import GATES, Gates
 from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import Rehearsals
@@ -30,27 +31,12 @@ from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatte
 from cellc.tools.review.units import shown
 
 CONTRACT, MANIFEST = "contract.json", "manifest.json"
-_AUDIT, _PROMOTION = "audit.md", "gates/promotion.md"
-_MATRIX = re.compile(r"\| ([^|]+) \| ([^|]+) \| ([^|]+) \| ([A-Z]+) \| (.*) \|")
-# Values that only a checklist has; as one line of many they would be missed.
-_CHECKS = (
-    ("payload", re.compile(r"- \[ \] Set the payload of (.+?) to (.+?), by .*")),
-    ("tcp", re.compile(r"- \[ \] Check that the TCP of (.+?) is (.+)\. Record .*")),
-    (
-        "tool_voltage",
-        re.compile(r"- \[ \] Check each nameplate before plugging in: the tool connector of (.+?) supplies (.+)"),
-    ),
-    ("thresholds", re.compile(r"- \[ \] (.+): Set the collision thresholds (.+)")),
-    ("load", re.compile(r"- \[ \] (.+): Set the load beside the end effector (.+)")),
-    ("joint_impedance", re.compile(r"- \[ \] (.+): Set the joint impedance (.+)")),
-    ("tool_impedance", re.compile(r"- \[ \] (.+): Set the tool impedance (.+)")),
-    ("first_motion", re.compile(r"- \[ \] (Announce before moving): (.+)")),
-)
-_VERSIONS = "\n## Version tuple\n"
 _MIDDLEWARE = re.compile(r"middleware/(.+)\.sh")
 _EXPORT = re.compile(r"^export (\w+)=(.*)$", re.MULTILINE)
 OF_SPEC = ("spec", "area", "reference_points", "mounted", "excused")
 """First parts of the paths of what a spec says and a package does not."""
+OF_GATES = ("check", "matrix")
+"""First parts of the paths of what the gates have as data."""
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
@@ -67,6 +53,7 @@ class Facts:
         lines: lines of every file that is no data, by file.
         joints: joints of the description for the real target, by the link that they carry.
         edited: files that are not as the manifest has them.
+        has_gates: whether it has the gates as data; a package of an older cellc has checklists alone.
         cell: what the package was made of, which says more than it (``OF_SPEC``); None where only the package is
             there.
     """
@@ -77,6 +64,7 @@ class Facts:
     lines: Mapping[str, tuple[str, ...]]
     joints: Mapping[str, Joint]
     edited: frozenset[str]
+    has_gates: bool
     cell: Cell | None
 
 
@@ -92,9 +80,10 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         FactsError: a file is missing or not what its name says.
     """
     contract, manifest = _model(files, CONTRACT, Contract), _model(files, MANIFEST, Manifest)
+    gates = _model(files, GATES, Gates) if GATES in files else None
     named = contract.files
     real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
-    read = {CONTRACT, MANIFEST, named.rehearsals, named.bring_up}
+    read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up}
     leaves: dict[Path, Leaf] = {}
     for found in (
         _of_contract(contract),
@@ -105,7 +94,8 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         flatten(as_json(mock.hardware), ("mock", "hardware")),
         flatten(_dumped(_model(files, named.rehearsals, Rehearsals))["rehearsals"], ("rehearsals",)),
         _of_bring_up(_model(files, named.bring_up, BringUp)),
-        _of_texts(files, contract.cell),
+        () if gates is None else _of_gates(gates, contract.cell),
+        _of_middleware(files),
         _of_pairs(files, named.srdf),
         () if cell is None else _of_spec(cell),
         _of_excuses(excused),
@@ -122,7 +112,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
     }
     joints = {joint.child: joint for joint in real.joints}
     edited = {path for path, known in manifest.files.items() if path in files and _sha256(files[path]) != known}
-    return Facts(contract, manifest, leaves, lines, joints, frozenset(edited), cell)
+    return Facts(contract, manifest, leaves, lines, joints, frozenset(edited), gates is not None, cell)
 
 
 def _sha256(text: str) -> str:
@@ -275,16 +265,18 @@ def _feeds(before: BringUpStep, after: BringUpStep) -> bool:
     return any(proof in after.proof for proof in before.effect)
 
 
-def _of_texts(files: Mapping[str, str], cell: str) -> Iterator[tuple[Path, Leaf]]:
-    for line in files.get(_AUDIT, "").partition(_VERSIONS)[2].partition("\n## ")[0].split("\n"):
-        row = _MATRIX.fullmatch(line)
-        if row is not None:
-            yield ("matrix", row[2] if row[1] == cell else f"{row[1]}.{row[2]}"), Prose(f"{row[4]}: {row[5]}")
-    for line in files.get(_PROMOTION, "").split("\n"):
-        for name, pattern in _CHECKS:
-            told = pattern.fullmatch(line)
-            if told is not None:
-                yield ("check", name, told[1]), Prose(told[2])
+def _of_gates(gates: Gates, cell: str) -> Iterator[tuple[Path, Leaf]]:
+    for pin in gates.versions:
+        part = pin.part if pin.holder == cell else f"{pin.holder}.{pin.part}"
+        yield ("matrix", part), Prose(f"{pin.answer}: {pin.reason}")
+    for setting in gates.settings:
+        for name, value in setting.values.items():
+            # What a vendor has people do is one text; the rest is compared figure by figure.
+            what = () if name == "does" else (name,)
+            yield ("check", setting.sets, setting.device, *what), Prose(value)
+
+
+def _of_middleware(files: Mapping[str, str]) -> Iterator[tuple[Path, Leaf]]:
     for path, text in files.items():
         host = _MIDDLEWARE.fullmatch(path)
         if host is not None:

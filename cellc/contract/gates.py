@@ -1,0 +1,50 @@
+"""``gates/gates.json``: what the gates of a cell have set in robots, and what is known of each pinned version.
+
+The checklists in the same folder and ``audit.md`` say it to people. Read by ``cellc diff``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import ConfigDict, Field
+
+from cellc.contract.base import ContractModel
+from cellc.contract.vocabulary import GateCode, RobotSetting
+
+GATES = "gates/gates.json"
+_READ = ConfigDict(extra="forbid")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GateSetting:
+    """What a line has set or checked in a robot, which no other file of the package holds as data."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    gate: Annotated[GateCode, Field(description="Gate with the line.")]
+    sets: Annotated[RobotSetting, Field(description="What is set.")]
+    device: Annotated[str, Field(description="Whose controller it is set in, or whose joint moves.")]
+    values: Annotated[Mapping[str, str], Field(description="What is stated of it, by name.")]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PinAnswer:
+    """What the compatibility matrix says of one part of the version tuple."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    holder: Annotated[str, Field(description="The cell, or a device.")]
+    part: Annotated[str, Field(description="Part of the tuple.")]
+    answer: Annotated[Literal["OK", "INCOMPATIBLE", "UNKNOWN"], Field(description="Whether it goes with the rest.")]
+    reason: Annotated[str, Field(description="Why, with the source.")]
+
+
+class Gates(ContractModel):
+    """What the gates of one cell have set, and what they rest on."""
+
+    format: Literal[1] = Field(description="Version of this format.")
+    settings: tuple[GateSetting, ...] = Field((), description="What is set or checked in robots.")
+    versions: tuple[PinAnswer, ...] = Field(description="The version tuple, part by part.")
