@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 
@@ -34,6 +35,21 @@ def test_misspelt_key_is_mended_and_everything_else_stays(tmp_path: Path) -> Non
     assert "    firmware: polyscope 5.21.0\n" in PICK_TEXT
     broken = PICK_TEXT.replace("    firmware: polyscope", "    firmwre: polyscope")
     assert fixed(tmp_path, broken) == PICK_TEXT
+
+
+def test_key_in_quotes_is_mended_between_them(tmp_path: Path) -> None:
+    broken = PICK_TEXT.replace("    firmware: polyscope", '    "firmwre": polyscope')
+    assert fixed(tmp_path, broken) == PICK_TEXT.replace("    firmware: polyscope", '    "firmware": polyscope')
+
+
+def test_reference_is_left_to_a_person_who_sees_the_fix_in_the_report(tmp_path: Path) -> None:
+    broken = PICK_TEXT.replace("frame: fixture_A", "frame: fixtre_A")
+    assert fixed(tmp_path, broken) == broken
+    ran = run("check", (tmp_path / "cells/pick/cell.yaml").as_posix(), "--format", "json")
+    (fix,) = [found["fix"] for found in json.loads(ran.out)["diagnostics"] if found["fix"] is not None]
+    line = broken.split("\n")[fix["line"] - 1]
+    assert line[fix["column"] - 1 : fix["end_column"] - 1] == "fixtre_A"
+    assert (fix["text"], fix["sure"]) == ("fixture_A", False)
 
 
 def test_several_keys_and_one_below_another_are_mended_in_one_call(tmp_path: Path) -> None:
@@ -84,7 +100,6 @@ def test_no_modeline_is_written_where_no_schema_is_near(tmp_path: Path) -> None:
     [
         ("cell: ur5e_pick", "cell: ur5e_pick\nsumary: again"),  # the right key stands there already
         ("kpis: {", "zzz: {"),  # nothing is near
-        ("firmware: polyscope", '"firmwre": polyscope'),  # in quotes: the span is not the key alone
         ("rehearsals:", "rehearse:"),  # near, but not near enough to change unread
         ("    max_age: 100 ms", "    max_rate: 100 ms"),  # near, and something else
     ],

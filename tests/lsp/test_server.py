@@ -278,8 +278,8 @@ def test_completion_knows_the_catalog_the_cell_and_the_keys(session: Session) ->
     assert "update_rate" not in told["key"], "it is written already"
 
 
-def test_quick_fixes_are_those_of_check_fix_and_mend_the_text(session: Session) -> None:
-    assert [one.title for one in session.actions] == ["desigend becomes designed", "unit hertz becomes Hz"]
+def test_quick_fixes_are_those_of_the_findings_and_mend_the_text(session: Session) -> None:
+    assert [one.title for one in session.actions] == ["desigend becomes designed", "hertz becomes Hz"]
     assert not {"unknown-key", "wrong-unit"} & {one.code for one in session.found_mended}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -10,7 +11,7 @@ import jsonschema
 import pytest
 
 from cellc.compiler.pages import all_codes
-from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
+from cellc.contract.diagnostics import Diagnostic, Fix, Related, Severity, Span
 from cellc.tools.report.sarif_report import render_sarif
 from tests.cells import diagnose
 from tests.report.findings import FILE, finding
@@ -53,6 +54,15 @@ def test_related_places_have_their_message_and_number() -> None:
     related = (Related("lower", Span(FILE, 1, 1, 1, 6)), Related("upper", Span(FILE, 4, 1, 4, 6)))
     places = only_result(log_of(finding(related=related)))["relatedLocations"]
     assert [(place["id"], place["message"]["text"]) for place in places] == [(1, "lower"), (2, "upper")]
+
+
+def test_fix_is_an_edit_that_a_program_can_make() -> None:
+    found = replace(finding(), fix=Fix(Span(FILE, 2, 9, 2, 13), "velo", "velocity", sure=False))
+    (fix,) = only_result(log_of(found))["fixes"]
+    (change,) = fix["artifactChanges"]
+    region = {"startLine": 2, "startColumn": 9, "endLine": 2, "endColumn": 13}
+    assert change["replacements"] == [{"deletedRegion": region, "insertedContent": {"text": "velocity"}}]
+    assert change["artifactLocation"] == uri_of(FILE)
 
 
 def test_result_points_at_the_rule_with_its_page() -> None:

@@ -21,7 +21,7 @@ from cellc.compiler.link.tolerances import UNSTATED, Tolerances, bind_tolerances
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.control import ControllerSpec
-from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean
+from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean, only_nearest
 from cellc.contract.entities import TARGETS, Target
 from cellc.contract.vocabulary import OF_ONE_DEVICE, Behavior, Distro
 
@@ -162,6 +162,7 @@ def _unknown_kind(type_: str, known: tuple[str, ...], document: SourceDocument, 
         span=document.locate(at),
         yaml_path=at,
         help=did_you_mean(type_, known, "kinds of controllers"),
+        fix=document.fix(document.locate(at), type_, only_nearest(type_, known), sure=False),
     )
 
 

@@ -28,7 +28,16 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.text import lies_under
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec
-from cellc.contract.diagnostics import Diagnostic, Outcome, Related, Severity, Span, YamlPath, did_you_mean
+from cellc.contract.diagnostics import (
+    Diagnostic,
+    Outcome,
+    Related,
+    Severity,
+    Span,
+    YamlPath,
+    did_you_mean,
+    only_nearest,
+)
 from cellc.contract.limits import Budget, children_seconds, limits
 from cellc.contract.transforms import identity
 from cellc.contract.vocabulary import Distro
@@ -118,6 +127,9 @@ def _catalog_entry(
             span=document.locate(path),
             yaml_path=path,
             help=did_you_mean(written.model, device_names(), "models of the catalog, or a folder with a device.yaml"),
+            fix=document.fix(
+                document.locate(path), written.model, only_nearest(written.model, device_names()), sure=False
+            ),
         )
         return Outcome(None, (problem,))
     return load_device(written.model)

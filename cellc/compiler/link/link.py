@@ -49,7 +49,7 @@ from cellc.compiler.link.switched import link_switched
 from cellc.compiler.link.uncertainty import link_uncertainty
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
-from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
+from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean, only_nearest
 from cellc.contract.vocabulary import Distro
 from cellc.robot.description.model import Description
 from cellc.robot.description.packages import lies_under, repository_of
@@ -248,14 +248,16 @@ def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:
     for distro in Distro:
         if spec.versions.ros == distro:
             return Outcome(distro)
-    path = ("versions", "ros")
+    path, written = ("versions", "ros"), spec.versions.ros
+    span = document.locate(path)
     problem = Diagnostic(
         code="unknown-distro",
         severity=Severity.ERROR,
-        message=f"`{spec.versions.ros}` is not a ROS 2 distribution that cellc knows",
-        span=document.locate(path),
+        message=f"`{written}` is not a ROS 2 distribution that cellc knows",
+        span=span,
         yaml_path=path,
-        help=did_you_mean(spec.versions.ros, tuple(Distro), "distributions"),
+        help=did_you_mean(written, tuple(Distro), "distributions"),
+        fix=document.fix(span, written, only_nearest(written, tuple(Distro)), sure=False),
     )
     return Outcome(None, (problem,))
 

@@ -10,7 +10,7 @@ from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec
-from cellc.contract.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean
+from cellc.contract.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean, only_nearest
 from cellc.contract.vocabulary import UNKNOWN
 
 
@@ -24,13 +24,16 @@ def unknown_name(
         path: where the reference is written; marked at the key where that is the name.
     """
     is_key = path[-1:] == (name,) and document.text_at(path) != name
+    span = document.locate_key(path) if is_key else document.locate(path)
+    known = tuple(candidates)
     return Diagnostic(
         code=code,
         severity=Severity.ERROR,
         message=f"there is no {kind} `{name}`",
-        span=document.locate_key(path) if is_key else document.locate(path),
+        span=span,
         yaml_path=path,
-        help=did_you_mean(name, candidates, f"{_plural(kind)} of this cell"),
+        help=did_you_mean(name, known, f"{_plural(kind)} of this cell"),
+        fix=document.fix(span, name, only_nearest(name, known), sure=False),
     )
 
 

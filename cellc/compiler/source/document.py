@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias, Union
 
-from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.diagnostics import Fix, Span, YamlPath
 
 PlainScalar: TypeAlias = Union[bool, int, float, str, None]
 
@@ -108,6 +108,18 @@ class SourceDocument:
         """Return the scalar at ``path`` as written (``1e3``, ``0x1F``), quotes removed; empty for anything else."""
         child = self._child(path)
         return child.node.text if child is not None else ""
+
+    def fix(self, span: Span, written: str, text: str | None, *, sure: bool) -> Fix | None:
+        """Return the edit of a text at the end of a span, quotes apart; None where it is not there as it is."""
+        lines = self.texts.get(span.file, "").split("\n")
+        if not text or span.line != span.end_line or span.line > len(lines):
+            return None
+        held = lines[span.line - 1][span.column - 1 : span.end_column - 1].rstrip("\"'")
+        before = held[: len(held) - len(written)]
+        if not held.endswith(written) or before.strip("\"' ,.0123456789+-eE"):
+            return None
+        start = span.column + len(before)
+        return Fix(Span(span.file, span.line, start, span.line, start + len(written)), written, text, sure)
 
     def without(self, path: YamlPath) -> SourceDocument:
         """Return the same without the value of a path that exists; what is behind it in a list moves up."""

@@ -12,17 +12,19 @@ from pydantic_core import ErrorDetails
 
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.place import Place, bare, branches, fields_by_key, is_tagged, model_of
+from cellc.compiler.spec.quantity import UNIT_OF_SPELLING
 from cellc.compiler.spec.wording import (
     could_mean,
     describe,
     help_for_bad_name,
     help_for_unknown_key,
+    meant_key,
     quote,
     quote_path,
     scalar_text,
     value_at,
 )
-from cellc.contract.diagnostics import did_you_mean
+from cellc.contract.diagnostics import did_you_mean, only_nearest
 
 _TYPES: Mapping[str, str] = {
     "string_type": "text",
@@ -43,6 +45,9 @@ class Problem:
     code: str
     message: str
     help: str
+    written: str = ""
+    meant: str | None = None
+    """What may stand in the place of what is written, where one thing alone may."""
 
 
 _Writer: TypeAlias = Callable[[ErrorDetails, Place, SourceDocument], Problem]
@@ -64,7 +69,7 @@ def _missing(error: ErrorDetails, place: Place, document: SourceDocument) -> Pro
 def _unknown_key(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     key = str(place.path[-1])
     message = f"{quote_path(place.path[:-1])} has no key {quote(key)}"
-    return Problem("unknown-key", message, help_for_unknown_key(key, place))
+    return Problem("unknown-key", message, help_for_unknown_key(key, place), key, meant_key(key, place))
 
 
 def _wrong_type(expected: str, place: Place, document: SourceDocument) -> Problem:
@@ -91,15 +96,18 @@ def _not_a_choice(error: ErrorDetails, place: Place, document: SourceDocument) -
     choices = [str(choice) for choice in literals(place.expected)]
     written = value if isinstance(value, str) else ""
     message = f"{quote_path(place.path)} must be one of its choices, got {describe(value)}"
-    return Problem("not-a-choice", message, did_you_mean(written, choices, "choices"))
+    help_ = did_you_mean(written, choices, "choices")
+    return Problem("not-a-choice", message, help_, written, only_nearest(written, choices))
 
 
 def _key_not_a_choice(place: Place) -> Problem:
     key, holder = str(place.path[-1]), place.path[:-1]
     model_path, model = place.models[-1]
     keys = bare(dict_keys(model, str(holder[-1]))) if len(holder) == len(model_path) + 1 else object
-    help_ = did_you_mean(key, [str(choice) for choice in literals(keys)], "keys that are allowed")
-    return Problem("unknown-key", f"{quote_path(holder)} has no key {quote(key)}", help_)
+    allowed = [str(choice) for choice in literals(keys)]
+    help_ = did_you_mean(key, allowed, "keys that are allowed")
+    message = f"{quote_path(holder)} has no key {quote(key)}"
+    return Problem("unknown-key", message, help_, key, only_nearest(key, allowed))
 
 
 def dict_keys(model: type, key: str) -> object:
@@ -161,7 +169,10 @@ def _missing_unit(error: ErrorDetails, place: Place, document: SourceDocument) -
 def _wrong_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error["ctx"]
     message = f"{quote(str(context['unit']))} is not a unit of {context['what']}"
-    return Problem("wrong-unit", message, _units_help(error))
+    unit = str(context["unit"])
+    meant = UNIT_OF_SPELLING.get(unit.lower())
+    taken = meant in str(context["units"]).split(", ")
+    return Problem("wrong-unit", message, _units_help(error), unit, meant if taken else None)
 
 
 def _not_a_quantity(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:

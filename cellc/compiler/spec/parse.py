@@ -12,7 +12,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.errors import Problem, problem_of
 from cellc.compiler.spec.place import place_of
 from cellc.compiler.spec.wording import could_mean, describe, quote_path, value_at
-from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, is_slip
 
 _FORMATS = (1,)
 _UNKNOWN = "extra_forbidden"  # how the models report a key that they do not have
@@ -92,4 +92,9 @@ def _empty_diagnostics(empty: tuple[YamlPath, ...], document: SourceDocument) ->
 
 def _diagnostic(problem: Problem, path: YamlPath, document: SourceDocument, *, is_key: bool) -> Diagnostic:
     span = document.locate_key(path) if is_key else document.locate(path)
-    return Diagnostic(problem.code, Severity.ERROR, problem.message, span, path, problem.help)
+    fix = None
+    if problem.meant is not None and not (problem.code == "unknown-key" and document.has((*path[:-1], problem.meant))):
+        # A unit has its spellings; of a key or a choice, one slip of the fingers is sure.
+        sure = problem.code == "wrong-unit" or is_slip(problem.written, problem.meant)
+        fix = document.fix(span, problem.written, problem.meant, sure=sure)
+    return Diagnostic(problem.code, Severity.ERROR, problem.message, span, path, problem.help, fix=fix)

@@ -297,3 +297,30 @@ Edges = Annotated[QuantityVector, QuantityType((LENGTH,), "80 120 0 mm", size=3,
 Position = Annotated[QuantityVector, QuantityType((LENGTH,), "0 0 162 mm", size=3)]
 FieldAngle = Annotated[Quantity, QuantityType((ANGLE,), "69 deg", least=0.0)]
 RollPitchYaw = Annotated[QuantityVector, QuantityType((ANGLE,), "0 90 0 deg", size=3)]
+
+
+# Unit of the spec → other spellings, in lower case. Left out: `mhz`, which may be a millihertz, and `min` for minute of
+# arc; a prefix is never guessed.
+_SPELLINGS = {
+    "Hz": ("hz", "hertz", "1/s"),
+    "kHz": ("khz", "kilohertz"),
+    "s": ("sec", "secs", "second", "seconds"),
+    "ms": ("msec", "msecs", "millisecond", "milliseconds"),
+    "us": ("usec", "µs", "μs", "microsecond", "microseconds"),
+    "min": ("minute", "minutes"),
+    "h": ("hour", "hours", "hr"),
+    "deg": ("degree", "degrees", "°"),
+    "rad": ("radian", "radians"),
+    "mm": ("millimeter", "millimeters", "millimetre", "millimetres"),
+    "cm": ("centimeter", "centimeters", "centimetre", "centimetres"),
+    "m": ("meter", "meters", "metre", "metres"),
+    "kg": ("kilogram", "kilograms", "kgs"),
+    "g": ("gram", "grams"),
+    "%": ("percent", "pct"),
+    "N": ("newton", "newtons"),
+    "deg/s": ("deg/sec", "degrees/s", "°/s"),
+    "rad/s": ("rad/sec", "radians/s"),
+    "m/s": ("m/sec",),
+    "mm/s": ("mm/sec",),
+}
+UNIT_OF_SPELLING = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}

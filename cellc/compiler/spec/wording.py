@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from cellc.compiler.source.document import Plain
 from cellc.compiler.spec.base import NAME_PATTERN, PACKAGE_NAME_PATTERN, REFERENCE_PATTERN
 from cellc.compiler.spec.place import Place, annotations_by_key, fields_by_key, model_of
-from cellc.contract.diagnostics import YamlPath, did_you_mean, format_path, nearest
+from cellc.contract.diagnostics import YamlPath, did_you_mean, format_path, nearest, only_nearest
 
 _MAX_QUOTE = 60
 
@@ -78,6 +78,12 @@ def help_for_unknown_key(key: str, place: Place) -> str:
     """Write the help: the place one level off where the key exists, the nearest keys, or the allowed ones."""
     path, model = place.models[-1]
     return _one_level_off(key, path, model, place) or did_you_mean(key, fields_by_key(model), "keys that are allowed")
+
+
+def meant_key(key: str, place: Place) -> str | None:
+    """Return the key that an unknown one is a misspelling of; None where it belongs one level off."""
+    path, model = place.models[-1]
+    return None if _one_level_off(key, path, model, place) else only_nearest(key, fields_by_key(model))
 
 
 def could_mean(unknown: str, missing: str) -> bool:

@@ -1,10 +1,20 @@
 """What the compiler says to its user: spans, diagnostics and outcomes."""
 
-from cellc.contract.diagnostics.diagnostic import Diagnostic, Outcome, Related, Severity, Span, YamlPath, format_path
-from cellc.contract.diagnostics.nearest import did_you_mean, is_slip, nearest, only_suggestion
+from cellc.contract.diagnostics.diagnostic import (
+    Diagnostic,
+    Fix,
+    Outcome,
+    Related,
+    Severity,
+    Span,
+    YamlPath,
+    format_path,
+)
+from cellc.contract.diagnostics.nearest import did_you_mean, is_slip, nearest, only_nearest
 
 __all__ = [
     "Diagnostic",
+    "Fix",
     "Outcome",
     "Related",
     "Severity",
@@ -14,5 +24,5 @@ __all__ = [
     "format_path",
     "is_slip",
     "nearest",
-    "only_suggestion",
+    "only_nearest",
 ]

@@ -70,6 +70,23 @@ class Related:
     span: Span
 
 
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """The edit that ends a finding: what a span holds becomes another text.
+
+    Args:
+        span: characters of one line, in the file of the finding.
+        written: what it holds.
+        text: what it becomes.
+        sure: nothing else can have been meant: ``cellc check --fix`` makes it. Else a person chooses it in an editor.
+    """
+
+    span: Span
+    written: str
+    text: str
+    sure: bool
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class Diagnostic:
     """One finding: what is wrong, where, and what to do about it.
@@ -83,6 +100,7 @@ class Diagnostic:
         yaml_path: the same place as a path in the document.
         help: what to do, beginning with a verb; empty where nothing general can be said.
         related: other places that belong to the finding.
+        fix: the edit that ends it, where one is near enough.
     """
 
     code: str
@@ -92,6 +110,7 @@ class Diagnostic:
     yaml_path: YamlPath = ()
     help: str = ""
     related: tuple[Related, ...] = ()
+    fix: Fix | None = None
 
     def __str__(self) -> str:
         return escaped(f"{self.span}: {self.severity.value}[{self.code}]: {self.message}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 from heapq import nsmallest
@@ -13,7 +12,6 @@ _COMPARED = 128
 _LONGEST = 200
 """Longest text that is compared at all."""
 _SEPARATORS = str.maketrans("", "", "-_ ")
-_ONE_SUGGESTION = re.compile(r"did you mean `([^`]+)`\?")
 
 
 def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> tuple[str, ...]:
@@ -50,10 +48,10 @@ def did_you_mean(name: str, candidates: Iterable[str], kind: str) -> str:
     return f"use one of the {kind}: {shown}{more}"
 
 
-def only_suggestion(help_text: str) -> str | None:
-    """Return the name that a help by `did_you_mean` suggests, where it suggests a single one."""
-    match = _ONE_SUGGESTION.fullmatch(help_text)
-    return match[1] if match else None
+def only_nearest(name: str, candidates: Iterable[str]) -> str | None:
+    """Return the one candidate that `did_you_mean` suggests, if it suggests a single one."""
+    close = nearest(name, candidates)
+    return close[0] if len(close) == 1 else None
 
 
 def is_slip(key: str, meant: str) -> bool:

@@ -83,14 +83,14 @@ def fix_file(file: str) -> None:
     from cellc.compiler.catalog.read_model import is_device
     from cellc.compiler.pipeline import judge
     from cellc.compiler.source import read
-    from cellc.tools.edit.fixes import missing_modeline, misspelled_keys, misspelled_units
+    from cellc.tools.edit.fixes import missing_modeline, sure_edits
 
     for _ in range(_PASSES):
         document = read(file)
         if document.value is None or not document.ok:
             return
         found = judge(file).diagnostics
-        edits: list[Edit] = [*misspelled_keys(found, document.value), *misspelled_units(found, document.value)]
+        edits: list[Edit] = [*sure_edits(found)]
         kind = "device" if is_device(document.value.data) else "cell"
         edits += missing_modeline(document.value.file, document.value.texts[document.value.file], kind)
         if not edits:

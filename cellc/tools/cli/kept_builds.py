@@ -18,7 +18,7 @@ from typing import Any
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.rules.shared_domain import Presence
-from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
+from cellc.contract.diagnostics import Diagnostic, Fix, Related, Severity, Span
 from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.limits import limits
 from cellc.contract.store.cache import passing_answers, read_entry, write_entry
@@ -186,9 +186,10 @@ def _result(data: dict[str, Any]) -> CellResult:
 
 
 def _diagnostic(data: list[Any]) -> Diagnostic:
-    code, severity, message, span, path, advice, related = data
+    code, severity, message, span, path, advice, related, fix = data
     places = tuple(Related(text, Span(*place)) for text, place in related)
-    return Diagnostic(code, Severity(severity), message, Span(*span), tuple(path), advice, places)
+    edit = None if fix is None else Fix(Span(*fix[0]), *fix[1:])
+    return Diagnostic(code, Severity(severity), message, Span(*span), tuple(path), advice, places, edit)
 
 
 def _presence(data: dict[str, Any]) -> Presence:

@@ -6,95 +6,33 @@ A number without any unit is left alone: each field takes several, and which one
 from __future__ import annotations
 
 import os
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from cellc.compiler.source.document import SourceDocument
-from cellc.contract.diagnostics import Diagnostic, is_slip, only_suggestion
+from cellc.contract.diagnostics import Diagnostic, Fix
 from cellc.tools.edit.rewrite import Edit
 
 
-def misspelled_keys(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
-    """Yield the edit of each unknown key that can mean only one thing, and that does not stand there already."""
-    unknown = [found for found in diagnostics if found.code == "unknown-key" and found.yaml_path]
-    # An alias brings one line into several places, where its key may mean different things.
-    times = Counter(found.span for found in unknown)
+def sure_edits(diagnostics: Iterable[Diagnostic]) -> Iterator[Edit]:
+    """Yield the edits of findings that can mean only one thing, and whose line belongs to one place alone."""
+    found = tuple(diagnostics)
+    # An alias brings one line into several places, where it may mean different things.
+    times = Counter((each.code, each.span) for each in found)
     taken = set()
-    for found in unknown:
-        meant = only_suggestion(found.help)
-        if meant is None or times[found.span] > 1:
+    for each in found:
+        if each.fix is None or not each.fix.sure or times[each.code, each.span] > 1:
             continue
-        key, place = str(found.yaml_path[-1]), (*found.yaml_path[:-1], meant)
-        if document.has(place) or place in taken or not _is_safe(key, meant, found, document):
-            continue
-        taken.add(place)
-        span = found.span
-        yield Edit(span.file, span.line, span.column, span.end_column, meant, f"`{key}` becomes `{meant}`")
+        place = (each.code, each.yaml_path[:-1], each.fix.text if each.code == "unknown-key" else each.yaml_path[-1:])
+        if place not in taken:
+            taken.add(place)
+            yield edit_of(each.fix)
 
 
-def _is_safe(key: str, meant: str, found: Diagnostic, document: SourceDocument) -> bool:
-    """Whether the span holds the bare key itself, one slip away from what is meant."""
-    span = found.span
-    lines = document.texts.get(span.file, "").split("\n")
-    if span.line != span.end_line or span.line > len(lines):
-        return False
-    written = lines[span.line - 1][span.column - 1 : span.end_column - 1]
-    return written == key and is_slip(key, meant)
-
-
-# Unit of the spec → other spellings, in lower case. Left out: `mhz`, which may be a millihertz, and `min` for minute of
-# arc; a prefix is never guessed.
-_SPELLINGS = {
-    "Hz": ("hz", "hertz", "1/s"),
-    "kHz": ("khz", "kilohertz"),
-    "s": ("sec", "secs", "second", "seconds"),
-    "ms": ("msec", "msecs", "millisecond", "milliseconds"),
-    "us": ("usec", "µs", "μs", "microsecond", "microseconds"),
-    "min": ("minute", "minutes"),
-    "h": ("hour", "hours", "hr"),
-    "deg": ("degree", "degrees", "°"),
-    "rad": ("radian", "radians"),
-    "mm": ("millimeter", "millimeters", "millimetre", "millimetres"),
-    "cm": ("centimeter", "centimeters", "centimetre", "centimetres"),
-    "m": ("meter", "meters", "metre", "metres"),
-    "kg": ("kilogram", "kilograms", "kgs"),
-    "g": ("gram", "grams"),
-    "%": ("percent", "pct"),
-    "N": ("newton", "newtons"),
-    "deg/s": ("deg/sec", "degrees/s", "°/s"),
-    "rad/s": ("rad/sec", "radians/s"),
-    "m/s": ("m/sec",),
-    "mm/s": ("mm/sec",),
-}
-_UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
-_WRITTEN_UNIT = re.compile(r"[\d.][\s]*([^\s\d.][^\s\"']*)[\"']?$")
-
-
-def misspelled_units(diagnostics: Iterable[Diagnostic], document: SourceDocument) -> Iterator[Edit]:
-    """Yield the edit of each wrong unit that is another spelling of one that its field takes."""
-    wrong = [found for found in diagnostics if found.code == "wrong-unit"]
-    # An alias brings one text into several fields, which may take different units.
-    times = Counter(found.span for found in wrong)
-    for found in wrong:
-        span = found.span
-        written = _written(found, document)
-        match = _WRITTEN_UNIT.search(written)
-        unit = _UNITS.get(match[1].lower()) if match is not None else None
-        if match is None or unit is None or times[span] > 1 or f"`{unit}`" not in found.help:
-            continue
-        start, end = (span.column + column for column in match.span(1))
-        yield Edit(span.file, span.line, start, end, unit, f"unit `{match[1]}` becomes `{unit}`")
-
-
-def _written(found: Diagnostic, document: SourceDocument) -> str:
-    """Return the text of a value as it is in its file, quotes included; empty where it spans lines."""
-    span = found.span
-    lines = document.texts.get(span.file, "").split("\n")
-    if span.line != span.end_line or span.line > len(lines):
-        return ""
-    return lines[span.line - 1][span.column - 1 : span.end_column - 1]
+def edit_of(fix: Fix) -> Edit:
+    """Return a fix as an edit of its file, with what it says to the user."""
+    span, message = fix.span, f"`{fix.written}` becomes `{fix.text}`"
+    return Edit(span.file, span.line, span.column, span.end_column, fix.text, message)
 
 
 _MODELINE = "yaml-language-server:"

@@ -15,7 +15,7 @@ from cellc.compiler.source.document import Node, SourceDocument
 from cellc.compiler.source.include import INCLUDE
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Severity, Span, YamlPath
-from cellc.tools.edit.fixes import misspelled_keys, misspelled_units
+from cellc.tools.edit.fixes import edit_of
 from cellc.tools.edit.rewrite import Edit
 from cellc.tools.lsp.cursor import Begun, begun, here
 from cellc.tools.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
@@ -168,13 +168,13 @@ def _controller_types(known: Known) -> Iterator[Proposal]:
 
 
 def fixes(found: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tuple[Diagnostic, Edit]]:
-    """Yield what ``--fix`` would do about each finding, and the comment that excuses one which may be excused.
+    """Yield the fix of each finding, and the comment that excuses one which may be excused.
 
     The comment has no reason, and no effect, until its author writes one.
     """
     for item in found:
-        for edit in (*misspelled_keys([item], document), *misspelled_units([item], document)):
-            yield item, edit
+        if item.fix is not None:
+            yield item, edit_of(item.fix)
         comment = _excuse(item, document)
         if comment is not None:
             yield item, comment

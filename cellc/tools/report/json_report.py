@@ -2,8 +2,9 @@
 
 ``{"format": 1, "diagnostics": [...], "summary": {"error": 0, "blocker": 0, "warning": 0, "audit": 0}}``. A diagnostic
 has ``code``, ``severity``, ``message``, ``file``, ``line``, ``column``, ``end_line``, ``end_column`` (from 1, end
-exclusive, in characters), ``path`` (keys and indices from the root), ``help`` (may be empty) and ``related`` (places
-with a message).
+exclusive, in characters), ``path`` (keys and indices from the root), ``help`` (may be empty), ``related`` (places
+with a message) and ``fix``: null, or the place, the ``text`` that belongs there, and whether nothing else can have been
+meant (``sure``).
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ def render_json(diagnostics: Iterable[Diagnostic]) -> str:
 
 
 def _diagnostic(diagnostic: Diagnostic) -> dict[str, object]:
+    fix = diagnostic.fix
     return {
         "code": diagnostic.code,
         "severity": diagnostic.severity.value,
@@ -38,6 +40,7 @@ def _diagnostic(diagnostic: Diagnostic) -> dict[str, object]:
         "path": list(diagnostic.yaml_path),
         "help": diagnostic.help,
         "related": [{"message": related.message, **_place(related.span)} for related in diagnostic.related],
+        "fix": None if fix is None else {**_place(fix.span), "text": fix.text, "sure": fix.sure},
     }
 
 

@@ -13,7 +13,7 @@ from pathlib import PurePath
 
 from cellc.compiler.pages import all_codes, family_of, render_page
 from cellc.contract.code_page import page_of
-from cellc.contract.diagnostics import Diagnostic, Severity, Span, format_path
+from cellc.contract.diagnostics import Diagnostic, Fix, Severity, Span, format_path
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_json
 from cellc.tools.report.github_report import file_uri
 from cellc.version import __version__
@@ -79,7 +79,18 @@ def _result(diagnostic: Diagnostic, index: int, folder: PurePath) -> dict[str, o
             {"id": number, **_place(related.span, folder), "message": {"text": escaped(related.message)}}
             for number, related in enumerate(diagnostic.related, 1)
         ]
+    if diagnostic.fix is not None:
+        result["fixes"] = [_fix(diagnostic.fix, folder)]
     return result
+
+
+def _fix(fix: Fix, folder: PurePath) -> dict[str, object]:
+    """Return the edit as section 3.55 of SARIF has it."""
+    place = _physical(fix.span, folder)
+    replaced = {"deletedRegion": place["region"], "insertedContent": {"text": escaped(fix.text)}}
+    change = {"artifactLocation": place["artifactLocation"], "replacements": [replaced]}
+    text = f"`{fix.written}` becomes `{fix.text}`"
+    return {"description": {"text": escaped(text)}, "artifactChanges": [change]}
 
 
 def _location(diagnostic: Diagnostic, folder: PurePath) -> dict[str, object]:
@@ -90,6 +101,10 @@ def _location(diagnostic: Diagnostic, folder: PurePath) -> dict[str, object]:
 
 
 def _place(span: Span, folder: PurePath) -> dict[str, object]:
+    return {"physicalLocation": _physical(span, folder)}
+
+
+def _physical(span: Span, folder: PurePath) -> dict[str, object]:
     uri = file_uri(span.file, folder)
     artifact = {"uri": uri}
     # A base is only for what lies under it (section 3.4.4).
@@ -101,4 +116,4 @@ def _place(span: Span, folder: PurePath) -> dict[str, object]:
         "endLine": span.end_line,
         "endColumn": span.end_column,
     }
-    return {"physicalLocation": {"artifactLocation": artifact, "region": region}}
+    return {"artifactLocation": artifact, "region": region}
