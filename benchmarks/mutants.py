@@ -40,6 +40,9 @@ sys.path.insert(0, str(ROOT))
 
 from tests.nearest import nearest, stage_of  # noqa: E402  the checkout comes before what is installed
 
+for _name in ("tests", "tests.nearest"):  # each copy has tests of its own
+    del sys.modules[_name]
+
 _LOADED = "numpy pydantic networkx yaml jsonschema click hypothesis xdist pinocchio ruckig xacro yourdfpy lxml.etree"
 _QUIET = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-o", "addopts=")
 _LONGEST_S = 60.0
@@ -60,6 +63,8 @@ class Reached:
     """The tests that execute a statement, by its file and line."""
     called: dict[str, set[str]]
     """The tests that execute anything in a file."""
+    anywhere: bool = False
+    """Whether tests of other folders than the nearest are asked, too."""
     seconds: float = 40.0
     """So long the tests of one mutant may take, as they took without it; the slowest are left out."""
 
@@ -75,6 +80,7 @@ def main() -> None:
     parser.add_argument("--known", action="store_true", help="ask of no further test what it executes")
     parser.add_argument("--share", default="1/1", help="judge the first third of them with 1/3; all are shown")
     parser.add_argument("--seconds", type=float, default=40.0, help="so long the tests of a mutant may take")
+    parser.add_argument("--anywhere", action="store_true", help="by the tests of all folders, not the nearest alone")
     parser.add_argument("--again", action="store_true", help="judge again what survived a former call")
     options = parser.parse_args()
     options.folder.mkdir(exist_ok=True, parents=True)
@@ -90,7 +96,7 @@ def main() -> None:
     known = {name for name, end in _recorded(record).items() if not options.again or end["end"] in _NOTICED}
     part, parts = map(int, options.share.split("/"))
     rest = [one for one in chosen[part - 1 :: parts] if one.name not in known]
-    reached = replace(reached, seconds=options.seconds)
+    reached = replace(reached, seconds=options.seconds, anywhere=options.anywhere)
     apart(tree, options.folder / "progress.txt", partial(_judge_each, rest, tree, reached, record), 1e6)
     ends = {one.name: {"end": "not judged"} for one in chosen} | _recorded(record)
     summary(chosen, {one.name: ends[one.name]["end"] for one in chosen})
@@ -319,25 +325,37 @@ def _executing(mutant: Mutant, reached: Reached) -> set[str]:
 
 
 def candidates(mutant: Mutant, reached: Reached) -> list[str]:
-    """Return the tests that may notice a mutant: those that execute it, the rest of their files, the quickest first.
+    """Return the tests that may notice a mutant: those that execute it, then the rest of their files.
 
-    Others of a file matter where the first of them builds what all look at. What a module evaluates as it is
-    imported may be looked at by every test; those that call a function of it go first.
+    Of those that execute it, the ones that go where few go in its file come first: what a finding, an error or an end
+    of a branch needs is seen there. Others of a file matter where the first of them builds what all look at. What a
+    module evaluates as it is imported may be looked at by every test; those that call a function of it go first.
     """
     folders = [(f"{name}/", f"{name}::") for name in nearest(mutant.file)]
-    near = {test for test in reached.took if any(test.startswith(one) for one in folders)}
+    near = {test for test in reached.took if reached.anywhere or any(test.startswith(one) for one in folders)}
     executing = _executing(mutant, reached) if mutant.statements else reached.called.get(mutant.file, set())
     direct = executing & near or executing  # where none of its own folder executes it, those that do are the nearest
-    own, around = Path(mutant.file).stem, f"/{Path(mutant.file).parent.name}/"
-    files = {test.partition("::")[0] for test in direct}
+    files = {test.partition("::")[0] for test in direct if not reached.anywhere}
     at_import = _at_import(mutant, reached)
     beside = {test for test in near - direct if at_import or test.partition("::")[0] in files}
+    rare = _rarity(mutant.file, reached)
+    own = Path(mutant.file).stem
 
-    def nearness(test: str) -> tuple[bool, bool, bool, bool, float]:
+    def nearness(test: str) -> tuple[bool, bool, float, float]:
         named = test.replace("-", "_")  # as codes are written in the names of cases
-        return not test.startswith(folders[0]), own not in named, test in beside, around not in test, reached.took[test]
+        return test in beside, own not in named and rare[test] < 0.5, -round(rare[test], 1), reached.took[test]
 
     return _within(sorted(direct | beside, key=nearness), reached)
+
+
+def _rarity(file: str, reached: Reached) -> dict[str, float]:
+    """Return how far each test goes in a source where few others go: each statement counts one, shared by its tests."""
+    rare: dict[str, float] = defaultdict(float)
+    for (source, _), tests in reached.executed.items():
+        if source == file:
+            for test in tests:
+                rare[test] += 1 / len(tests)
+    return rare
 
 
 def _within(tests: list[str], reached: Reached) -> list[str]:

@@ -23,6 +23,7 @@ PARTS = ROOT / "tests/corpus/valid/parts"
         ("demo_gripper", "jerk: {finger_joint", "jerk: {nobody", "the description has no joint `nobody`"),
         ("demo_gripper", "acceleration: {finger_joint", "acceleration: {nobody", "no joint `nobody`"),
         ("demo_gripper", "  joint: finger_joint", "  joint: nobody", "the description has no joint `nobody`"),
+        ("demo_arm", '  joints: {"*": {', "  joints: {nobody: {", "the description has no joint `nobody`"),
         ("demo_arm", "tool_frame: tool0", "tool_frame: nobody", "the description has no link `nobody`"),
         (
             "demo_gripper",

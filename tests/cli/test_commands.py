@@ -13,6 +13,7 @@ from pathlib import Path
 import click
 import pytest
 
+from cellc.compiler.pages import all_codes
 from cellc.compiler.pipeline import check
 from cellc.mock.command.campaign import pace
 from cellc.mock.command.options import Live, RehearsalOptions
@@ -108,6 +109,16 @@ def test_explain_of_an_unknown_code_names_the_nearest() -> None:
     ran = run("explain", "reversed-limit")
     assert ran.code == 2
     assert "`reversed-limits`" in ran.err
+
+
+def test_all_pages_are_printed_one_after_the_other() -> None:
+    ran = run("explain", "--all")
+    pages = [
+        line.removeprefix("# ").partition(" ")[0]
+        for line in ran.out.splitlines()
+        if re.fullmatch(r"# [a-z0-9-]+ \(.*\)", line)
+    ]
+    assert (ran.code, pages) == (0, list(all_codes()))
 
 
 def test_document_of_all_codes_is_replaced_as_a_whole_or_not_at_all(

@@ -30,6 +30,13 @@ def test_the_questions_are_those_of_the_chapter() -> None:
     assert all(answer for row in (*compared.motion, *compared.duties) for answer in row.answers)
 
 
+def test_who_is_responsible_is_said_at_frames_and_records() -> None:
+    compared = _compared()
+    responsible = linked(spec_of("ur5e_pick")).owners.responsibilities
+    assert f"owner {responsible.frames}" in _row(compared, "frames").answers[0]
+    assert f"owner {responsible.logging}" in _row(compared, "time and records").answers[0]
+
+
 def test_only_the_arm_whose_program_starts_with_old_set_points_jumps() -> None:
     ur, franka = _row(_compared(), "start command").answers
     # Universal_Robots_ROS2_Driver, issues 1084, 279, 515.
