@@ -45,8 +45,8 @@ from tests.oracles import needs_upstream
 
 _SEED = 20260822
 _SAMPLE = 50
-# Measured: 44 of this sample, 49 of the one before the package got another file. Not seen: prose (an open question, words
-# of a launch argument and of a picture, the date in a reason), the type of the build, the name of a service in the policy.
+# Measured: 44 of this sample, 49 of the one before the package got another file. Not seen: prose (an open question,
+# words of a launch argument and of a picture, the date in a reason), the build type, a service's name in the policy.
 _FLOOR = 44
 
 _CELL, _DISTRO = "ur5e_pick", "jazzy"
