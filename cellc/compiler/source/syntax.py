@@ -9,6 +9,7 @@ import yaml
 from cellc.compiler.source.events import last_written
 from cellc.compiler.source.findings import finding
 from cellc.contract.diagnostics import Diagnostic, Related, Span
+from cellc.contract.limits import limits
 
 # Fragments of the problems that libyaml and PyYAML report, with what they mean to the author of the file.
 _MEANINGS: tuple[tuple[str, str, str], ...] = (
@@ -28,6 +29,8 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("expected the node content", "a value is missing here", "write the value, or quote text that begins with it"),
 )
 
+_NESTING = "maximum nesting depth"
+"""What the parser says of 1,000 open brackets (libyaml 0.2.6, in PyYAML 6.0.4), which it reads ahead of ours."""
 _TOO_DEEP = "the line is indented deeper than the one above, and so continues its value"
 _ALIGN = "align the line with its siblings"
 
@@ -36,6 +39,9 @@ def syntax_finding(error: yaml.YAMLError | ValueError, file: str, text: str) -> 
     """Return the finding for an exception of the YAML parser."""
     problem = str(getattr(error, "problem", None) or "the text has no YAML structure")
     span = _problem_span(getattr(error, "problem_mark", None), file, text)
+    if _NESTING in problem:
+        depth = limits().spec_depth
+        return finding("too-deep", f"values are nested more than {depth} deep", span, limit="spec-depth")
     tab = _tab_near(span, text)
     if tab is not None:
         return tab_finding(tab)
