@@ -71,13 +71,13 @@ class CatalogModel(BaseModel):
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """Describe the model and each property by what its docstring says, so that an editor shows it."""
-        made = handler(schema)
-        whole = handler.resolve_ref_schema(made)
+        schema_of = handler(schema)
+        whole = handler.resolve_ref_schema(schema_of)
         whole["description"] = summary_of(cls)
-        for name, one in whole.get("properties", {}).items():
+        for name, property_schema in whole.get("properties", {}).items():
             if said := said_of(cls, name):
-                one["description"] = said + _units_told(one)
-        return made
+                property_schema["description"] = said + _units_told(property_schema)
+        return schema_of
 
 
 def summary_of(model: type[BaseModel]) -> str:
@@ -88,9 +88,9 @@ def summary_of(model: type[BaseModel]) -> str:
 def said_of(model: type[BaseModel], name: str) -> str:
     """Return what the docstring of a model, or of one that it extends, says of a key under ``Attributes``."""
     for kind in model.__mro__:
-        told = re.search(rf"^ +{re.escape(name)}: (.*(?:\n {{8}}.*)*)", _attributes(kind), re.MULTILINE)
-        if told is not None:
-            return " ".join(told[1].split()).replace("``", "`")
+        attribute = re.search(rf"^ +{re.escape(name)}: (.*(?:\n {{8}}.*)*)", _attributes(kind), re.MULTILINE)
+        if attribute is not None:
+            return " ".join(attribute[1].split()).replace("``", "`")
     return ""
 
 
@@ -104,4 +104,4 @@ def _units_told(field: JsonSchemaValue) -> str:
         return f" Units: {', '.join(map(str, field['x-units']))}."
     inner = (*field.get("anyOf", ()), field.get("items"), *field.get("patternProperties", {}).values())
     values = (*inner, field.get("additionalProperties"))
-    return next((told for value in values if isinstance(value, dict) and (told := _units_told(value))), "")
+    return next((unit for value in values if isinstance(value, dict) and (unit := _units_told(value))), "")

@@ -59,8 +59,8 @@ def _laid_over(below: Any, above: Any) -> Any:
     """As ``overlay`` of the source does; a test holds that both agree on every device."""
     if not isinstance(below, dict) or not isinstance(above, dict):
         return above
-    own = {key: _laid_over(below[key], value) if key in below else value for key, value in above.items()}
-    return {key: value for key, value in {**below, **own}.items() if value is not None or key not in below}
+    overlaid = {key: _laid_over(below[key], value) if key in below else value for key, value in above.items()}
+    return {key: value for key, value in {**below, **overlaid}.items() if value is not None or key not in below}
 
 
 def _family_entry(file: Path) -> str:
@@ -75,10 +75,10 @@ def device_file(name: str) -> Path:
     """
     devices = CATALOG / "devices"
     single = devices / name / DEVICE_FILE
-    found = single if single.is_file() else next(devices.glob(f"*/{name}.yaml"), None)
-    if found is None:
+    entry_file = single if single.is_file() else next(devices.glob(f"*/{name}.yaml"), None)
+    if entry_file is None:
         raise KeyError(name)
-    return found
+    return entry_file
 
 
 def compile_catalog() -> Iterator[tuple[Path, str]]:
@@ -115,7 +115,7 @@ def _device(name: str) -> dict[str, Any]:
     devices = CATALOG / "devices"
     device = read_device(name)
     if device.value is None or device.diagnostics:
-        raise ValueError(f"{name}: {'; '.join(found.message for found in device.diagnostics)}")
+        raise ValueError(f"{name}: {'; '.join(diagnostic.message for diagnostic in device.diagnostics)}")
     description = device.value.model.description
     shown = f"{SHOWN}/devices"
     file = device_file(name)

@@ -174,8 +174,8 @@ def is_named(declared: str, name: str) -> bool:
     at = len(first)
     # Each part at its first place: of a search that tries them all, the time grows with the power of their number.
     for part in inner:
-        found = name.find(part, at + 1)
-        if found < 0:
+        start = name.find(part, at + 1)
+        if start < 0:
             return False
-        at = found + len(part)
+        at = start + len(part)
     return name.startswith(first) and name.endswith(last) and len(name) - len(last) > at

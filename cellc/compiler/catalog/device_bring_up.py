@@ -167,8 +167,8 @@ class RecordFacts(CatalogModel):
 
     @model_validator(mode="after")
     def _by_a_topic_or_a_person(self) -> "RecordFacts":
-        told = (self.controller, self.topic, self.field)
-        if any(part is None for part in told) == (self.read is None) or (self.read and any(told)):
+        keys = (self.controller, self.topic, self.field)
+        if any(part is None for part in keys) == (self.read is None) or (self.read and any(keys)):
             raise ValueError("must have `controller`, `topic` and `field`, or `read` alone")
         return self
 

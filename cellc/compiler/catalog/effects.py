@@ -54,8 +54,8 @@ class EffectFacts(CatalogModel):
 
     def unmet(self, need: Need, distro: Distro) -> Unmet:
         """Return what happens where a need does not hold; UNKNOWN where nobody read the release of the distribution."""
-        told = self.needs[need]
-        return told.get(distro, Unmet.UNKNOWN) if isinstance(told, dict) else told
+        consequence = self.needs[need]
+        return consequence.get(distro, Unmet.UNKNOWN) if isinstance(consequence, dict) else consequence
 
 
 class NeedStatusFacts(CatalogModel):

@@ -27,10 +27,10 @@ def read_entry(file: Path, shown: str, root: Path) -> Outcome[SourceDocument]:
         shown: its name in spans.
         root: the folder that its family must lie under: beside the file, or one folder above.
     """
-    own = read_document(file, shown)
-    document = own.value
+    entry = read_document(file, shown)
+    document = entry.value
     if document is None or not document.has(("family",)):
-        return own
+        return entry
     name, model = document.text_at(("family",)), document.text_at(("model",))
     sought = _family(file, shown, name, root)
     if sought is None:
@@ -47,9 +47,9 @@ def _family(file: Path, shown: str, name: str, root: Path) -> tuple[Path, str] |
         return None
     folders = ((file.parent, PurePosixPath(shown).parent), (file.parent.parent, PurePosixPath(shown).parent.parent))
     for folder, seen in folders:
-        found = folder / f"{name}{FAMILY_FILE}"
-        if found.is_file() and lies_under(found, root):
-            return found, (seen / found.name).as_posix()
+        family_file = folder / f"{name}{FAMILY_FILE}"
+        if family_file.is_file() and lies_under(family_file, root):
+            return family_file, (seen / family_file.name).as_posix()
     return None
 
 

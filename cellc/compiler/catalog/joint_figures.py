@@ -29,12 +29,12 @@ def wrong_joint_figures(model: DeviceModel, description: Description, document: 
     Args:
         description: with the limits of the model.
     """
-    for path, joint, written in _figures(model, description):
-        if joint.movable and joint.slides != written.linear:
+    for path, joint, figure in _figures(model, description):
+        if joint.movable and joint.slides != figure.linear:
             units = _UNITS.get(str(path[1]) if path[0] == "limits" else "", ("`m` or `mm`", "`rad` or `deg`"))
             key = path[0] if path[0] == "home" else path[1]
             wanted = units[0] if joint.slides else units[1]
-            message = f"`{key}` of `{joint.name}`, which is {joint.type}, must be in {wanted}, got {written.text}"
+            message = f"`{key}` of `{joint.name}`, which is {joint.type}, must be in {wanted}, got {figure.text}"
             advice = "write a length where the joint slides, else an angle; a key of its own where `*` is of the others"
             yield _wrong(message, path, document, advice)
     for name, ends in model.limits.position.items():

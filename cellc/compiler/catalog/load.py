@@ -136,7 +136,9 @@ def _load(
     described = file.parent / model.description.file
     description = read(described, model.description.arguments)
     if description.value is None:
-        return Outcome(None, tuple(_at_its_name(found, described, document) for found in description.diagnostics))
+        return Outcome(
+            None, tuple(_at_its_name(diagnostic, described, document) for diagnostic in description.diagnostics)
+        )
     profiles = load_qos_profiles().value
     assert profiles is not None  # package data, held valid by the catalog's tests
     known = CatalogNames({*controller_kinds(), *OF_ONE_DEVICE}, set(profiles.profiles))
@@ -236,9 +238,9 @@ def kind_behind(type_: str, device: DeviceModel | None) -> ControllerKind | None
     Returns:
         The neutral kind, that which a device's variant acts as, or a kind of the device itself.
     """
-    own = None if device is None else device.controllers.get(type_)
-    if own is None:
+    device_kind = None if device is None else device.controllers.get(type_)
+    if device_kind is None:
         return load_controller_kind(type_).value if type_ in controller_kinds() else None
     assert device is not None  # it has the controller
-    kind = own.own_kind(device.as_of)
-    return kind if kind is not None else load_controller_kind(own.behavior).value
+    kind = device_kind.own_kind(device.as_of)
+    return kind if kind is not None else load_controller_kind(device_kind.behavior).value

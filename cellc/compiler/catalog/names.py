@@ -100,9 +100,9 @@ def _joints_named(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
 
 
 def _of_catalog(model: DeviceModel, catalog: CatalogNames) -> Iterator[_Reference]:
-    for name, own in model.controllers.items():
+    for name, controller in model.controllers.items():
         path = ("controllers", name, "behavior")
-        yield _Reference(path, own.behavior, "kind of controller", catalog.kinds, "catalog")
+        yield _Reference(path, controller.behavior, "kind of controller", catalog.kinds, "catalog")
     for at, use in _profiles_named(model):
         if isinstance(use, str):
             yield _Reference(at, use, "QoS profile", catalog.profiles, "catalog")
@@ -110,8 +110,8 @@ def _of_catalog(model: DeviceModel, catalog: CatalogNames) -> Iterator[_Referenc
 
 def _profiles_named(model: DeviceModel) -> Iterator[tuple[YamlPath, QosUse]]:
     yield from ((("topics", number, "qos"), topic.qos) for number, topic in enumerate(model.topics))
-    for name, own in model.controllers.items():
-        for number, published in enumerate(own.topics):
+    for name, controller in model.controllers.items():
+        for number, published in enumerate(controller.topics):
             yield ("controllers", name, "topics", number, "qos"), published.qos
     if model.camera is not None:
         for name, stream in model.camera.streams.items():

@@ -48,8 +48,8 @@ def starter_spec(
     Returns:
         YAML text that ends in a newline.
     """
-    models = {device: one.model for device, one in devices.items()}
-    movers = [device for device, one in devices.items() if one.model.kind in _MOVED and _chain(one.entry)]
+    models = {device: named.model for device, named in devices.items()}
+    movers = [device for device, named in devices.items() if named.model.kind in _MOVED and _chain(named.entry)]
     grippers = [device for device, model in models.items() if model.gripper is not None]
     mounts, wires = mounts_of(models), wires_of(models)
     lines = [
@@ -60,7 +60,7 @@ def starter_spec(
         f"versions: {{ros: {distro}}}        # what is missing here is UNKNOWN and blocks the real target",
         *([f"packages: [{', '.join(packages)}]"] if packages else []),
         "devices:",
-        *(line for device, one in devices.items() for line in _device(device, one, mounts[device], wires)),
+        *(line for device, named in devices.items() for line in _device(device, named, mounts[device], wires)),
         *_managed(distro, devices, mounts, wires),
         *_motion(movers, devices),
         "rehearsals:",
@@ -102,12 +102,12 @@ def _managed(
 def _by_rate(devices: Mapping[str, NamedDevice], mounts: Mapping[str, str]) -> dict[str, dict[str, NamedDevice]]:
     """Return the devices with control by the update rate of their manager: that of what carries one that takes any."""
     groups: dict[str, dict[str, NamedDevice]] = {}
-    controlled = {name: one for name, one in devices.items() if one.model.control is not None}
+    controlled = {name: named for name, named in devices.items() if named.model.control is not None}
     free = []
-    for name, one in controlled.items():
-        rates = [rate.text for rate in one.model.control.update_rates] if one.model.control else []
+    for name, named in controlled.items():
+        rates = [rate.text for rate in named.model.control.update_rates] if named.model.control else []
         if rates:
-            groups.setdefault(next((rate for rate in rates if rate in groups), rates[0]), {})[name] = one
+            groups.setdefault(next((rate for rate in rates if rate in groups), rates[0]), {})[name] = named
         else:
             free.append(name)
     for name in free:
@@ -128,8 +128,8 @@ def _controllers(
     yield f"{indent}update_rate: {rate}"
     yield f"{indent}controllers:"
     yield f"{indent}  {states}: {{type: joint_state_broadcaster}}"
-    for name, one in devices.items():
-        yield from (f"{indent}  {line}" for line in _of_device(name, one, distro, wires))
+    for name, named in devices.items():
+        yield from (f"{indent}  {line}" for line in _of_device(name, named, distro, wires))
 
 
 def _of_device(name: str, one: NamedDevice, distro: Distro, wires: Wires) -> Iterator[str]:
@@ -152,7 +152,7 @@ def _of_device(name: str, one: NamedDevice, distro: Distro, wires: Wires) -> Ite
 def _telling_kinds(model: DeviceModel) -> dict[str, None]:
     """Return the kinds of controllers that tell whether the device listens, each once."""
     real = None if model.control is None else model.control.hardware.real
-    return {} if real is None else {told.controller: None for told in real.reported_by.values()}
+    return {} if real is None else {status.controller: None for status in real.reported_by.values()}
 
 
 def _trajectory_kind(model: DeviceModel, distro: Distro) -> str:
@@ -160,8 +160,8 @@ def _trajectory_kind(model: DeviceModel, distro: Distro) -> str:
 
     One that claims interfaces of its own is left to a person: a mock moves on position commands.
     """
-    for kind, own in model.controllers.items():
-        if own.behavior is Behavior.JOINT_TRAJECTORY and not own.command_interfaces and distro in own.plugins:
+    for kind, facts in model.controllers.items():
+        if facts.behavior is Behavior.JOINT_TRAJECTORY and not facts.command_interfaces and distro in facts.plugins:
             return kind
     return "joint_trajectory"
 

@@ -15,20 +15,22 @@ Wires = Mapping[str, Mapping[str, Signal]]
 
 def wires_of(models: Mapping[str, DeviceModel]) -> Wires:
     """Return the wires of the switched devices, as far as the I/O devices of the cell have signals."""
-    signals, found = _signals(models), dict[str, dict[str, Signal]]()
+    signals, wires = _signals(models), dict[str, dict[str, Signal]]()
     for name, model in models.items():
         for output in () if model.switched is None else model.switched.outputs:
             signal = next(signals, None)
             if signal is not None:
-                found.setdefault(name, {})[output] = signal
-    return found
+                wires.setdefault(name, {})[output] = signal
+    return wires
 
 
 def without_signal(models: Mapping[str, DeviceModel]) -> tuple[str, ...]:
     """Name the switched devices that have an output without a signal of the cell."""
     wires = wires_of(models)
     switched = {name: model.switched for name, model in models.items() if model.switched is not None}
-    return tuple(name for name, one in switched.items() if len(one.outputs) > len(wires.get(name, ())))
+    return tuple(
+        name for name, switched_facts in switched.items() if len(switched_facts.outputs) > len(wires.get(name, ()))
+    )
 
 
 def switching(outputs: Mapping[str, Signal]) -> str:

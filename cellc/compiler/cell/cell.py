@@ -138,27 +138,27 @@ class Cell:
 
     def programs_on_mock(self, device: Device) -> tuple[str, ...]:
         """Return the programs that a device runs on every target, as ``package/executable``."""
-        own = (node for node in self.nodes_of.get(device.name, ()) if not node.real_only)
-        return tuple(f"{node.package}/{node.executable}" for node in own)
+        programs = (node for node in self.nodes_of.get(device.name, ()) if not node.real_only)
+        return tuple(f"{node.package}/{node.executable}" for node in programs)
 
     @cached_property
     def nodes_of(self) -> Mapping[str, tuple[Node, ...]]:
         """Nodes of each device that has some, by its name."""
-        found: dict[str, list[Node]] = {}
+        by_device: dict[str, list[Node]] = {}
         for node in self.nodes:
             if node.device is not None:
-                found.setdefault(node.device, []).append(node)
-        return {name: tuple(nodes) for name, nodes in found.items()}
+                by_device.setdefault(node.device, []).append(node)
+        return {name: tuple(nodes) for name, nodes in by_device.items()}
 
     @cached_property
     def ends_of(self) -> Mapping[str, tuple[InterfaceEnd, ...]]:
         """Ends of interfaces at which a node is, by its full name."""
-        found: dict[str, list[InterfaceEnd]] = {}
+        by_interface: dict[str, list[InterfaceEnd]] = {}
         for interface in self.interfaces:
             for serves, ends in ((True, interface.sources), (False, interface.sinks)):
                 for end in ends:
-                    found.setdefault(end.full_name, []).append(InterfaceEnd(interface, end, serves))
-        return {name: tuple(ends) for name, ends in found.items()}
+                    by_interface.setdefault(end.full_name, []).append(InterfaceEnd(interface, end, serves))
+        return {name: tuple(ends) for name, ends in by_interface.items()}
 
     @cached_property
     def planners(self) -> tuple[Node, ...]:
@@ -173,8 +173,8 @@ class Cell:
             end.node for action in actions for end in action.sinks
         }
         moving = asking - {end.node for action in actions for end in action.sources}
-        written = (node for node in self.nodes if node.source is NodeSource.SPEC and not node.is_planner)
-        return tuple(node for node in written if node.name in moving)
+        nodes = (node for node in self.nodes if node.source is NodeSource.SPEC and not node.is_planner)
+        return tuple(node for node in nodes if node.name in moving)
 
     @cached_property
     def started_late(self) -> frozenset[str]:
@@ -194,12 +194,14 @@ class Cell:
     def reporting(self, device: Device, source: RecordSource) -> Controller | None:
         """Return the controller of a device that publishes a field of the record on the real target, if one does."""
         kind = source.controller_kind
-        own = (
+        reporters = (
             controller
             for controller in self.controllers
             if controller.device == device.name and controller.kind == kind
         )
-        return next((controller for controller in own if controller.active and "real" in controller.targets), None)
+        return next(
+            (controller for controller in reporters if controller.active and "real" in controller.targets), None
+        )
 
     def carried_mass_kg(self, device: Device) -> float:
         """Return the mass of what a device carries, as the descriptions of those say; 0 where they say nothing."""

@@ -146,10 +146,10 @@ class ControllerManager(Entity):
 
     def by_kind(self) -> Mapping[tuple[str, str | None], list[Controller]]:
         """Return the controllers of each kind and device."""
-        found: dict[tuple[str, str | None], list[Controller]] = {}
+        controllers: dict[tuple[str, str | None], list[Controller]] = {}
         for controller in self.controllers:
-            found.setdefault((controller.kind, controller.device), []).append(controller)
-        return found
+            controllers.setdefault((controller.kind, controller.device), []).append(controller)
+        return controllers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

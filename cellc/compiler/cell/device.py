@@ -386,5 +386,5 @@ class Device(Entity):
 
     def simulated(self, joint: str) -> tuple[SimulatedJoint, ...]:
         """Return what the mock adds to a joint: what is said of it alone before what is said of all."""
-        found = [item for item in self.simulated_joints if joint in item.joints]
-        return tuple(sorted(found, key=lambda one: one.name == EVERY_JOINT))
+        matching = [item for item in self.simulated_joints if joint in item.joints]
+        return tuple(sorted(matching, key=lambda one: one.name == EVERY_JOINT))

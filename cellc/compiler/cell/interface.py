@@ -131,5 +131,5 @@ class Interface(Entity, ContractInterface):
     @property
     def targets(self) -> tuple[Target, ...]:
         """Targets on which somebody publishes or serves it; every target where no source is declared."""
-        found = {target for source in self.sources for target in source.targets}
-        return tuple(target for target in TARGETS if target in found or not self.sources)
+        targets = {target for source in self.sources for target in source.targets}
+        return tuple(target for target in TARGETS if target in targets or not self.sources)

@@ -49,5 +49,5 @@ class Switched:
 
     def _is_distinct(self, state: str) -> bool:
         read = self.states[state].sensors
-        others = (one.sensors for name, one in self.states.items() if name != state)
+        others = (other.sensors for name, other in self.states.items() if name != state)
         return bool(read) and all(any(other.get(name) != value for name, value in read.items()) for other in others)

@@ -27,10 +27,10 @@ def link_managers(context: ControlContext) -> Outcome[tuple[ControllerManager, .
     managers: list[ControllerManager] = []
     problems: list[Diagnostic] = []
     written_managers = _written_managers(context.spec)
-    named = Counter(name for _, _, written in written_managers for name in written.controllers)
+    named = Counter(name for _, _, manager in written_managers for name in manager.controllers)
     shared = frozenset(name for name, count in named.items() if count > 1)
-    for name, path, written in written_managers:
-        bound = _manager(name, path, written, shared, context)
+    for name, path, manager in written_managers:
+        bound = _manager(name, path, manager, shared, context)
         problems += bound.diagnostics
         if bound.value is not None:
             managers.append(bound.value)
@@ -41,7 +41,7 @@ def _written_managers(spec: CellSpec) -> tuple[tuple[str, YamlPath, ManagerSpec]
     single: tuple[tuple[str, YamlPath, ManagerSpec], ...] = ()
     if spec.control is not None:
         single = (("control", ("control",), spec.control),)
-    return single + tuple((name, ("managers", name), written) for name, written in spec.managers.items())
+    return single + tuple((name, ("managers", name), manager) for name, manager in spec.managers.items())
 
 
 def _manager(
@@ -175,20 +175,20 @@ def as_driven(cell: Cell) -> Cell:
 
 def _told(node: Node, adapted: AdaptedDevice) -> Node:
     """Return the node of an adapter with the parameters that it may declare: what the spec says about it, in SI."""
-    told: dict[str, ParameterValue] = {
+    parameters: dict[str, ParameterValue] = {
         "joints": adapted.joints,
         "command_timeout": adapted.command_timeout_s,
         "stop_time": adapted.stop_time_s,
         "goal_time": adapted.goal_time_s,
         "path_tolerance": adapted.path_tolerance,
     }
-    return replace(node, parameters={**node.parameters, **told})
+    return replace(node, parameters={**node.parameters, **parameters})
 
 
 def _adapted_device(device: Device, adapted: AdaptedDevice, nodes: Iterable[Node]) -> Device:
-    told = tuple(source for source in device.record if source.controller_kind is None)
+    sources = tuple(source for source in device.record if source.controller_kind is None)
     limits = (*device.mock_cannot_prove, _NOT_ON_THE_MOCK)
-    bare = replace(device, hardware=None, driver=None, offers=(), starts={}, record=told, mock_cannot_prove=limits)
+    bare = replace(device, hardware=None, driver=None, offers=(), starts={}, record=sources, mock_cannot_prove=limits)
     node = next((node for node in nodes if node.full_name == adapted.node), None)
     if node is None:
         return bare

@@ -42,15 +42,15 @@ class ControlContext:
     def joints(self) -> Mapping[str, DeviceJoint]:
         """Joints of all devices by `device/joint`."""
         bound = self.devices.items()
-        return {f"{name}/{joint.local_name}": joint for name, one in bound for joint in one.device.joints}
+        return {f"{name}/{joint.local_name}": joint for name, holder in bound for joint in holder.device.joints}
 
     @cached_property
     def labels(self) -> Mapping[str, tuple[str, ...]]:
         """The same labels by the full name of a joint, in their order."""
-        found: dict[str, list[str]] = {}
+        names: dict[str, list[str]] = {}
         for label, joint in self.joints.items():
-            found.setdefault(joint.name, []).append(label)
-        return {name: tuple(labels) for name, labels in found.items()}
+            names.setdefault(joint.name, []).append(label)
+        return {name: tuple(labels) for name, labels in names.items()}
 
     @cached_property
     def beyond_the_mock(self) -> frozenset[str]:
@@ -136,13 +136,13 @@ def link_controller(place: ControllerPlace, written: ControllerSpec, context: Co
 def _choose(type_: str, at: YamlPath, bound: BoundDevice | None, context: ControlContext) -> Outcome[_Chosen]:
     """Choose kind and plugin of a type for the distribution: the device's own kinds come before the neutral ones."""
     facts = None if bound is None else bound.facts
-    own = {} if facts is None else facts.controllers
+    kinds = {} if facts is None else facts.controllers
     kind = kind_behind(type_, facts)
     if kind is None:
-        return Outcome(None, (_unknown_kind(type_, (*own, *controller_kinds()), context.document, at),))
-    plugins = own[type_].plugins if type_ in own else kind.plugins
+        return Outcome(None, (_unknown_kind(type_, (*kinds, *controller_kinds()), context.document, at),))
+    plugins = kinds[type_].plugins if type_ in kinds else kind.plugins
     if context.distro in plugins:
-        return Outcome(_Chosen(kind, plugins[context.distro], bound, own.get(type_)))
+        return Outcome(_Chosen(kind, plugins[context.distro], bound, kinds.get(type_)))
     problem = Diagnostic(
         code="controller-not-in-distro",
         severity=Severity.ERROR,
@@ -252,17 +252,17 @@ def _on_real(
     command = tuple(f"{joint}/{claim}" for joint in interfaces.joints for claim in facts.interfaces)
     plugin = chosen.plugin.model_copy(update={"parameters": chosen.plugin.parameters | facts.parameters})
     there = replace(interfaces, claims=facts.interfaces, command=command)
-    told = _parameters(written, replace(chosen, plugin=plugin), there, context)
+    parameters = _parameters(written, replace(chosen, plugin=plugin), there, context)
     same = command == interfaces.command and not facts.parameters
-    return None if same else OnReal(command_interfaces=command, parameters=told)
+    return None if same else OnReal(command_interfaces=command, parameters=parameters)
 
 
 def _targets(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> tuple[Target, ...]:
     """Return the targets whose hardware has what the controller takes, of each device whose joints it has."""
-    own = chosen.own
+    facts = chosen.own
     components = [device.hardware for device in _taken_from(chosen, interfaces, context) if device.hardware is not None]
     have = tuple(target for target in TARGETS if all(target in component.targets for component in components))
-    lacks = (own is not None and own.real_only) or _beyond_the_mock(interfaces, context)
+    lacks = (facts is not None and facts.real_only) or _beyond_the_mock(interfaces, context)
     return tuple(target for target in have if target == "real" or not (lacks and "real" in have))
 
 
@@ -294,16 +294,16 @@ def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:
 
 
 def _interfaces(joints: tuple[str, ...], written: ControllerSpec, chosen: _Chosen) -> _Interfaces:
-    kind, bound, own = chosen.kind, chosen.bound, chosen.own
-    if bound is not None and own is not None and own.behavior in OF_ONE_DEVICE:
+    kind, bound, facts = chosen.kind, chosen.bound, chosen.own
+    if bound is not None and facts is not None and facts.behavior in OF_ONE_DEVICE:
         # It drives no joint, and names what it takes in full.
-        command, state = (tuple(map(bound.names.fill, names)) for names in own.taken(chosen.plugin))
+        command, state = (tuple(map(bound.names.fill, names)) for names in facts.taken(chosen.plugin))
         return _Interfaces((), (), (), command, state, UNSTATED)
     if kind.kind is Behavior.GPIO_COMMAND:
         command, state = (_of_gpios(written, which, bound) for which in ("command", "state"))
         return _Interfaces((), (), (), command, state, UNSTATED)
     claims = (
-        written.command_interfaces or (own.command_interfaces if own is not None else ()) or kind.command_interfaces
+        written.command_interfaces or (facts.command_interfaces if facts is not None else ()) or kind.command_interfaces
     )
     reads = _read(kind, joints, chosen.device)
     command = tuple(f"{joint}/{claim}" for joint in joints for claim in claims)

@@ -66,12 +66,12 @@ class Derivation:
 
     def planners(self) -> tuple[tuple[str, YamlPath], ...]:
         """Return the nodes that command a controller's motion, each with the place where that is written."""
-        found: dict[str, YamlPath] = {}
+        paths: dict[str, YamlPath] = {}
         for manager in self.managers:
             for controller in manager.controllers:
                 if controller.client is not None:
-                    found.setdefault(controller.client, (*controller.path, "client"))
-        return tuple(found.items())
+                    paths.setdefault(controller.client, (*controller.path, "client"))
+        return tuple(paths.items())
 
 
 _DESCRIPTION = "/robot_description"
@@ -303,15 +303,15 @@ def _topic(source: Derivation, controller: Controller, topic: ControllerTopic) -
     name = _absolute(controller, topic.name)
     said = topic.direction == "publish"
     qos = source.resolver.writer(topic.qos) if said else source.resolver.reader(topic.qos)
-    own = (source.end(controller.label, name, controller.path, qos),)
+    ends = (source.end(controller.label, name, controller.path, qos),)
     return Interface(
         name=name,
         path=controller.path,
         span=controller.span,
         kind=InterfaceKind.TOPIC,
         type=topic.type,
-        sources=own if said else _clients(source, controller, name),
-        sinks=() if said else own,
+        sources=ends if said else _clients(source, controller, name),
+        sinks=() if said else ends,
         derived=True,
         time_source="ros",
         owner=source.spec.owners.responsibilities.command,

@@ -103,9 +103,13 @@ def with_catalog(
 
 
 def _record(facts: DeviceModel) -> Iterator[RecordSource]:
-    for field, told in facts.record.items():
+    for field, record in facts.record.items():
         yield RecordSource(
-            attempt_field=field, controller_kind=told.controller, topic=told.topic, field=told.field, read=told.read
+            attempt_field=field,
+            controller_kind=record.controller,
+            topic=record.topic,
+            field=record.field,
+            read=record.read,
         )
 
 
@@ -123,10 +127,10 @@ def _versions(written: DeviceSpec) -> DeviceVersions:
 
 def _connection(written: DeviceSpec, port: str | None) -> Connection | None:
     """Return how the real device is reached."""
-    one = written.connection
-    if one is None:
+    stated = written.connection
+    if stated is None:
         return None
-    return Connection(host=one.host, nic=one.nic, address=one.address, port=port, through=one.through)
+    return Connection(host=stated.host, nic=stated.nic, address=stated.address, port=port, through=stated.through)
 
 
 def limit_shares(written: DeviceSpec) -> LimitShares:
@@ -175,11 +179,11 @@ def _simulated_joints(written: DeviceSpec, device: Device, document: SourceDocum
             path=(*path, key),
             span=document.locate((*path, key)),
             joints=tuple(joint.name for joint in device.actuated_joints if key in (EVERY_JOINT, joint.local_name)),
-            lag_s=si(one.lag),
-            noise=None if one.noise is None else joint_figure(one.noise),
-            velocity=None if one.velocity is None else joint_figure(one.velocity),
+            lag_s=si(simulated.lag),
+            noise=None if simulated.noise is None else joint_figure(simulated.noise),
+            velocity=None if simulated.velocity is None else joint_figure(simulated.velocity),
         )
-        for key, one in written.simulated_joints.items()
+        for key, simulated in written.simulated_joints.items()
     )
 
 
@@ -193,16 +197,16 @@ def _taken_on_trust(facts: DeviceModel) -> Iterator[str]:
 
 def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
     """Return the gripper that the device is."""
-    one = facts.gripper
-    if one is None:
+    gripper = facts.gripper
+    if gripper is None:
         return None
     return Gripper(
-        joint=prefix + one.joint,
-        open=one.open.si,
-        closed=one.closed.si,
-        max_force=one.max_force.si,
-        max_velocity=_joint_speed(one),
-        goal_tolerance=float(one.goal_tolerance.si),
+        joint=prefix + gripper.joint,
+        open=gripper.open.si,
+        closed=gripper.closed.si,
+        max_force=gripper.max_force.si,
+        max_velocity=_joint_speed(gripper),
+        goal_tolerance=float(gripper.goal_tolerance.si),
     )
 
 
@@ -319,5 +323,5 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
 
 def _packages(facts: DeviceModel) -> Packages:
     """Return the vendor's packages and libraries."""
-    one = facts.packages
-    return Packages(driver=one.driver, sdk=one.sdk, description=one.description)
+    packages = facts.packages
+    return Packages(driver=packages.driver, sdk=packages.sdk, description=packages.description)

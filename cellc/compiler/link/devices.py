@@ -66,28 +66,28 @@ def link_devices(
     kinematics: dict[str, Kinematics | None] = {}
     problems: list[Diagnostic] = []
     budget = Budget(limits().xacro_seconds_together, children_seconds)
-    for name, written in until_hopeless(spec.devices.items(), problems):
-        entry = _catalog_entry(name, written, document, budget, packages)
+    for name, device_spec in until_hopeless(spec.devices.items(), problems):
+        entry = _catalog_entry(name, device_spec, document, budget, packages)
         problems += entry.diagnostics
         if entry.value is not None:
-            known = placeholders(name, prefix_of(name, written), written, spec)
-            own = link_kinematics(name, written, entry.value, known, document)
-            problems += own.diagnostics
-            entries[name], kinematics[name] = own.value or (entry.value, None)
-        problems += _connection_problems(name, written, spec, document)
+            known = placeholders(name, prefix_of(name, device_spec), device_spec, spec)
+            calibrated = link_kinematics(name, device_spec, entry.value, known, document)
+            problems += calibrated.diagnostics
+            entries[name], kinematics[name] = calibrated.value or (entry.value, None)
+        problems += _connection_problems(name, device_spec, spec, document)
     if len(entries) < len(spec.devices):
         return Outcome(None, tuple(problems))
     devices: list[BoundDevice] = []
     shifts = port_shifts({name: (spec.devices[name], entry.model) for name, entry in entries.items()})
     frames, carried = _mount_frames(spec, entries), _carried(spec)
-    for name, written in until_hopeless(spec.devices.items(), problems):
-        parent = _parent_frame(name, written, document, frames)
+    for name, device_spec in until_hopeless(spec.devices.items(), problems):
+        parent = _parent_frame(name, device_spec, document, frames)
         problems += parent.diagnostics
         # Mounted somewhere even so: what refers to its frames, its node and its joints is right.
         mount = parent.value or WORLD
-        bound = _device(name, written, spec, document, entries[name], mount, distro, shifts[name])
+        bound = _device(name, device_spec, spec, document, entries[name], mount, distro, shifts[name])
         bound = replace(bound, device=replace(bound.device, carries=tuple(carried.get(name, ()))))
-        vendor = link_vendor_description(bound.facts, document, prefix_of(name, written), budget, packages)
+        vendor = link_vendor_description(bound.facts, document, prefix_of(name, device_spec), budget, packages)
         shaped = replace(
             bound.device,
             description=with_vendor_shapes(bound.device.description, vendor),
@@ -222,12 +222,12 @@ def _device(
 
 def _carried(spec: CellSpec) -> dict[str, list[str]]:
     """Return the devices whose mount names a frame of a device, in the order of the spec."""
-    found: dict[str, list[str]] = {}
-    for name, written in spec.devices.items():
-        carrier = "" if written.mount is None else written.mount.parent.partition("/")[0]
+    carried: dict[str, list[str]] = {}
+    for name, device_spec in spec.devices.items():
+        carrier = "" if device_spec.mount is None else device_spec.mount.parent.partition("/")[0]
         if carrier != name:
-            found.setdefault(carrier, []).append(name)
-    return found
+            carried.setdefault(carrier, []).append(name)
+    return carried
 
 
 def _joints(

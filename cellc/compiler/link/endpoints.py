@@ -135,9 +135,9 @@ def name_endpoints(
 ) -> EndpointNames:
     """Collect nodes, devices and controllers with their owners, and what devices publish with which QoS."""
     controllers = tuple(controller for manager in managers for controller in manager.controllers)
-    own = [node for node in nodes if node.source is not NodeSource.DEVICE]
+    named = [node for node in nodes if node.source is not NodeSource.DEVICE]
     words = {
-        label: EndName(label, node.full_name, node.owner) for node, label in zip(own, node_labels(own), strict=True)
+        label: EndName(label, node.full_name, node.owner) for node, label in zip(named, node_labels(named), strict=True)
     }
     by_device: dict[str | None, list[str]] = {}
     for node in nodes:
@@ -171,10 +171,10 @@ def _of_device(
 ) -> EndName:
     device = bound.device
     alone = device.architecture == "direct_sdk" and bool(device.actuated_joints)  # its adapter has its name
-    own = next(iter(() if alone else driven), f"/{device.name}")
+    node = next(iter(() if alone else driven), f"/{device.name}")
     return EndName(
         node=device.name,
-        full_name=own,
+        full_name=node,
         owner=spec.owners.responsibilities.vendor_safety,
         nodes={offer.name: offer.node for offer in device.offers if offer.node in names},
         offered=dict(_offered(bound, resolver)),

@@ -80,10 +80,10 @@ def _target(
         return fault.cancel, ()
     if isinstance(fault, SkipCyclesFault):
         return "", ()
-    written, target = str(getattr(fault, kind)), targets[kind]
-    if written in target.names:
-        return target.names[written], ()
-    return written, (unknown_name(target.code, written, target.noun, target.names, document, (*path, kind)),)
+    name, target = str(getattr(fault, kind)), targets[kind]
+    if name in target.names:
+        return target.names[name], ()
+    return name, (unknown_name(target.code, name, target.noun, target.names, document, (*path, kind)),)
 
 
 def _event(written: EventSpec) -> StepEvent:

@@ -59,10 +59,10 @@ def link_frames(
     """
     frames = [_world(document), *_device_frames(spec, document, devices)]
     problems: list[Diagnostic] = []
-    for name, written in until_hopeless(spec.frames.items(), problems):
-        bound = _spec_frame(name, written, document, names, measured.get(name))
-        problems += [*bound.diagnostics, *_unknown_calibration(spec, document, ("frames", name), written.calibration)]
-        problems += _unknown_publisher(spec, document, name, written)
+    for name, frame in until_hopeless(spec.frames.items(), problems):
+        bound = _spec_frame(name, frame, document, names, measured.get(name))
+        problems += [*bound.diagnostics, *_unknown_calibration(spec, document, ("frames", name), frame.calibration)]
+        problems += _unknown_publisher(spec, document, name, frame)
         if bound.value is not None:
             frames.append(bound.value)
     for device, entry in spec.devices.items():
@@ -76,9 +76,9 @@ def link_scene(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
     """Bind the solid things of the cell."""
     boxes: list[SceneBox] = []
     problems: list[Diagnostic] = []
-    for name, written in until_hopeless(spec.scene.items(), problems):
+    for name, box in until_hopeless(spec.scene.items(), problems):
         path = ("scene", name)
-        parent = names.bind(written.parent, (*path, "parent"))
+        parent = names.bind(box.parent, (*path, "parent"))
         problems += parent.diagnostics
         if parent.value is not None:
             boxes.append(
@@ -87,9 +87,9 @@ def link_scene(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
                     path=path,
                     span=document.locate(path),
                     parent=parent.value,
-                    transform_to_parent=pose(written.xyz, written.rpy),
-                    size=vector(written.box),
-                    kind=written.kind,
+                    transform_to_parent=pose(box.xyz, box.rpy),
+                    size=vector(box.box),
+                    kind=box.kind,
                 )
             )
     return Outcome(tuple(boxes), tuple(problems))
@@ -99,9 +99,9 @@ def link_areas(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
     """Bind the volumes that several arms share."""
     areas: list[SharedArea] = []
     problems: list[Diagnostic] = []
-    for name, written in until_hopeless(spec.areas.items(), problems):
+    for name, area_spec in until_hopeless(spec.areas.items(), problems):
         path = ("areas", name)
-        parent = names.bind(written.parent, (*path, "parent"))
+        parent = names.bind(area_spec.parent, (*path, "parent"))
         problems += parent.diagnostics
         if parent.value is not None:
             area = SharedArea(
@@ -109,10 +109,10 @@ def link_areas(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
                 path=path,
                 span=document.locate(path),
                 parent=parent.value,
-                transform_to_parent=pose(written.xyz, written.rpy),
-                size=vector(written.box),
-                granted_by=written.granted_by,
-                released=written.released or "",
+                transform_to_parent=pose(area_spec.xyz, area_spec.rpy),
+                size=vector(area_spec.box),
+                granted_by=area_spec.granted_by,
+                released=area_spec.released or "",
             )
             areas.append(area)
     return Outcome(tuple(areas), tuple(problems))

@@ -86,10 +86,10 @@ def link_hand_eye(
             continue
         files[name] = CalibrationFile(path=file.value.path, sha256=file.value.sha256)
         for placed in _resting_on(name, spec, bound, names):
-            found = _place(placed, _Read(name, entry, said.value), edges, names, document)
-            problems += found.diagnostics
-            if found.value is not None:
-                (mounts if placed.path[0] == "devices" else frames)[str(placed.path[1])] = found.value
+            pose = _place(placed, _Read(name, entry, said.value), edges, names, document)
+            problems += pose.diagnostics
+            if pose.value is not None:
+                (mounts if placed.path[0] == "devices" else frames)[str(placed.path[1])] = pose.value
     return Outcome(Measured(mounts, frames, files), tuple(problems))
 
 
@@ -116,10 +116,10 @@ def _resting_on(name: str, spec: CellSpec, bound: tuple[BoundDevice, ...], names
         mount = spec.devices[device.name].mount
         if mount is not None and mount.calibration == name:
             yield _Placed(device.root_link, device.parent_frame, (*device.path, "mount"), mount)
-    for frame, written in spec.frames.items():
-        parent = names.by_reference.get(written.parent)
-        if written.calibration == name and parent is not None and not written.dynamic:
-            yield _Placed(frame, parent, ("frames", frame), written)
+    for frame, frame_spec in spec.frames.items():
+        parent = names.by_reference.get(frame_spec.parent)
+        if frame_spec.calibration == name and parent is not None and not frame_spec.dynamic:
+            yield _Placed(frame, parent, ("frames", frame), frame_spec)
 
 
 def _edges(spec: CellSpec, devices: list[Device], names: FrameNames) -> dict[str, _Edge]:
@@ -129,11 +129,11 @@ def _edges(spec: CellSpec, devices: list[Device], names: FrameNames) -> dict[str
         edges[device.root_link] = _Edge(device.parent_frame, device.transform_root_to_parent, rigid=True)
         for joint in device.description.joints:
             edges[joint.child] = _Edge(joint.parent, joint.pose, rigid=not joint.movable)
-    for frame, written in spec.frames.items():
-        parent = names.by_reference.get(written.parent)
+    for frame, frame_spec in spec.frames.items():
+        parent = names.by_reference.get(frame_spec.parent)
         if parent is not None:
-            still = not written.dynamic
-            edges[frame] = _Edge(parent, pose(written.xyz, written.rpy) if still else identity(), rigid=still)
+            still = not frame_spec.dynamic
+            edges[frame] = _Edge(parent, pose(frame_spec.xyz, frame_spec.rpy) if still else identity(), rigid=still)
     return edges
 
 
@@ -143,10 +143,10 @@ def _place(
     """Return the pose of what is placed in its parent, as the file has it."""
     said = read.said
     ends: list[str] = []
-    for told, stated in ((said.parent, read.entry.parent), (said.child, read.entry.child)):
-        frame = _frame(stated or told, names)
+    for reported, stated in ((said.parent, read.entry.parent), (said.child, read.entry.child)):
+        frame = _frame(stated or reported, names)
         if frame is None:
-            return Outcome(None, (_unknown(stated or told, read, names, document, stated is not None),))
+            return Outcome(None, (_unknown(stated or reported, read, names, document, stated is not None),))
         ends.append(frame)
     (parent, near), (child, far), (mount, at_mount) = (
         _climb(frame, edges, placed.child) for frame in (*ends, placed.parent)
@@ -160,9 +160,9 @@ def _place(
     standing = not _moves(mount, edges)
     if said.in_hand is not None and said.in_hand is standing:
         return Outcome(None, (_other_mounting(placed, said, standing=standing),))
-    found = at_mount.inverse() @ near @ measured @ far.inverse()
-    differs = _difference(placed, read, found, document)
-    return Outcome(None if differs else found, differs)
+    pose = at_mount.inverse() @ near @ measured @ far.inverse()
+    differs = _difference(placed, read, pose, document)
+    return Outcome(None if differs else pose, differs)
 
 
 def _frame(name: str | None, names: FrameNames) -> str | None:
@@ -215,14 +215,14 @@ def _other_mounting(placed: _Placed, said: HandEyeFile, *, standing: bool) -> Di
 
 
 def _difference(placed: _Placed, read: _Read, found: Pose, document: SourceDocument) -> tuple[Diagnostic, ...]:
-    written = placed.written
-    if written.xyz is None and written.rpy is None:
+    placement = placed.written
+    if placement.xyz is None and placement.rpy is None:
         return ()
-    stated = pose(written.xyz, written.rpy)
+    stated = pose(placement.xyz, placement.rpy)
     distance, angle = apart(stated, found)
     if distance <= _NEAR_M and angle <= _NEAR_RAD:
         return ()
-    path = (*placed.path, "xyz" if written.xyz is not None else "rpy")
+    path = (*placed.path, "xyz" if placement.xyz is not None else "rpy")
     off = f"{distance * 1000.0:.2f} mm and {math.degrees(angle):.2f} deg"
     message = f"`{placed.path[1]}` must stand where `{read.entry.from_}` has it, got {off} beside it"
     xyz = " ".join(f"{value * 1000.0:.2f}" for value in found.position)

@@ -77,11 +77,11 @@ def _of_data(content: SourceDocument) -> HandEyeFile:
 
 
 def _of_easy_handeye(content: SourceDocument) -> HandEyeFile:
-    told = ("parameters", "calibration_type")
-    if content.has(told):
-        kind = content.text_at(told)
+    path = ("parameters", "calibration_type")
+    if content.has(path):
+        kind = content.text_at(path)
         if kind not in ("eye_in_hand", "eye_on_base"):
-            _fail(content.locate(told), f"`calibration_type` must be `eye_in_hand` or `eye_on_base`, got `{kind}`")
+            _fail(content.locate(path), f"`calibration_type` must be `eye_in_hand` or `eye_on_base`, got `{kind}`")
         in_hand, at = kind == "eye_in_hand", ("transform",)
     else:
         in_hand, at = content.text_at(("parameters", "eye_on_hand")).lower() == "true", ("transformation",)
@@ -108,9 +108,9 @@ def _pose(content: SourceDocument, at: YamlPath) -> Pose:
 
 def _vector(content: SourceDocument, at: YamlPath, keys: Sequence[str]) -> Vector3:
     """Return a translation, as a list or a mapping, or beside the rotation."""
-    found = next(((*at, key) for key in keys if content.has((*at, key))), at)
-    steps: Sequence[str | int] = (0, 1, 2) if content.has((*found, 0)) else _AXES[:3]
-    x, y, z = (_figure(content, (*found, step)) for step in steps)
+    path = next(((*at, key) for key in keys if content.has((*at, key))), at)
+    steps: Sequence[str | int] = (0, 1, 2) if content.has((*path, 0)) else _AXES[:3]
+    x, y, z = (_figure(content, (*path, step)) for step in steps)
     return (x, y, z)
 
 
@@ -123,8 +123,8 @@ def _rotation(content: SourceDocument, at: YamlPath) -> Quaternion:
         if content.has((*at, key, 0)):
             place = content.locate((*at, key))
             _fail(place, f"`{key}` is a list that does not say whether w is first or last", "name it `xyzw` or `wxyz`")
-    found = next(((*at, key) for key in ("rotation", "quaternion") if content.has((*at, key))), None)
-    path, names = (at, ("qx", "qy", "qz", "qw")) if found is None else (found, _AXES)
+    rotation = next(((*at, key) for key in ("rotation", "quaternion") if content.has((*at, key))), None)
+    path, names = (at, ("qx", "qy", "qz", "qw")) if rotation is None else (rotation, _AXES)
     x, y, z, w = (_figure(content, (*path, name)) for name in names)
     return (x, y, z, w)
 
@@ -162,7 +162,7 @@ def _of_matrix(content: SourceDocument, at: YamlPath) -> Pose:
 def _determinant(columns: list[list[float]]) -> float:
     a, b, c = columns
     cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-    return sum(one * other for one, other in zip(cross, c, strict=True))
+    return sum(factor * other for factor, other in zip(cross, c, strict=True))
 
 
 def _quaternion(m: list[list[float]]) -> Quaternion:
@@ -197,9 +197,9 @@ def _unit(quaternion: Quaternion, place: Span) -> Quaternion:
 
 def _of_launch(file: SideFile) -> HandEyeFile:
     """Return the arguments of the publisher: each option's text is the literal after it."""
-    found = list(_literals(file))
+    literals = list(_literals(file))
     options: dict[str, tuple[str, Span]] = {}
-    for (name, place), (value, _) in pairwise(found):
+    for (name, place), (value, _) in pairwise(literals):
         if name.startswith("--"):
             if name in options:
                 _fail(place, f"`{name}` is given twice; a file has one transform")
@@ -224,8 +224,8 @@ def _of_launch(file: SideFile) -> HandEyeFile:
     for name in ("--frame-id", "--child-frame-id"):
         if name not in options:
             _fail(start, f"no argument `{name}` of `static_transform_publisher` is found")
-    told = _MOUNTING.search(file.text)
-    in_hand = None if told is None else told[1] == "IN-HAND"
+    mounting = _MOUNTING.search(file.text)
+    in_hand = None if mounting is None else mounting[1] == "IN-HAND"
     parent, place = options["--frame-id"]
     return HandEyeFile(parent, options["--child-frame-id"][0], pose, in_hand, place)
 

@@ -65,25 +65,25 @@ def hardware_component(
     )
     if real is None:
         return component
-    made = inner_nodes(real.nodes, "", distro, known.fill)
-    told = _with_effects(component, real, distro)
+    nodes = inner_nodes(real.nodes, "", distro, known.fill)
+    reported = _with_effects(component, real, distro)
     modes = _modes(real, control.gpios, prefix)
-    return replace(told, nodes=made, modes=modes, fixed_joint_names=real.fixed_joint_names)
+    return replace(reported, nodes=nodes, modes=modes, fixed_joint_names=real.fixed_joint_names)
 
 
 def _modes(real: HardwareFacts, gpios: Container[str], prefix: str) -> CommandModes | None:
-    told = real.modes
-    if told is None:
+    modes = real.modes
+    if modes is None:
         return None
-    full = {name: prefix + name if name in gpios else name for name in told.names}
-    pairs = (frozenset((full[one], full[other])) for one, other in told.together)
+    full = {name: prefix + name if name in gpios else name for name in modes.names}
+    pairs = (frozenset((full[first], full[other])) for first, other in modes.together)
     return CommandModes(names=frozenset(full.values()), together=frozenset(pairs))
 
 
 def _parameters(hardware: HardwareFacts, known: Placeholders, release: HardwareRelease | None) -> dict[str, str]:
     """Return what the plugin is given: what all releases read, and what the one that runs here reads besides."""
-    own = {} if release is None else release.parameters
-    filled = {key: known.fill(value) for key, value in {**hardware.parameters, **own}.items()}
+    parameters = {} if release is None else release.parameters
+    filled = {key: known.fill(value) for key, value in {**hardware.parameters, **parameters}.items()}
     return {key: value for key, value in filled.items() if value or key not in hardware.left_out_when_empty}
 
 
@@ -97,9 +97,13 @@ def _with_effects(component: HardwareComponent, real: HardwareFacts, distro: Dis
         command_timeout_s=None if timeout is None else timeout.si,
         reported_by={
             need: NeedReport(
-                controller_kind=one.controller, topic=one.topic, type=one.type, field=one.field, value=one.value
+                controller_kind=status.controller,
+                topic=status.topic,
+                type=status.type,
+                field=status.field,
+                value=status.value,
             )
-            for need, one in real.reported_by.items()
+            for need, status in real.reported_by.items()
         },
     )
 
@@ -139,20 +143,24 @@ def camera_parameters(facts: DeviceModel, written: DeviceSpec) -> dict[str, Para
     camera, serial = facts.camera, written.serial
     if camera is None:
         return {}
-    told: dict[str, ParameterValue] = {}
+    parameters: dict[str, ParameterValue] = {}
     exposure = None if written.stamp is None else written.stamp.exposure
     if exposure is not None:
-        told |= dict.fromkeys(camera.auto_exposure_parameters, False)
-        told |= {name: round(exposure.si / unit.si) for name, unit in camera.exposure_parameters.items()}
+        parameters |= dict.fromkeys(camera.auto_exposure_parameters, False)
+        parameters |= {name: round(exposure.si / unit.si) for name, unit in camera.exposure_parameters.items()}
     if camera.serial_parameter is not None and serial != UNKNOWN:
-        told[camera.serial_parameter] = f"_{serial}"
-    return told
+        parameters[camera.serial_parameter] = f"_{serial}"
+    return parameters
 
 
 def started_nodes(nodes: Iterable[NodeFacts], known: Placeholders, distro: Distro | None) -> dict[str, Effect]:
     """Return what the start of each node of the driver does, by its full name, where the catalog tells."""
-    told = ((node.name, node.effect) for node in nodes)
-    return {f"/{known.fill(name)}": effect(one, distro) for name, one in told if one is not None}
+    effects = ((node.name, node.effect) for node in nodes)
+    return {
+        f"/{known.fill(name)}": effect(effect_facts, distro)
+        for name, effect_facts in effects
+        if effect_facts is not None
+    }
 
 
 def offered_interfaces(

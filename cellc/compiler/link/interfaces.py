@@ -32,8 +32,8 @@ def link_interfaces(
     """Bind every interface that the user wrote."""
     interfaces: list[Interface] = []
     problems: list[Diagnostic] = []
-    for name, written in until_hopeless(spec.interfaces.items(), problems):
-        bound = _interface(name, written, document, ends, frames)
+    for name, interface in until_hopeless(spec.interfaces.items(), problems):
+        bound = _interface(name, interface, document, ends, frames)
         problems += bound.diagnostics
         if bound.value is not None:
             interfaces.append(bound.value)

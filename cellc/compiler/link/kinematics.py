@@ -70,18 +70,20 @@ def link_kinematics(
         turn_rad=max(_turn(entry.description, joint, pose) for joint, pose in poses.items()),
     )
     joints = tuple(replace(joint, pose=poses.get(joint.name, joint.pose)) for joint in entry.description.joints)
-    own = CatalogDevice(entry.model, replace(entry.description, joints=joints))
-    return Outcome((own, replace(kinematics, calibration=calibration)))
+    calibrated = CatalogDevice(entry.model, replace(entry.description, joints=joints))
+    return Outcome((calibrated, replace(kinematics, calibration=calibration)))
 
 
 def with_kinematics(device: Device, kinematics: Kinematics | None, facts: DeviceModel) -> Device:
     """Return a device that says whose joints it has; its real plugin is told the hash of a calibration."""
-    one, hardware = None if kinematics is None else kinematics.calibration, device.hardware
-    if one is None or facts.kinematics is None or hardware is None or "real" not in hardware.parameters:
+    calibration, hardware = None if kinematics is None else kinematics.calibration, device.hardware
+    if calibration is None or facts.kinematics is None or hardware is None or "real" not in hardware.parameters:
         return replace(device, kinematics=kinematics)
-    told = {**hardware.parameters["real"], facts.kinematics.hash_parameter: one.hash}
+    parameters = {**hardware.parameters["real"], facts.kinematics.hash_parameter: calibration.hash}
     return replace(
-        device, kinematics=kinematics, hardware=replace(hardware, parameters={**hardware.parameters, "real": told})
+        device,
+        kinematics=kinematics,
+        hardware=replace(hardware, parameters={**hardware.parameters, "real": parameters}),
     )
 
 
@@ -121,10 +123,10 @@ def _problems(content: SourceDocument, facts: KinematicsFacts) -> Iterator[Diagn
                 bounds = f"a number between -{_LARGEST:g} and {_LARGEST:g} {unit}"
                 yield _wrong(content, at, f"`{named}` must be {bounds}, got `{value}`")
     of_hash: YamlPath = (facts.root, facts.hash)
-    written = content.text_at(of_hash)
-    if _HASH.fullmatch(written) is None:
+    hash_text = content.text_at(of_hash)
+    if _HASH.fullmatch(hash_text) is None:
         yield _wrong(
-            content, of_hash, f"`{facts.root}.{facts.hash}` must be letters, digits and underscores, got `{written}`"
+            content, of_hash, f"`{facts.root}.{facts.hash}` must be letters, digits and underscores, got `{hash_text}`"
         )
 
 
@@ -151,6 +153,6 @@ def _turn(description: Description, joint: str, pose: Pose) -> float:
 
 
 def _nominal(description: Description, joint: str) -> Pose:
-    found = description.joint(joint)
-    assert found is not None  # the names of an entry are held against its description as it is read
-    return found.pose
+    nominal = description.joint(joint)
+    assert nominal is not None  # the names of an entry are held against its description as it is read
+    return nominal.pose

@@ -83,11 +83,11 @@ def _packages(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[str, ..
     repository = repository_of(os.path.dirname(document.file) or ".")
     folders: list[str] = []
     problems: list[Diagnostic] = []
-    for number, written in enumerate(spec.packages):
+    for number, folder_text in enumerate(spec.packages):
         place = document.locate(("packages", number))
-        folder = os.path.normpath(Path(place.file).parent / written).replace(os.sep, "/")
-        if os.path.isabs(written) or not lies_under(folder, repository):
-            code, message = "include-escape", f"`{written}` leads out of the repository of the spec"
+        folder = os.path.normpath(Path(place.file).parent / folder_text).replace(os.sep, "/")
+        if os.path.isabs(folder_text) or not lies_under(folder, repository):
+            code, message = "include-escape", f"`{folder_text}` leads out of the repository of the spec"
             advice = "name a folder of the repository, relative to the spec, or give it with `--package-path`"
         elif not os.path.isdir(folder):
             code, message = "file-not-found", f"there is no folder `{folder}`"
@@ -143,13 +143,13 @@ def _link_with_devices(
     resolver = _qos_resolver(spec)
     ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
     interfaces = link_interfaces(spec, document, ends, names)
-    written = interfaces.value or ()
+    stated = interfaces.value or ()
     machine = Machine(devices, controllers, all_frames, names, placed=linked_devices.ok and placed.ok)
     planned = _planned(spec, document, distro, machine)
     assert planned.value is not None  # what cannot be bound is reported and left out
     source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, planned.value.servo)
-    derived = derive_interfaces(source, written)
-    rehearsals = link_rehearsals(spec, document, devices, loops, (*written, *derived), names)
+    derived = derive_interfaces(source, stated)
+    rehearsals = link_rehearsals(spec, document, devices, loops, (*stated, *derived), names)
     uncertainty = link_uncertainty(spec, document, machine, planned.value.groups if planned.ok else None)
     cell = replace(
         _surroundings(spec, document, distro, placed.value.measured, devices),
@@ -158,9 +158,9 @@ def _link_with_devices(
         scene=placed.value.scene,
         areas=placed.value.areas,
         nodes=all_nodes,
-        interfaces=(*written, *derived),
+        interfaces=(*stated, *derived),
         managers=loops,
-        adapters=tuple(bind_adapters(devices, controllers, (*written, *derived))),
+        adapters=tuple(bind_adapters(devices, controllers, (*stated, *derived))),
         rehearsals=rehearsals.value or (),
         uncertainty=uncertainty.value,
         behaviors={controller.plugin: controller.behavior for controller in controllers},
@@ -248,25 +248,25 @@ def _distro(spec: CellSpec, document: SourceDocument) -> Outcome[Distro]:
     for distro in Distro:
         if spec.versions.ros == distro:
             return Outcome(distro)
-    path, written = ("versions", "ros"), spec.versions.ros
+    path, name = ("versions", "ros"), spec.versions.ros
     span = document.locate(path)
     problem = Diagnostic(
         code="unknown-distro",
         severity=Severity.ERROR,
-        message=f"`{written}` is not a ROS 2 distribution that cellc knows",
+        message=f"`{name}` is not a ROS 2 distribution that cellc knows",
         span=span,
         yaml_path=path,
-        help=did_you_mean(written, tuple(Distro), "distributions"),
-        fix=document.fix(span, written, only_nearest(written, tuple(Distro)), sure=False),
+        help=did_you_mean(name, tuple(Distro), "distributions"),
+        fix=document.fix(span, name, only_nearest(name, tuple(Distro)), sure=False),
     )
     return Outcome(None, (problem,))
 
 
 def _rmw(spec: CellSpec) -> Rmw:
     """Return the middleware of the tuple; an unknown one is a rule's finding, and QoS is then that of Fast DDS."""
-    written = spec.versions.rmw.split()[0]
+    name = spec.versions.rmw.split()[0]
     for rmw in RMWS:
-        if written == rmw:
+        if name == rmw:
             return rmw
     return "rmw_fastrtps_cpp"
 

@@ -46,10 +46,10 @@ def link_groups(
         joint.child: joint for device in machine.devices for joint in device.description.joints if joint.movable
     }
     parents = {frame.name: frame.parent for frame in frames}
-    for name, written in until_hopeless(spec.motion.groups.items(), problems):
+    for name, group in until_hopeless(spec.motion.groups.items(), problems):
         path = ("motion", "groups", name)
-        base, tip = names.bind(written.base, (*path, "base")), names.bind(written.tip, (*path, "tip"))
-        solver = link_solver(name, written, document, distro)
+        base, tip = names.bind(group.base, (*path, "base")), names.bind(group.tip, (*path, "tip"))
+        solver = link_solver(name, group, document, distro)
         problems += [*base.diagnostics, *tip.diagnostics, *solver.diagnostics]
         if base.value is None or tip.value is None or solver.value is None:
             continue
@@ -57,7 +57,7 @@ def link_groups(
         if links is None:
             circle = _circle(frames, tip.value)
             if machine.placed or circle is not None:
-                problems.append(_not_a_chain(name, written.base, written.tip, document, circle))
+                problems.append(_not_a_chain(name, group.base, group.tip, document, circle))
             continue
         joints = tuple(joint_of_link[link].name for link in links if link in joint_of_link)
         groups.append(
@@ -70,7 +70,7 @@ def link_groups(
                 joints=joints,
                 controllers=tuple(c.label for c in machine.controllers if c.action and set(c.joints) & set(joints)),
                 solver=solver.value,
-                planner=written.planner,
+                planner=group.planner,
             )
         )
     return Outcome(tuple(groups), tuple(problems))
@@ -109,11 +109,11 @@ def link_goals(
     """Bind goals to their frame and group; the only group of a cell is the default."""
     goals: list[CartesianGoal] = []
     problems: list[Diagnostic] = []
-    for name, written in until_hopeless(spec.motion.goals.items(), problems):
+    for name, goal in until_hopeless(spec.motion.goals.items(), problems):
         path = ("motion", "goals", name)
-        frame = names.bind(written.frame, (*path, "frame"))
+        frame = names.bind(goal.frame, (*path, "frame"))
         problems += frame.diagnostics
-        group = written.group or (next(iter(spec.motion.groups)) if len(spec.motion.groups) == 1 else None)
+        group = goal.group or (next(iter(spec.motion.groups)) if len(spec.motion.groups) == 1 else None)
         if group is None:
             problems.append(_without_group(name, spec, document, path))
         elif group not in spec.motion.groups:
@@ -126,9 +126,9 @@ def link_goals(
                     span=document.locate(path),
                     group=group,
                     frame=frame.value,
-                    transform_tip_to_frame=pose(written.xyz, written.rpy),
-                    approach=None if written.approach is None else vector(written.approach),
-                    transform_at=written.transform_at,
+                    transform_tip_to_frame=pose(goal.xyz, goal.rpy),
+                    approach=None if goal.approach is None else vector(goal.approach),
+                    transform_at=goal.transform_at,
                 )
             )
     return Outcome(tuple(goals), tuple(problems))

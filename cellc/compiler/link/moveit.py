@@ -64,15 +64,15 @@ def link_servo(
     spec: CellSpec, document: SourceDocument, groups: Iterable[PlanningGroup], controllers: Iterable[Controller]
 ) -> Outcome[Servo | None]:
     """Bind servoing to its node, group and controller; whether they fit each other is asked by a rule."""
-    written, path = spec.motion.servo, ("motion", "servo")
-    if written is None:
+    servo, path = spec.motion.servo, ("motion", "servo")
+    if servo is None:
         return Outcome(None)
     known = {controller.name: controller for controller in controllers}
-    group = _group(spec, written)
+    group = _group(spec, servo)
     names: tuple[tuple[str, str, Iterable[str]], ...] = (
-        ("node", written.node, tuple(spec.nodes)),
+        ("node", servo.node, tuple(spec.nodes)),
         ("group", group, tuple(spec.motion.groups)),
-        ("controller", written.controller, tuple(known)),
+        ("controller", servo.controller, tuple(known)),
     )
     unknown = [
         unknown_name(f"unknown-{kind}", name, kind, there, document, (*path, kind))
@@ -81,24 +81,24 @@ def link_servo(
     ]
     if unknown or group not in {group.name for group in groups}:
         return Outcome(None, tuple(unknown))
-    controller = known[written.controller]
+    controller = known[servo.controller]
     streamed = controller.behavior is Behavior.FORWARD_COMMAND
     kinds = {name.rpartition("/")[2] for name in controller.all_claims}
     return Outcome(
         Servo(
-            node=written.node,
+            node=servo.node,
             group=group,
             controller=controller.full_name,
             topic=f"{controller.full_name}/{'commands' if streamed else 'joint_trajectory'}",
             type="std_msgs/msg/Float64MultiArray" if streamed else "trajectory_msgs/msg/JointTrajectory",
             positions=not streamed or "position" in kinds,
             velocities=not streamed or "velocity" in kinds,
-            commands=written.commands,
-            linear=written.linear.si,
-            rotational=written.rotational.si,
-            joint=written.joint.si,
-            period_s=si(written.period) or _PERIOD_S,
-            command_timeout_s=si(written.command_timeout) or _TIMEOUT_S,
+            commands=servo.commands,
+            linear=servo.linear.si,
+            rotational=servo.rotational.si,
+            joint=servo.joint.si,
+            period_s=si(servo.period) or _PERIOD_S,
+            command_timeout_s=si(servo.command_timeout) or _TIMEOUT_S,
         )
     )
 

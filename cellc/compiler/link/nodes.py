@@ -32,11 +32,11 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDev
     """Bind the nodes of the spec to their hosts, and add the drivers that the catalog names."""
     nodes: list[Node] = []
     problems = [_not_a_run(run, document, path) for run, path in _runs(spec) if not _RUN.fullmatch(run)]
-    for name, written in until_hopeless(spec.nodes.items(), problems):
+    for name, node in until_hopeless(spec.nodes.items(), problems):
         path = ("nodes", name)
-        package, _, executable = written.run.partition("/")
-        if written.host is not None and written.host not in spec.hosts:
-            problems.append(unknown_name("unknown-host", written.host, "host", spec.hosts, document, (*path, "host")))
+        package, _, executable = node.run.partition("/")
+        if node.host is not None and node.host not in spec.hosts:
+            problems.append(unknown_name("unknown-host", node.host, "host", spec.hosts, document, (*path, "host")))
         nodes.append(
             Node(
                 name=name,
@@ -45,14 +45,14 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDev
                 source=NodeSource.SPEC,
                 package=package,
                 executable=executable,
-                namespace=written.namespace,
-                host=written.host or home_host(spec),
-                lifecycle=written.lifecycle,
-                owner=written.owner,
-                language=written.language,
-                clock=written.clock,
-                respawn=written.respawn,
-                parameters=dict(written.parameters),
+                namespace=node.namespace,
+                host=node.host or home_host(spec),
+                lifecycle=node.lifecycle,
+                owner=node.owner,
+                language=node.language,
+                clock=node.clock,
+                respawn=node.respawn,
+                parameters=dict(node.parameters),
             )
         )
     return Outcome((*nodes, *_adapter_nodes(spec, devices), *_driver_nodes(spec, devices)), tuple(problems))
@@ -83,7 +83,7 @@ def standard_nodes(
 
 def _manager_node(spec: CellSpec, manager: ControllerManager) -> Node:
     # Everybody listens to one topic, wherever the manager is: publishers of joint states are distinguished by joint.
-    own = f"{manager.namespace}{JOINT_STATES}"
+    topic = f"{manager.namespace}{JOINT_STATES}"
     return Node(
         name="controller_manager",
         path=manager.path,
@@ -96,7 +96,7 @@ def _manager_node(spec: CellSpec, manager: ControllerManager) -> Node:
         owner=spec.owners.responsibilities.command,
         language="cpp",
         parameters={},
-        remaps={} if own == JOINT_STATES else {own: JOINT_STATES},
+        remaps={} if topic == JOINT_STATES else {topic: JOINT_STATES},
     )
 
 

@@ -19,7 +19,7 @@ _RESOLUTION = 0.005
 def link_pipelines(spec: CellSpec, document: SourceDocument, distro: Distro) -> Outcome[tuple[Pipeline, ...]]:
     """Bind the planning pipelines, the default one first."""
     known = _table().pipelines
-    found: list[Pipeline] = []
+    pipelines: list[Pipeline] = []
     problems: list[Diagnostic] = []
     for index, name in enumerate(spec.motion.pipelines):
         path: YamlPath = ("motion", "pipelines", index)
@@ -28,7 +28,7 @@ def link_pipelines(spec: CellSpec, document: SourceDocument, distro: Distro) -> 
             continue
         facts = known[name]
         problems += _not_released(name, facts, distro, document, path)
-        found.append(
+        pipelines.append(
             Pipeline(
                 name=name,
                 plugin=facts.plugin,
@@ -39,7 +39,7 @@ def link_pipelines(spec: CellSpec, document: SourceDocument, distro: Distro) -> 
                 capabilities=facts.capabilities,
             )
         )
-    return Outcome(tuple(found), tuple(problems))
+    return Outcome(tuple(pipelines), tuple(problems))
 
 
 def link_solver(name: str, written: GroupSpec, document: SourceDocument, distro: Distro) -> Outcome[Solver]:

@@ -34,11 +34,11 @@ def _texts(facts: DeviceModel) -> Iterator[str]:
 
 def port_shifts(devices: Mapping[str, tuple[DeviceSpec, DeviceModel]]) -> dict[str, int]:
     """Return by how much the ports of each device are moved: to where the spec has them, else to the next free ones."""
-    shifts = {name: _stated(written, facts) for name, (written, facts) in devices.items()}
+    shifts = {name: _stated(device, facts) for name, (device, facts) in devices.items()}
     taken: dict[str, set[int]] = {}
-    for name, (written, facts) in devices.items():
-        if written.connection is not None and (shifts[name] is not None or not _moved(facts)):
-            taken.setdefault(written.connection.host, set()).update(listened(facts, shifts[name] or 0))
+    for name, (device, facts) in devices.items():
+        if device.connection is not None and (shifts[name] is not None or not _moved(facts)):
+            taken.setdefault(device.connection.host, set()).update(listened(facts, shifts[name] or 0))
     return {name: _free(shifts[name], *devices[name], taken) for name in devices}
 
 

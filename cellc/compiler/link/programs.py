@@ -44,12 +44,12 @@ def with_programs(nodes: Iterable[Node], distro: Distro) -> Iterator[Node]:
 
 
 def _with(node: Node, facts: Iterable[InnerNodeFacts], distro: Distro) -> Node:
-    found = inner_nodes(facts, node.namespace, distro, lambda text: text.replace("{node}", node.full_name))
-    own = [item for item in found if item.full_name == node.full_name]
+    nodes = inner_nodes(facts, node.namespace, distro, lambda text: text.replace("{node}", node.full_name))
+    stated = [item for item in nodes if item.full_name == node.full_name]
     return replace(
         node,
-        endpoints=_together((node.endpoints, *(node.endpoints for node in own))),
-        inside=tuple(node for node in found if node not in own),
+        endpoints=_together((node.endpoints, *(node.endpoints for node in stated))),
+        inside=tuple(node for node in nodes if node not in stated),
     )
 
 
@@ -62,12 +62,12 @@ def inner_nodes(
         namespace: that of the process, in which relative names lie.
         fill: puts values in the place of what a text leaves open.
     """
-    found = []
+    nodes = []
     for item in _here(facts, distro):
         name = _absolute(fill(item.name), namespace)
-        own = {key: _absolute_all(names, name) for key, names in _names(endpoints(item, fill)).items()}
-        found.append(InnerNode(full_name=name, endpoints=NodeEndpoints(**own), parameters=item.parameters))
-    return tuple(found)
+        endpoint_names = {key: _absolute_all(names, name) for key, names in _names(endpoints(item, fill)).items()}
+        nodes.append(InnerNode(full_name=name, endpoints=NodeEndpoints(**endpoint_names), parameters=item.parameters))
+    return tuple(nodes)
 
 
 def endpoints(facts: EndpointFacts | None, fill: Callable[[str], str] = str) -> NodeEndpoints:

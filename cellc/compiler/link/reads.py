@@ -67,10 +67,10 @@ def reads_of(spec: str, packages: Iterable[str], before: Reads | None = None) ->
         for file, text in source.value.texts.items():
             named |= set(_included(file, text))
     devices = frozenset(name for name in named if os.path.isfile(os.path.join(name, DEVICE_FILE)))
-    found = Reads(frozenset(named), devices, around)
+    reads = Reads(frozenset(named), devices, around)
     if before is None or source.ok:
-        return found
-    return replace(found.with_more(before), around=around)
+        return reads
+    return replace(reads.with_more(before), around=around)
 
 
 def _named(node: Node) -> Iterator[str]:

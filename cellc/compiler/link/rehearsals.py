@@ -71,8 +71,8 @@ def link_rehearsals(
     )
     rehearsals: list[Rehearsal] = []
     problems: list[Diagnostic] = []
-    for name, written in until_hopeless(spec.rehearsals.items(), problems):
-        bound = _rehearsal(name, written, spec, document, names)
+    for name, rehearsal in until_hopeless(spec.rehearsals.items(), problems):
+        bound = _rehearsal(name, rehearsal, spec, document, names)
         problems += bound.diagnostics
         if bound.value is not None:
             rehearsals.append(bound.value)
@@ -184,10 +184,10 @@ def _switched_step(step: SetStep | SenseStep, document: SourceDocument, path: Ya
     """Bind a step to a device that outputs switch, or whose sensors tell the state that is waited for."""
     if isinstance(step, SetStep):
         kind, device, noun = "set", step.set, "device with outputs"
-        fits = {name: one for name, one in names.switched.items() if one.signals}
+        fits = {name: switched for name, switched in names.switched.items() if switched.signals}
     else:
         kind, device, noun = "sense", step.sense, "device with sensors that are wired"
-        fits = {name: one for name, one in names.switched.items() if one.inputs}
+        fits = {name: switched for name, switched in names.switched.items() if switched.inputs}
     problem = _missing("unknown-device", device, noun, tuple(fits), document, (*path, kind))
     if device in fits:
         known = fits[device].states if kind == "set" else tuple(fits[device].distinct_states)

@@ -67,10 +67,10 @@ def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames)
 
 def chosen_way(facts: DeviceModel, written: DeviceSpec) -> ProgramWay | None:
     """Return how the program comes to run: as the spec says, else the first way, or None."""
-    told = facts.robot.program
-    if told is None:
+    program = facts.robot.program
+    if program is None:
         return None
-    return told.ways[0] if written.program is None else told.way(_starter(written.program), written.program.mode)
+    return program.ways[0] if written.program is None else program.way(_starter(written.program), written.program.mode)
 
 
 def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
@@ -86,8 +86,8 @@ def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
         "cartesian_impedance_stated": impedance is not None and impedance.cartesian is not None,
     }
     more = (name for name, so in stated.items() if so)
-    told = (name, *more, f"payload_by_{set_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
-    return frozenset(told)
+    names = (name, *more, f"payload_by_{set_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
+    return frozenset(names)
 
 
 def node_parameters(facts: DeviceModel, written: DeviceSpec, node: str) -> Mapping[str, ParameterValue]:
@@ -186,17 +186,17 @@ def _collision(written: CollisionSpec) -> CollisionThresholds:
 
 
 def _robot(facts: DeviceModel) -> RobotFacts:
-    told = facts.robot
-    ways = () if told.program is None else told.program.ways
+    controller = facts.robot
+    ways = () if controller.program is None else controller.program.ways
     return RobotFacts(
         ways=tuple((way.by, way.mode) for way in ways),
-        thresholds=told.thresholds is not None,
-        payload_service=told.payload_service is not None,
-        load_service=told.load_service is not None,
-        impedance_facts=None if told.impedance is None else _impedance_facts(told.impedance),
-        tcp_kind=None if told.tcp is None else told.tcp.controller,
-        tcp_topic=None if told.tcp is None else told.tcp.topic,
-        tool_facts=tool_facts(told.tool_connector),
+        thresholds=controller.thresholds is not None,
+        payload_service=controller.payload_service is not None,
+        load_service=controller.load_service is not None,
+        impedance_facts=None if controller.impedance is None else _impedance_facts(controller.impedance),
+        tcp_kind=None if controller.tcp is None else controller.tcp.controller,
+        tcp_topic=None if controller.tcp is None else controller.tcp.topic,
+        tool_facts=tool_facts(controller.tool_connector),
     )
 
 

@@ -67,15 +67,15 @@ def bind_places(document: SourceDocument) -> Places:
 
 def bind_versions(spec: CellSpec) -> Versions:
     """Return the version tuple of the cell."""
-    written = spec.versions
+    versions = spec.versions
     return Versions(
-        ros=written.ros,
-        os=written.os,
-        kernel=written.kernel,
-        rmw=written.rmw,
-        ros2_control=written.ros2_control,
-        moveit=written.moveit,
-        rollback=Rollback(image=written.rollback.image, configuration=written.rollback.configuration),
+        ros=versions.ros,
+        os=versions.os,
+        kernel=versions.kernel,
+        rmw=versions.rmw,
+        ros2_control=versions.ros2_control,
+        moveit=versions.moveit,
+        rollback=Rollback(image=versions.rollback.image, configuration=versions.rollback.configuration),
     )
 
 
@@ -86,16 +86,16 @@ def bind_hosts(spec: CellSpec, places: Places) -> Mapping[str, Host]:
             name=name,
             path=("hosts", name),
             span=places.locate(("hosts", name)),
-            scheduling=written.scheduling,
-            clock=bind_clock(written.clock, written.clock.domain),
+            scheduling=host.scheduling,
+            clock=bind_clock(host.clock, host.clock.domain),
             nics={
                 nic: NetworkCard(
                     address=card.address, interface=card.interface, speed_bps=si(card.speed), carries=card.carries
                 )
-                for nic, card in written.nics.items()
+                for nic, card in host.nics.items()
             },
         )
-        for name, written in spec.hosts.items()
+        for name, host in spec.hosts.items()
     }
 
 
@@ -112,9 +112,9 @@ def bind_clock(written: ClockSpec | StampSpec, domain: str) -> Clock:
 
 def bind_network(spec: CellSpec) -> Network:
     """Return how nodes find each other."""
-    written = spec.network
-    servers = tuple(DiscoveryServer(host=server.host, nic=server.nic, port=server.port) for server in written.servers)
-    return Network(domain_id=written.domain_id, discovery=written.discovery, peers=written.peers, servers=servers)
+    network = spec.network
+    servers = tuple(DiscoveryServer(host=server.host, nic=server.nic, port=server.port) for server in network.servers)
+    return Network(domain_id=network.domain_id, discovery=network.discovery, peers=network.peers, servers=servers)
 
 
 def bind_calibrations(
@@ -126,16 +126,16 @@ def bind_calibrations(
             name=name,
             path=("calibrations", name),
             span=places.locate(("calibrations", name)),
-            revision=written.revision,
-            measured=written.measured,
-            measured_on=day_of(written.measured),
-            method=written.method,
-            samples=written.samples,
-            residual_m=si(written.residual),
-            owner=written.owner,
+            revision=calibration.revision,
+            measured=calibration.measured,
+            measured_on=day_of(calibration.measured),
+            method=calibration.method,
+            samples=calibration.samples,
+            residual_m=si(calibration.residual),
+            owner=calibration.owner,
             file=files.get(name),
         )
-        for name, written in spec.calibrations.items()
+        for name, calibration in spec.calibrations.items()
     }
 
 
@@ -185,35 +185,38 @@ def _first_motion(written: FirstMotionSpec) -> FirstMotion:
 
 def bind_kpis(spec: CellSpec) -> Kpis:
     """Return the target figures."""
-    written = spec.kpis
+    kpis = spec.kpis
     return Kpis(
-        plan_to_execute_s=si(written.plan_to_execute),
-        cancel_s=si(written.cancel),
-        missed_cycles=written.missed_cycles,
-        stale_state_rejection=si(written.stale_state_rejection),
-        protective_stops=written.protective_stops,
-        recovery_time_s=si(written.recovery_time),
-        wrong_owner_events=written.wrong_owner_events,
+        plan_to_execute_s=si(kpis.plan_to_execute),
+        cancel_s=si(kpis.cancel),
+        missed_cycles=kpis.missed_cycles,
+        stale_state_rejection=si(kpis.stale_state_rejection),
+        protective_stops=kpis.protective_stops,
+        recovery_time_s=si(kpis.recovery_time),
+        wrong_owner_events=kpis.wrong_owner_events,
     )
 
 
 def bind_recording(spec: CellSpec) -> Recording:
     """Return what is recorded, ``standard`` written out."""
-    written = spec.recording.attempt_fields
+    fields = spec.recording.attempt_fields
     return Recording(
-        attempt_fields=ATTEMPT_FIELDS if written == "standard" else tuple(written), topics=spec.recording.topics
+        attempt_fields=ATTEMPT_FIELDS if fields == "standard" else tuple(fields), topics=spec.recording.topics
     )
 
 
 def bind_statements(written: Mapping[str, HardwareStatementSpec]) -> Mapping[str, HardwareStatement]:
     """Return what the user says of plugins, or of programs, that run on the mock."""
-    return {name: HardwareStatement(one.touches_no_hardware, one.by, one.date) for name, one in written.items()}
+    return {
+        name: HardwareStatement(statement.touches_no_hardware, statement.by, statement.date)
+        for name, statement in written.items()
+    }
 
 
 def bind_targets(spec: CellSpec) -> Mapping[str, Target]:
     """Return the targets that every cell has and those that the spec adds, each with its hardware and clock."""
     targets = dict(TARGET_DEFAULTS)
-    for name, written in spec.targets.items():
-        clock = written.clock or ("sim" if name == "sim" else "wall")
-        targets[name] = Target(hardware=written.hardware or name, clock=clock)
+    for name, target in spec.targets.items():
+        clock = target.clock or ("sim" if name == "sim" else "wall")
+        targets[name] = Target(hardware=target.hardware or name, clock=clock)
     return targets

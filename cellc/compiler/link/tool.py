@@ -32,8 +32,8 @@ def with_tools(device: Device, facts: DeviceModel, written: DeviceSpec, known: P
         arguments=tuple(map(known.fill, program.arguments)),
         system=program.system,
     )
-    told = {name: known.fill(value) for name, value in line.parameters.items()}
-    return replace(_with_parameters(device, told), programs=(forward,))
+    parameters = {name: known.fill(value) for name, value in line.parameters.items()}
+    return replace(_with_parameters(device, parameters), programs=(forward,))
 
 
 def _with_parameters(device: Device, told: Mapping[str, str]) -> Device:
@@ -46,10 +46,10 @@ def _with_parameters(device: Device, told: Mapping[str, str]) -> Device:
 
 def gripper_words(facts: DeviceModel) -> dict[str, str]:
     """Return placeholders for what a gripper is, in rad or m, m/s and N, as plugins are told it."""
-    one = facts.gripper
-    if one is None:
+    gripper = facts.gripper
+    if gripper is None:
         return {}
-    speed, force, closed = f"{one.max_speed.si:.3f}", f"{one.max_force.si:g}", f"{one.closed.si:g}"
+    speed, force, closed = f"{gripper.max_speed.si:.3f}", f"{gripper.max_force.si:g}", f"{gripper.closed.si:g}"
     return {"gripper_max_speed": speed, "gripper_max_force": force, "gripper_closed": closed}
 
 
@@ -92,7 +92,7 @@ def tool_facts(facts: ToolConnectorFacts | None) -> ToolFacts | None:
         voltages_v=voltages,
         has_serial=True,
         settings={"baud_rate": line.baud_rates, "parity": tuple(line.parities), "stop_bits": line.stop_bits},
-        spans={name: (one.least, one.most) for name, one in idle.items()},
+        spans={name: (figures.least, figures.most) for name, figures in idle.items()},
     )
 
 

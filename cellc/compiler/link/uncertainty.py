@@ -27,17 +27,17 @@ def link_uncertainty(
     wanted = any(rehearsal.success is not None for rehearsal in spec.rehearsals.values())
     if spec.uncertainty is None and not spec.regions and not wanted:
         return Outcome(None, alone)
-    written = spec.uncertainty or UncertaintySpec()
-    rotations = {name: si(one.rotation) for name, one in written.calibrations.items()}
+    uncertainty = spec.uncertainty or UncertaintySpec()
+    rotations = {name: si(calibration.rotation) for name, calibration in uncertainty.calibrations.items()}
     bound = Uncertainty(
         rotations_rad={name: value for name, value in rotations.items() if value},
         regions={name: _region(region) for name, region in spec.regions.items()},
-        repeatability_m={name: value.si for name, value in written.repeatability.items()},
-        tolerances_m={name: value.si for name, value in written.tolerances.items()},
+        repeatability_m={name: value.si for name, value in uncertainty.repeatability.items()},
+        tolerances_m={name: value.si for name, value in uncertainty.tolerances.items()},
     )
     known = groups is not None and machine.placed
-    still = _still(spec, written, document, machine, groups or ()) if known else ()
-    return Outcome(bound, (*_unknown(spec, written, document), *still, *alone))
+    still = _still(spec, uncertainty, document, machine, groups or ()) if known else ()
+    return Outcome(bound, (*_unknown(spec, uncertainty, document), *still, *alone))
 
 
 def _region(written: RegionSpec) -> Region:

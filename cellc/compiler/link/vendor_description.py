@@ -39,11 +39,11 @@ def link_vendor_description(
 
     file = Path(folder) / vendor.file
     read = read_description(file, vendor.arguments, root_of(file), budget)
-    found = VendorDescription(package=package, folder=Path(folder).as_posix())
+    description = VendorDescription(package=package, folder=Path(folder).as_posix())
     if read.value is None:
         cause = read.diagnostics[0]
-        return replace(found, refused=f"{cause.span.file}:{cause.span.line}: {cause.message}")
-    return replace(found, description=read.value.with_link_names(vendor.links).renamed(prefix))
+        return replace(description, refused=f"{cause.span.file}:{cause.span.line}: {cause.message}")
+    return replace(description, description=read.value.with_link_names(vendor.links).renamed(prefix))
 
 
 def with_vendor_shapes(description: Description, vendor: VendorDescription | None) -> Description:

@@ -155,8 +155,8 @@ def _changed(node: Node, path: YamlPath, child: Child | None) -> Node:
     if rest:
         held = node.children[first]
         child = replace(held, node=_changed(held.node, rest, child))
-    kept = {key: one for key, one in {**node.children, first: child}.items() if one is not None}
+    kept = {key: changed for key, changed in {**node.children, first: child}.items() if changed is not None}
     if isinstance(node.data, list):
         listed = list(kept.values())
         return replace(node, data=[child.node.data for child in listed], children=dict(enumerate(listed)))
-    return replace(node, data={str(key): one.node.data for key, one in kept.items()}, children=kept)
+    return replace(node, data={str(key): child.node.data for key, child in kept.items()}, children=kept)

@@ -74,10 +74,10 @@ def _unknown_key(error: ErrorDetails, place: Place, document: SourceDocument) ->
 
 def _wrong_type(expected: str, place: Place, document: SourceDocument) -> Problem:
     value = value_at(document.data, place.path)
-    written = document.text_at(place.path)
-    message = f"expected {expected} for {quote_path(place.path)}, got {describe(value, written)}"
+    text = document.text_at(place.path)
+    message = f"expected {expected} for {quote_path(place.path)}, got {describe(value, text)}"
     if expected == "text" and isinstance(value, (int, float)):
-        return Problem("wrong-type", message, f'put it in quotes: `"{written}"`')
+        return Problem("wrong-type", message, f'put it in quotes: `"{text}"`')
     return Problem("wrong-type", message, f"write {expected}{_example(place.field)}")
 
 
@@ -94,10 +94,10 @@ def _not_a_choice(error: ErrorDetails, place: Place, document: SourceDocument) -
         return _key_not_a_choice(place)
     value = value_at(document.data, place.path)
     choices = [str(choice) for choice in literals(place.expected)]
-    written = value if isinstance(value, str) else ""
+    text = value if isinstance(value, str) else ""
     message = f"{quote_path(place.path)} must be one of its choices, got {describe(value)}"
-    help_ = did_you_mean(written, choices, "choices")
-    return Problem("not-a-choice", message, help_, written, only_nearest(written, choices))
+    help_ = did_you_mean(text, choices, "choices")
+    return Problem("not-a-choice", message, help_, text, only_nearest(text, choices))
 
 
 def _key_not_a_choice(place: Place) -> Problem:
@@ -127,10 +127,10 @@ def literals(annotation: object) -> tuple[object, ...]:
 
 
 def _bad_name(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
-    written = str(place.path[-1]) if place.is_key else str(value_at(document.data, place.path))
+    name = str(place.path[-1]) if place.is_key else str(value_at(document.data, place.path))
     where = f"in {quote_path(place.path[:-1])}" if place.is_key else f"as {quote_path(place.path)}"
     pattern = str(error.get("ctx", {}).get("pattern", ""))
-    return Problem("bad-name", f"{quote(written)} cannot be used {where}", help_for_bad_name(written, pattern))
+    return Problem("bad-name", f"{quote(name)} cannot be used {where}", help_for_bad_name(name, pattern))
 
 
 def _number_out_of_range(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
@@ -152,8 +152,8 @@ def _length_out_of_range(error: ErrorDetails, place: Place, document: SourceDocu
     unit = "characters" if error["type"].startswith("string") else "entries"
     fewest, most = context.get("min_length"), context.get("max_length")
     bound = f"at least {fewest}" if fewest is not None else f"at most {most}"
-    written = str(place.path[-1]) if place.is_key else value_at(document.data, place.path)
-    actual = len(written) if isinstance(written, (str, list, dict)) else 0
+    value = str(place.path[-1]) if place.is_key else value_at(document.data, place.path)
+    actual = len(value) if isinstance(value, (str, list, dict)) else 0
     where = f"key {quote(str(place.path[-1]))}" if place.is_key else quote_path(place.path)
     message = f"{where} must have {bound} {unit}, got {actual}"
     return Problem("out-of-range", message, f"write {bound} {unit}{_example(place.field)}")
@@ -161,8 +161,8 @@ def _length_out_of_range(error: ErrorDetails, place: Place, document: SourceDocu
 
 def _missing_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     context = error["ctx"]
-    written = document.text_at(place.path) or str(context["text"])
-    message = f"expected {context['what']} with its unit, got {quote(written)}"
+    text = document.text_at(place.path) or str(context["text"])
+    message = f"expected {context['what']} with its unit, got {quote(text)}"
     return Problem("missing-unit", message, _units_help(error))
 
 

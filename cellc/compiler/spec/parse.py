@@ -31,10 +31,10 @@ def parse(document: SourceDocument) -> Outcome[CellSpec]:
     try:
         spec = CellSpec.model_validate(_with_tuples(data))
     except ValidationError as error:
-        found = tuple(_diagnostics(error, document))
-        unknown = {d.yaml_path for d in found if d.code == "unknown-key"}
-        found += tuple(_empty_diagnostics(tuple(path for path in empty if path not in unknown), document))
-        return Outcome(None, tuple(sorted(found, key=Diagnostic.sort_key)))
+        problems = tuple(_diagnostics(error, document))
+        unknown = {d.yaml_path for d in problems if d.code == "unknown-key"}
+        problems += tuple(_empty_diagnostics(tuple(path for path in empty if path not in unknown), document))
+        return Outcome(None, tuple(sorted(problems, key=Diagnostic.sort_key)))
     return Outcome(None if empty else spec, tuple(_empty_diagnostics(empty, document)))
 
 

@@ -82,10 +82,10 @@ def chosen(annotation: object, data: object) -> object:
     """Return the annotation that reads ``data``: of a tagged union the branch, of an optional one what is there."""
     annotation = required(annotation)
     while is_tagged(annotation):
-        told = next(
+        discriminator = next(
             argument for argument in get_args(annotation)[1:] if isinstance(argument, Discriminator)
         ).discriminator
-        annotation = required(branch(annotation, str(told(data)) if callable(told) else ""))
+        annotation = required(branch(annotation, str(discriminator(data)) if callable(discriminator) else ""))
     return annotation
 
 
@@ -131,9 +131,9 @@ def keys_in_order(model: type[BaseModel]) -> tuple[str, ...]:
     if not after:
         return keys
     shared = tuple(key for key in keys if any(key in fields_by_key(base) for base in _kin(model)))
-    own = tuple(key for key in keys if key not in shared)
-    at = own.index(after) + 1 if after in own else len(own)
-    return (*own[:at], *shared, *own[at:])
+    remaining = tuple(key for key in keys if key not in shared)
+    at = remaining.index(after) + 1 if after in remaining else len(remaining)
+    return (*remaining[:at], *shared, *remaining[at:])
 
 
 def _kin(model: type[BaseModel]) -> tuple[type[BaseModel], ...]:

@@ -211,9 +211,9 @@ def spaced(text: str) -> str:
 
     A text that is no quantity stays as a whole.
     """
-    found = [_NUMBERS_THEN_UNIT.fullmatch(part) for part in _parts(text)] if len(text) <= _MAX_TEXT else []
-    matches = [match for match in found if match is not None and match[2]]
-    if not matches or len(matches) < len(found):
+    numbers = [_NUMBERS_THEN_UNIT.fullmatch(part) for part in _parts(text)] if len(text) <= _MAX_TEXT else []
+    matches = [match for match in numbers if match is not None and match[2]]
+    if not matches or len(matches) < len(numbers):
         return text
     return " ".join(" ".join((*re.split(r"[\s,]+", match[1]), *match[2].split())) for match in matches)
 

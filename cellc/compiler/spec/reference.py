@@ -89,7 +89,7 @@ class _Page:
         self._seen.add(section.model)
         schema = self._schema["$defs"][section.model]
         keys = keys_in_order(self._models[section.model])
-        example = {key: told for key in keys if (told := self._example(section.model, key)) is not None}
+        example = {key: shown for key in keys if (shown := self._example(section.model, key)) is not None}
         if _title(section.model).lower() != section.path:  # the heading of the key has the same words
             yield f"\n### {_title(section.model)}\n"
         yield f"`{section.path}`: {schema['description']}\n"

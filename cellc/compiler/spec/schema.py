@@ -50,9 +50,9 @@ def schema_files() -> Mapping[str, str]:
         ("upgrade", Upgrade),
         ("uncertainty", Uncertainty),
     )
-    made: dict[str, dict[str, Json]] = {"cell.schema.json": cell_schema()}
-    made |= {f"{name}.schema.json": contract_schema(model) for name, model in contracts}
-    return {name: json.dumps(schema, indent=2, ensure_ascii=False) + "\n" for name, schema in made.items()}
+    schemas: dict[str, dict[str, Json]] = {"cell.schema.json": cell_schema()}
+    schemas |= {f"{name}.schema.json": contract_schema(model) for name, model in contracts}
+    return {name: json.dumps(schema, indent=2, ensure_ascii=False) + "\n" for name, schema in schemas.items()}
 
 
 def tidy(schema: Json) -> Json:
@@ -75,10 +75,10 @@ def _without_null(schema: dict[str, Json]) -> dict[str, Json]:
     if not isinstance(options, list) or {"type": "null"} not in options:
         return schema
     present = [option for option in options if option != {"type": "null"}]
-    kept = {key: value for key, value in schema.items() if key != "anyOf" and (key, value) != ("default", None)}
+    without = {key: value for key, value in schema.items() if key != "anyOf" and (key, value) != ("default", None)}
     if len(present) == 1 and isinstance(present[0], dict):
-        return {**present[0], **kept}
-    return {**kept, "anyOf": present}
+        return {**present[0], **without}
+    return {**without, "anyOf": present}
 
 
 def _keys_checked(schema: dict[str, Json]) -> dict[str, Json]:
@@ -88,9 +88,9 @@ def _keys_checked(schema: dict[str, Json]) -> dict[str, Json]:
         return schema
     ((pattern, values),) = patterns.items()
     names = schema.get("propertyNames")
-    kept = {key: value for key, value in schema.items() if key != "patternProperties"}
+    checked = {key: value for key, value in schema.items() if key != "patternProperties"}
     names = {**(names if isinstance(names, dict) else {}), "pattern": pattern}
-    return {**kept, "additionalProperties": values, "propertyNames": names}
+    return {**checked, "additionalProperties": values, "propertyNames": names}
 
 
 def _one_of_scalars(schema: dict[str, Json]) -> dict[str, Json]:
