@@ -69,7 +69,7 @@ def measured(files: list[str], folder: Path, cores: int, is_first: bool, runs: i
             capture_output=True,
             check=False,
         )
-        # Cells of one call that share a domain are told so: findings are no failure here.
+        # Cells of one call that share a domain get findings; they are no failure here.
         if done.returncode not in (0, 1) or done.stderr:
             raise SystemExit(done.stderr.decode())
         after = resource.getrusage(resource.RUSAGE_CHILDREN)

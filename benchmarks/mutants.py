@@ -1,11 +1,11 @@
-"""Breaks cellc in many small ways, and counts the mutants that the tests of their own folder notice.
+"""Mutation test of cellc: one small change at a time, and how many the tests of the same folder notice.
 
 ``python benchmarks/mutants.py [--count 200] [--seed 1] [--stage NAME] [--folder DIR]``. Mutants are drawn evenly by
-lines of code over the stages. ``tests/nearest.py`` says which tests are the nearest of a stage. They run once with
-probes, so that it is known which test executes which statement; then each mutant runs those alone, near and quick ones
-first, up to the first failure. What none executes by itself is looked at by all that are near. Everything happens in a
-copy of the checkout in ``--folder``: a second call goes on where the first ended, and probes only files of tests that
-have changed.
+lines of code over the stages. ``tests/nearest.py`` names the nearest tests of a stage. They run once with probes,
+which record the statements that each test executes. Each mutant then runs only the tests that reach it, near and quick
+ones first, up to the first failure. A statement that no test executes by itself is run against all near tests.
+Everything happens in a copy of the checkout in ``--folder``: a second call resumes there, and probes only test files
+that have changed.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from pathlib import Path
 import pytest
 from mutation.apart import ENDLESS, apart
 from mutation.mutations import Mutant, mutants_of
-from mutation.probe import Told, plant, record, statements
+from mutation.probe import Recorder, plant, record, statements
 from mutation.swap import swap
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -95,22 +95,22 @@ def main() -> None:
     record.touch()
     known = {name for name, end in _recorded(record).items() if not options.again or end["end"] in _NOTICED}
     part, parts = map(int, options.share.split("/"))
-    rest = [one for one in chosen[part - 1 :: parts] if one.name not in known]
+    rest = [mutant for mutant in chosen[part - 1 :: parts] if mutant.name not in known]
     reached = replace(reached, seconds=options.seconds, anywhere=options.anywhere)
     apart(tree, options.folder / "progress.txt", partial(_judge_each, rest, tree, reached, record), 1e6)
-    ends = {one.name: {"end": "not judged"} for one in chosen} | _recorded(record)
-    summary(chosen, {one.name: ends[one.name]["end"] for one in chosen})
+    ends = {mutant.name: {"end": "not judged"} for mutant in chosen} | _recorded(record)
+    summary(chosen, {mutant.name: ends[mutant.name]["end"] for mutant in chosen})
 
 
 def _judge_each(chosen: list[Mutant], tree: Path, reached: Reached, record: Path) -> int:
     """Judge mutants from a process that has loaded what they change."""
     _load(file.relative_to(tree).as_posix() for file in sorted((tree / "cellc").rglob("*.py")))
-    for one in chosen:
+    for mutant in chosen:
         begin = time.monotonic()
-        end = {"name": one.name} | judged(one, tree, reached)
+        end = {"name": mutant.name} | judged(mutant, tree, reached)
         with record.open("a", encoding="utf-8") as out:
             out.write(json.dumps(end) + "\n")
-        print(f"{time.monotonic() - begin:.1f}", end["end"], one.name, end["by"], flush=True)
+        print(f"{time.monotonic() - begin:.1f}", end["end"], mutant.name, end["by"], flush=True)
     return 0
 
 
@@ -128,13 +128,13 @@ def _load(sources: Iterable[str]) -> None:
 
 def summary(chosen: list[Mutant], ends: dict[str, str]) -> None:
     """Print the figures by stage, then the survivors."""
-    total = Counter(stage_of(one.file) for one in chosen)
-    noticed = Counter(stage_of(one.file) for one in chosen if ends[one.name] in _NOTICED)
+    total = Counter(stage_of(mutant.file) for mutant in chosen)
+    noticed = Counter(stage_of(mutant.file) for mutant in chosen if ends[mutant.name] in _NOTICED)
     for stage in sorted(total):
         print(f"{stage:16} {noticed[stage]:4} of {total[stage]}")
-    for one in chosen:
-        if ends[one.name] not in _NOTICED:
-            print(ends[one.name], one.name)
+    for mutant in chosen:
+        if ends[mutant.name] not in _NOTICED:
+            print(ends[mutant.name], mutant.name)
     killed = sum(noticed.values())
     print(f"{killed} of {len(chosen)} mutants noticed, {killed / len(chosen):.1%}")
 
@@ -173,10 +173,10 @@ def _drawn(count: int, chance: random.Random, wanted: list[str]) -> Iterator[Mut
         while len(drawn) < quota[stage]:
             file = chance.choices([file for file, _ in files[stage]], [lines for _, lines in files[stage]])[0]
             found = mutants_of(file, ROOT)
-            line = chance.choice(sorted({one.line for one in found} or {0}))
+            line = chance.choice(sorted({mutant.line for mutant in found} or {0}))
             if line and (str(file), line) not in drawn:
                 drawn.add((str(file), line))
-                yield chance.choice([one for one in found if one.line == line])
+                yield chance.choice([mutant for mutant in found if mutant.line == line])
 
 
 def copied(tree: Path) -> Path:
@@ -210,10 +210,10 @@ def reach(options: argparse.Namespace, wanted: list[str]) -> Reached:
     took: dict[str, float] = {}
     executed, called = defaultdict(set), defaultdict(set)
     for file in (file for file in files if kept[file].exists()):
-        told = json.loads(kept[file].read_text(encoding="utf-8"))
-        took |= told["took"]
-        for test, numbers in told["executed"].items():
-            for source, line in (told["places"][str(number)] for number in numbers):
+        results = json.loads(kept[file].read_text(encoding="utf-8"))
+        took |= results["took"]
+        for test, numbers in results["executed"].items():
+            for source, line in (results["places"][str(number)] for number in numbers):
                 executed[source, line].add(test)
                 called[source].add(test)
     return Reached(took, executed, called)
@@ -230,18 +230,18 @@ def _probe_each(probed: Path, missing: list[Path], places: list[tuple[str, int]]
         begin = time.monotonic()
         code = apart(probed, probed / "log.txt", partial(_probe, probed, file, places, kept[file]), 4 * _LONGEST_S)
         if not kept[file].exists():
-            record(Told(_LONGEST_S), probed / "hits.txt", places, kept[file])
+            record(Recorder(_LONGEST_S), probed / "hits.txt", places, kept[file])
         with (probed / "../probed.txt").open("a") as out:
             out.write(f"{file.relative_to(ROOT)} {code} {time.monotonic() - begin:.1f}\n")
     return 0
 
 
 def _probe(probed: Path, file: Path, places: list[tuple[str, int]], kept: Path) -> int:
-    hits, told = probed / "hits.txt", Told(_LONGEST_S)
+    hits, recorder = probed / "hits.txt", Recorder(_LONGEST_S)
     hits.write_text("", encoding="utf-8")
     os.environ["CELLC_MUTANTS_HITS"] = str(hits)
-    code = int(pytest.main([*_QUIET, file.relative_to(ROOT).as_posix()], plugins=[told]))
-    record(told, hits, places, kept)
+    code = int(pytest.main([*_QUIET, file.relative_to(ROOT).as_posix()], plugins=[recorder]))
+    record(recorder, hits, places, kept)
     return code
 
 
@@ -250,7 +250,7 @@ class Chosen:
     """A plugin of pytest that runs these tests alone, in this order."""
 
     order: dict[str, int]
-    told: Path
+    failed: Path
 
     @pytest.hookimpl(trylast=True)
     def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
@@ -259,7 +259,7 @@ class Chosen:
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         if report.failed:
-            self.told.write_text(report.nodeid, encoding="utf-8")
+            self.failed.write_text(report.nodeid, encoding="utf-8")
 
 
 def judged(mutant: Mutant, tree: Path, reached: Reached) -> dict[str, str]:
@@ -289,10 +289,10 @@ def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached, *, relo
     Args:
         reloaded: load all of cellc again with the mutant, instead of changing one function of what is loaded.
     """
-    told = tree.parent / "failed.txt"
-    told.write_text("", encoding="utf-8")
+    failed = tree.parent / "failed.txt"
+    failed.write_text("", encoding="utf-8")
     files = sorted({test.partition("::")[0] for test in tests})
-    plugin = Chosen({test: at for at, test in enumerate(tests)}, told)
+    plugin = Chosen({test: at for at, test in enumerate(tests)}, failed)
 
     def work() -> int:
         if not reloaded:
@@ -309,7 +309,7 @@ def _run(tests: list[str], mutant: Mutant, tree: Path, reached: Reached, *, relo
         return "survived", ""
     if code == pytest.ExitCode.INTERNAL_ERROR:
         return "not judged", f"{tree.parent / 'log.txt'} says why"
-    return ("endless" if code == ENDLESS else "killed"), told.read_text(encoding="utf-8") or f"exit code {code}"
+    return ("endless" if code == ENDLESS else "killed"), failed.read_text(encoding="utf-8") or f"exit code {code}"
 
 
 def _at_import(mutant: Mutant, reached: Reached) -> bool:
@@ -320,7 +320,7 @@ def _at_import(mutant: Mutant, reached: Reached) -> bool:
 def _executing(mutant: Mutant, reached: Reached) -> set[str]:
     """Return the tests that execute what a mutant changes in a function."""
     probed = {line for line, _ in statements((ROOT / mutant.file).read_bytes())}
-    line = next((one for one in mutant.statements if one in probed), 0)
+    line = next((line for line in mutant.statements if line in probed), 0)
     return reached.executed.get((mutant.file, line), set())
 
 
@@ -332,7 +332,7 @@ def candidates(mutant: Mutant, reached: Reached) -> list[str]:
     module evaluates as it is imported may be looked at by every test; those that call a function of it go first.
     """
     folders = [(f"{name}/", f"{name}::") for name in nearest(mutant.file)]
-    near = {test for test in reached.took if reached.anywhere or any(test.startswith(one) for one in folders)}
+    near = {test for test in reached.took if reached.anywhere or any(test.startswith(folder) for folder in folders)}
     executing = _executing(mutant, reached) if mutant.statements else reached.called.get(mutant.file, set())
     direct = executing & near or executing  # where none of its own folder executes it, those that do are the nearest
     files = {test.partition("::")[0] for test in direct if not reached.anywhere}

@@ -1,4 +1,4 @@
-"""Breaks every rule in many small ways, and counts the mutants that the corpus and the page examples notice.
+"""Mutation test of every rule: how many mutants the corpus and the page examples notice.
 
 ``python benchmarks/rule_mutants.py [--survivors] [--rule CODE]``. A mutant is one changed condition, comparison,
 figure, word or yield of a rule's check, or of what its module has for it. It is killed where its findings differ by
@@ -50,7 +50,7 @@ def mutants(tree: ast.Module) -> Iterator[tuple[str, ast.Module]]:
 
 
 def _kinds(node: ast.AST) -> tuple[str, ...]:
-    """Name the ways in which a node can be changed; ``mutable`` was set where it is no wording."""
+    """Name the changes that a node admits; ``mutable`` is set unless the node is wording."""
     if not getattr(node, "mutable", False):
         return ()
     if isinstance(node, ast.Compare):

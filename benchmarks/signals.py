@@ -100,25 +100,25 @@ def _run(case: Case, lasts_s: float) -> str:
     listened = _catches(started.pid, signal.SIGHUP)
     (os.killpg if case.whole_group else os.kill)(started.pid, case.number)
     try:
-        _, told = started.communicate(timeout=60)
+        _, output = started.communicate(timeout=60)
     except subprocess.TimeoutExpired:
         os.killpg(started.pid, signal.SIGKILL)
         return "hangs"
     if _group(started.pid):
         os.killpg(started.pid, signal.SIGKILL)
         return "a process is left"
-    return _verdict(started.returncode, told, case.number, listened)
+    return _verdict(started.returncode, output, case.number, listened)
 
 
-def _verdict(code: int, told: str, number: int, listened: bool | None) -> str:
-    interrupted = told.startswith("error: interrupted") and told.count("\n") == 1
+def _verdict(code: int, output: str, number: int, listened: bool | None) -> str:
+    interrupted = output.startswith("error: interrupted") and output.count("\n") == 1
     if code == 128 + number:
-        return "128 + N" if interrupted else f"says {told!r}"
-    if listened is None or (code in (0, 1) and "Traceback" not in told):
+        return "128 + N" if interrupted else f"says {output!r}"
+    if listened is None or (code in (0, 1) and "Traceback" not in output):
         return "had finished"
     if not listened:  # the signal's own end, or whatever Python's start makes of it
         return "before the first line of cellc"
-    return f"ended with {code}: {told[-300:]!r}"
+    return f"ended with {code}: {output[-300:]!r}"
 
 
 def _catches(process: int, number: int) -> bool | None:

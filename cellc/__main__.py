@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 if __name__ == "__main__" and not (sys.flags.isolated or getattr(sys.flags, "safe_path", False)):
-    # `-m` looks first in the current folder, which may be a checkout of strangers; what is imported next is not theirs.
+    # `-m` looks first in the current folder, which may be an untrusted checkout: import nothing from it.
     sys.path.pop(0)
 
 import gc
@@ -22,7 +22,7 @@ def main() -> None:
 
         refuse("`python -OO` drops the docstrings, in which rules and commands keep their help")
         sys.exit(2)
-    # A tenth of a short command went into collecting garbage. What a check makes are 80 000 objects, and they stay.
+    # Garbage collection took a tenth of a short command. A check makes 80 000 objects, and keeps them.
     gc.set_threshold(200_000, 20, 20)
     # What a spec means is no matter of plugins; looking for some takes longer than reading the spec.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")

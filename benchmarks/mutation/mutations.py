@@ -1,8 +1,8 @@
-"""The mutants of a source file: one small change of what it does, each with its line and what stands there instead.
+"""The mutants of a source file: one small change of what it does, each with its line and its replacement.
 
 Changed are comparisons, conditions, ``and`` and ``or``, arithmetic, signs, figures and truth values, ``min`` and
 ``max``, the order of two arguments, calls for their effect, and what a function returns. Left out is what no test can
-tell: texts and what stands in f-strings, docstrings, annotations, decorators, asserts, ``__all__`` and its kind, what
+see: texts, f-strings, docstrings, annotations, decorators, asserts, ``__all__`` and its kind, what
 is asked of the platform, keywords that only forbid (``strict``, ``frozen``, ``slots``, ``repr``), and the order of what
 a symmetric function takes.
 """
@@ -80,7 +80,7 @@ def mutants_of(file: Path, root: Path) -> list[Mutant]:
         for kind, instead in (*negated, *_changes(node, around)):
             if ast.unparse(instead) != ast.unparse(node):
                 written = ast.unparse(instead) if isinstance(instead, ast.stmt) else f"({ast.unparse(instead)})"
-                lines = tuple(_first_line(one) for one in reversed(around))
+                lines = tuple(_first_line(node) for node in reversed(around))
                 name = file.relative_to(root).as_posix()
                 found.append(Mutant(name, node.lineno, begin, end, kind, text, written, lines))
     return sorted(found, key=lambda one: (one.begin, one.end, one.kind))
@@ -89,7 +89,7 @@ def mutants_of(file: Path, root: Path) -> list[Mutant]:
 def _conditions(node: ast.AST) -> list[ast.expr]:
     """Return what a statement asks, where no other change is one of it already."""
     asked = [node.test] if isinstance(node, (ast.If, ast.IfExp, ast.While)) else getattr(node, "ifs", [])
-    return [one for one in asked if isinstance(one, (ast.Name, ast.Attribute, ast.Call, ast.Subscript))]
+    return [node for node in asked if isinstance(node, (ast.Name, ast.Attribute, ast.Call, ast.Subscript))]
 
 
 def _decisions(node: ast.AST, around: Around) -> Iterator[tuple[ast.expr | ast.stmt, Around]]:
@@ -165,7 +165,7 @@ def _statements(node: ast.Expr | ast.AugAssign | ast.Return, around: Around) -> 
             yield "arithmetic", _with(node, op=_ARITHMETIC[type(node.op)]())
     elif isinstance(node, ast.Return):
         if node.value is not None:
-            returns = next((one.returns for one in reversed(around) if isinstance(one, Function)), None)
+            returns = next((node.returns for node in reversed(around) if isinstance(node, Function)), None)
             default = _DEFAULTS.get(ast.unparse(returns).partition("[")[0], "None") if returns else "None"
             yield "return", ast.Return(ast.parse(default, mode="eval").body)
     elif isinstance(node.value, ast.Call):

@@ -91,8 +91,8 @@ def _first(tree: ast.Module) -> int:
     raise ValueError("a module without statements")
 
 
-class Told:
-    """Notes how long each test takes and which fails, and lets probes start again with each."""
+class Recorder:
+    """A plugin of pytest: records time and failures of each test, and clears the probes before each."""
 
     def __init__(self, seconds: float) -> None:
         self._until = _spent() + seconds
@@ -113,17 +113,17 @@ class Told:
             self.failed.add(report.nodeid)
 
 
-def record(told: Told, hits: Path, places: list[tuple[str, int]], kept: Path) -> None:
+def record(recorder: Recorder, hits: Path, places: list[tuple[str, int]], kept: Path) -> None:
     """Write down which statements each test of a file executes."""
     executed: dict[str, set[int]] = defaultdict(set)
     for line in hits.read_text(encoding="utf-8").splitlines():
         number, _, test = line.partition(" ")
         executed[test.rpartition(" (")[0]].add(int(number))
-    tests = {test: round(took, 3) for test, took in told.took.items() if test not in told.failed}
+    tests = {test: round(took, 3) for test, took in recorder.took.items() if test not in recorder.failed}
     statements = {test: sorted(executed[test]) for test in tests}
     used = sorted({number for numbers in statements.values() for number in numbers})
     content = {"took": tests, "executed": statements, "places": {number: places[number] for number in used}}
-    kept.write_text(json.dumps(content | {"failed": sorted(told.failed)}), encoding="utf-8")
+    kept.write_text(json.dumps(content | {"failed": sorted(recorder.failed)}), encoding="utf-8")
 
 
 def _spent() -> float:

@@ -23,7 +23,7 @@ class NewFile(Protocol):
 class Artifact:
     """Relative path with forward slashes, and text with ``\\n`` line ends that ends in one.
 
-    ``executable`` is a program: its file may be executed by whoever may read it.
+    ``executable`` is a program: its file gets the execute bit wherever it has the read bit.
     """
 
     path: str

@@ -197,7 +197,9 @@ class ContractDevice(ContractModel):
     effects: dict[Moment, ContractEffect] = Field(
         {}, description="What its real hardware does as it is activated and claimed, and as its program starts."
     )
-    at_once: bool = Field(False, description="A stay in inactive leaves the real hardware with commands of NaN.")
+    nan_after_inactive: bool = Field(
+        False, description="The driver holds NaN commands after `inactive`; activate it directly."
+    )
     command_timeout_s: PositiveSeconds | None = Field(
         None, description="Longest silence of its manager before the real hardware ends its program."
     )

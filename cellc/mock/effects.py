@@ -132,7 +132,7 @@ class Effects:
             state = states[self._component(device)]
             if state == "active":
                 self.activate(self._component(device))
-            elif state == "inactive" and self._facts(device).at_once:
+            elif state == "inactive" and self._facts(device).nan_after_inactive:
                 self.ignored[device] = f"commands of {self._component(device)} are NaN after a stay in inactive"
 
     def _prepare(self, device: str, needs: Sequence[Need]) -> None:

@@ -51,7 +51,7 @@ def test_a_cell_has_the_effects_of_its_own_distribution() -> None:
     assert arm.hardware.effects[Moment.CLAIM].needs[Need.BRAKES_OPEN] is Unmet.ENDS_MANAGER
     gripper = built("ur5e_pick").graph.cell.device("gripper").hardware
     assert gripper is not None
-    assert (gripper.initial_state, gripper.at_once) == ("unconfigured", True)
+    assert (gripper.initial_state, gripper.direct_activation) == ("unconfigured", True)
     assert gripper.effects[Moment.ACTIVATE].motion is Motion.MOVES
 
 

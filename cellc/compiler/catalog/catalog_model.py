@@ -76,7 +76,7 @@ class CatalogModel(BaseModel):
         whole["description"] = summary_of(cls)
         for name, property_schema in whole.get("properties", {}).items():
             if said := said_of(cls, name):
-                property_schema["description"] = said + _units_told(property_schema)
+                property_schema["description"] = said + _unit_note(property_schema)
         return schema_of
 
 
@@ -98,10 +98,10 @@ def _attributes(model: type) -> str:
     return inspect.cleandoc(model.__doc__ or "").partition(_ATTRIBUTES)[2]
 
 
-def _units_told(field: JsonSchemaValue) -> str:
+def _unit_note(field: JsonSchemaValue) -> str:
     """Return the units of a field whose values, or the values of whose keys, are quantities."""
     if "x-units" in field:
         return f" Units: {', '.join(map(str, field['x-units']))}."
     inner = (*field.get("anyOf", ()), field.get("items"), *field.get("patternProperties", {}).values())
     values = (*inner, field.get("additionalProperties"))
-    return next((unit for value in values if isinstance(value, dict) and (unit := _units_told(value))), "")
+    return next((unit for value in values if isinstance(value, dict) and (unit := _unit_note(value))), "")

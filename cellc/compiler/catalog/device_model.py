@@ -172,7 +172,7 @@ class AllowedPair(CatalogModel):
 
 
 Excusable = Literal["impossible-inertia", "mimic-of-nothing", "missing-joint-limits", "missing-velocity-limit"]
-"""Codes on a description that endanger nobody: no motion is planned with a tensor, nor with an idle joint.
+"""Harmless codes on a description: motion is planned with no inertia tensor and with no idle joint.
 
 What mimics nothing is then a joint of its own, as it is to MoveIt and pinocchio, and is at its home.
 """

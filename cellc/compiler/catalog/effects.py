@@ -53,7 +53,7 @@ class EffectFacts(CatalogModel):
     source: Text
 
     def unmet(self, need: Need, distro: Distro) -> Unmet:
-        """Return what happens where a need does not hold; UNKNOWN where nobody read the release of the distribution."""
+        """Return what happens where a need does not hold; UNKNOWN where that release has not been read."""
         consequence = self.needs[need]
         return consequence.get(distro, Unmet.UNKNOWN) if isinstance(consequence, dict) else consequence
 
@@ -79,17 +79,17 @@ class NeedStatusFacts(CatalogModel):
 
 
 class StartFacts(CatalogModel):
-    """How a hardware component is to be brought up where the usual way, straight to active, is wrong.
+    """How a hardware component must be brought up where the usual path, straight to active, is wrong.
 
     Attributes:
         initial_state: State in which the component is left at the start.
-        at_once: Whether it must go from ``initial_state`` to active in one call of ``set_hardware_component_state``,
-            because a stay in between leaves it with wrong commands.
-        why: Why the usual way is wrong.
+        direct_activation: Whether it must go from ``initial_state`` to active in one call of
+            ``set_hardware_component_state``, because a stay in between leaves it with wrong commands.
+        why: Why the usual path is wrong.
         source: Line of code from which this was read.
     """
 
     initial_state: ComponentState
-    at_once: bool = False
+    direct_activation: bool = False
     why: Text
     source: Text

@@ -1,4 +1,4 @@
-"""What the controller of a robot can be told, and who can start the program on it."""
+"""Settings of the robot's own controller, and who can start the program on it."""
 
 from typing import Literal, Union
 
@@ -9,15 +9,15 @@ from cellc.compiler.spec.quantity import Position, RollPitchYaw, Voltage
 from cellc.compiler.spec.tool import BaudRate, Parity, StopBits
 
 
-class ProgramWay(CatalogModel):
-    """One way in which the program on the robot starts.
+class StartMode(CatalogModel):
+    """One start mode of the program on the robot.
 
     Attributes:
-        name: Name of the way: from the pendant, by the dashboard server, or headless.
+        name: Name of the mode: from the pendant, by the dashboard server, or headless.
         by: Who starts the program; ``played_by`` of the spec chooses it.
         mode: Whether the robot is in local or remote control; ``mode`` of the spec chooses it.
-        parameters: ``<param>`` values of the real plugin in this way.
-        node_parameters: Parameters of nodes of the driver in this way, by node.
+        parameters: ``<param>`` values of the real plugin in this mode.
+        node_parameters: Parameters of nodes of the driver in this mode, by node.
     """
 
     name: Literal["pendant", "dashboard", "headless"]
@@ -31,16 +31,16 @@ class ProgramFacts(CatalogModel):
     """The program on the robot through which set points pass.
 
     Attributes:
-        ways: Start modes; the first is used if the spec names none.
+        start_modes: Start modes; the first is used if the spec names none.
         source: Document or line of code from which this was read.
     """
 
-    ways: tuple[ProgramWay, ...] = Field(min_length=1)
+    start_modes: tuple[StartMode, ...] = Field(min_length=1)
     source: Text
 
-    def way(self, by: str, mode: str) -> ProgramWay | None:
-        """Return the way of ``person`` or ``driver`` in a mode."""
-        return next((way for way in self.ways if (way.by, way.mode) == (by, mode)), None)
+    def start_mode(self, by: str, mode: str) -> StartMode | None:
+        """Return the start mode of ``person`` or ``driver`` in local or remote control, or None."""
+        return next((start for start in self.start_modes if (start.by, start.mode) == (by, mode)), None)
 
 
 class MountFacts(CatalogModel):

@@ -173,7 +173,7 @@ class FieldOfView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraStream:
-    """One image stream; ``frame`` is a prefixed link, ``view`` and ``image_bytes`` of an image None where not told."""
+    """One image stream; ``frame`` is a prefixed link, ``view`` and ``image_bytes`` are None where not stated."""
 
     topic: str
     type: str
@@ -237,14 +237,14 @@ class Device(Entity):
     """A robot, gripper or sensor where it is.
 
     Args:
-        model, vendor, kind: as the catalog names them; the kind is arm, gripper, camera or digital.
+        model, vendor, kind: as the catalog names them.
         architecture: who owns the command path: ros2, direct_sdk or hybrid.
         description: links and joints with the prefix applied; frames as URDF.
         vendor_description: that of the vendor's package, whose shapes the links have; None where none is known.
         root_link: prefixed root link; its pose in ``parent_frame`` is ``transform_root_to_parent``.
         frames: short names of the catalog and local link names → prefixed link names.
         mounted_on: the day on which it was mounted for the last time; None where the spec does not say.
-        vendor_mounts: how its vendor hangs it on arms, where the catalog tells.
+        vendor_mounts: how its vendor mounts it on arms, where the catalog has it.
         joints: movable joints in the order of the description, mimic joints included.
         driver: what moves it on the real target where no component of ros2_control does.
         tool_frame: prefixed link where tools mount, for an arm.
@@ -252,16 +252,16 @@ class Device(Entity):
         host: the computer that runs its driver; empty where the cell names none.
         versions, connection, initial_state, limit_shares, stamp, adapter, simulated_joints: what the spec states of it.
         exposure_s: exposure time of what it measures: of the spec, else of the catalog, else zero.
-        payload, tcp, program, collision, impedance: what its own controller gets, and who starts the program there.
-        robot: what its own controller can be told.
-        tool_connector: what the connector at its tool frame gives; None where the spec says nothing.
-        plug: what it takes from the tool connector of a robot, where the catalog tells.
+        payload, tcp, program, collision, impedance: settings of its own controller, and who starts the program there.
+        robot: the settings that its own controller has.
+        tool_connector: what the connector at its tool frame supplies; None where the spec says nothing.
+        plug: what it takes from the tool connector of a robot, where the catalog has it.
         programs: what runs on its host for it on the real target, and is no node.
         home: prefixed joint → position where the catalog says a mock begins.
         optical_frames: short names of frames that look along z.
         kinematics: whose joints the description has; None where robots of the type do not differ.
         payload_limit_kg: what may hang on the flange, tool included.
-        repeatability_m: pose repeatability of its tip (ISO 9283); None where the catalog tells none.
+        repeatability_m: pose repeatability of its tip (ISO 9283); None where the catalog has none.
         update_rates_hz: those that the device accepts; any where empty.
         controller_kinds: kinds of controllers that only this device has.
         speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
@@ -348,8 +348,8 @@ class Device(Entity):
         raise KeyError(name)
 
     @property
-    def comes_up(self) -> str:
-        """The state in which the controller manager is to bring up its component, on every target."""
+    def startup_state(self) -> str:
+        """Lifecycle state in which the controller manager starts its component, on every target."""
         if self.initial_state is not None or self.hardware is None:
             return self.initial_state or "active"
         return "unconfigured" if self.hardware.moves_as_it_is_activated else self.hardware.initial_state

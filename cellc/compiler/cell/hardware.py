@@ -93,7 +93,7 @@ class HardwareComponent:
         targets: those on which it becomes a ``<ros2_control>`` tag; on any other the device's driver moves it.
         effects: what the real component does at each moment that the catalog tells of.
         initial_state: the state in which the real one must start.
-        at_once: from there it must become active in one call, without a stay in between.
+        direct_activation: from there it must become active in one call, without a stay in between.
         enforce_command_limits: what the vendor tells the controller manager of this; None where it says nothing.
         reported_by: where the cell hears whether a need holds.
         nodes: those that the real plugin makes in the process of the controller manager.
@@ -111,7 +111,7 @@ class HardwareComponent:
     kinds: Mapping[str, str]
     effects: Mapping[Moment, Effect] = field(default_factory=dict)
     initial_state: str = "active"
-    at_once: bool = False
+    direct_activation: bool = False
     enforce_command_limits: bool | None
     command_timeout_s: float | None = None
     reported_by: Mapping[Need, NeedReport] = field(default_factory=dict)

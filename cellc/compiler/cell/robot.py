@@ -22,13 +22,13 @@ class Load:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Payload:
-    """Load that the robot controller is told of, as all that hangs on its tool frame.
+    """Payload set in the robot controller: everything mounted at the tool frame.
 
     Args:
         center_of_mass: in the tool frame, m.
         inertia: about the center of mass, in axes parallel to the tool frame; None where it is not stated.
         set_by: installation or service.
-        load: the part of it that a service tells beside the tool, or None.
+        load: the part of it that a service sets in addition to the tool, or None.
     """
 
     mass_kg: float
@@ -148,20 +148,20 @@ class HostProgram:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotFacts:
-    """What the controller of a robot of this kind can be told.
+    """The settings that the controller of a robot of this kind has.
 
     Args:
-        ways: who can start its program in which mode, ``driver`` or ``person`` each with local or remote; empty where
-            set points pass through no program.
-        thresholds: whether it takes thresholds of collisions.
-        payload_service: whether a service tells it the payload; in local mode only while its program runs.
-        tcp_kind, tcp_topic: kind of controller that publishes where the TCP is, and the topic below its node.
-        load_service: whether a service tells it what it carries beside its tool.
-        impedance_facts: what impedance it takes; None where it takes none.
-        tool_facts: what the connector at its tool frame can give; None where it has none.
+        start_modes: (starter, mode) pairs that start its program: ``driver`` or ``person``, ``local`` or ``remote``;
+            empty where set points pass through no program.
+        thresholds: whether it takes collision thresholds.
+        payload_service: whether a service sets its payload; in local mode only while its program runs.
+        tcp_kind, tcp_topic: kind of controller that publishes the pose of the TCP, and the topic below its node.
+        load_service: whether a service sets the load that it carries in addition to its tool.
+        impedance_facts: ranges of its impedance; None where it takes none.
+        tool_facts: what the connector at its tool frame can supply; None where it has none.
     """
 
-    ways: tuple[tuple[str, str], ...] = ()
+    start_modes: tuple[tuple[str, str], ...] = ()
     thresholds: bool = False
     payload_service: bool = False
     tcp_kind: str | None = None

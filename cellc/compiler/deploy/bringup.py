@@ -1,10 +1,10 @@
-"""Bring-up by readiness: what each step asks for, the proof that it waits for, and the effect that it must show.
+"""Bring-up by readiness: the request of each step, the proof that it waits for, and the effect that it must show.
 
-Four phases: ``start`` configures and observes, ``activate`` takes hardware to active whose activation moves something,
-``claim`` gives command interfaces their owners, ``move`` starts what asks for motion. On the mock the launch file takes
-the first three together. On the real target a person releases each at its gate: a claim before the robot listens holds
-a set point that is old when it does (Universal_Robots_ROS2_Driver issue 1084), and a claim of an FR3 starts motion
-mode. Starting the processes is discovery; what follows waits for proof, whatever order they came up in.
+Four phases: ``start`` configures and observes, ``activate`` activates self-moving hardware, ``claim`` assigns command
+interfaces to controllers, ``move`` starts motion clients. On the mock the launch file runs the first three together.
+On the real target a person releases each at its gate: a claim made before the robot listens holds a set point that is
+stale by then (Universal_Robots_ROS2_Driver issue 1084), and a claim of an FR3 starts motion mode. Processes may start
+in any order; each later step waits for its proof.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ from cellc.contract.entities import Target
 from cellc.contract.vocabulary import Behavior, BringUpPhase, InterfaceKind, Moment, Need
 
 WATCH = "watch"
-"""What the program of the bring-up is told to do where it deactivates claims of a robot that no longer listens."""
+"""The request of the bring-up program that deactivates the claims of a robot that no longer listens."""
 
 DEADLINE_S = 60.0
 """How long a step waits for its proof, and for its effect."""
@@ -159,7 +159,7 @@ def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase, relea
 
 
 def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
-    """Yield the step that activates what reads states; of hardware that a person activates there are none yet."""
+    """Yield the step that activates broadcasters, except on hardware that a person has yet to activate."""
     spawned = [controller.name for controller in manager.controllers if target in controller.targets]
     later = activated_later(cell, manager, target)
     observing = tuple(

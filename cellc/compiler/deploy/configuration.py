@@ -40,7 +40,7 @@ _NOT_OF_AN_ENTITY = frozenset(
         "vendor_mounts",  # the catalog's
         "vendor_description",  # its shapes are those of the links
         "fixed_joint_names",  # a fact of the driver, which the names of the cell follow
-        *("plug", "tool_facts", "load_service", "impedance_facts"),  # what a tool and its connector could be told
+        *("plug", "tool_facts", "load_service", "impedance_facts"),  # settings that a tool and its connector accept
     }
 )
 """Fields of any part of it that do."""

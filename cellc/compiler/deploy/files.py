@@ -79,7 +79,7 @@ def controllers_file(cell: Cell, manager: ControllerManager, target: str) -> str
 
 
 def node_file(node: Node) -> str:
-    """Return the path of a node's parameter file; there is none for a node without parameters."""
+    """Return the path of a node's parameter file; None for a node without parameters."""
     return f"config/{node.full_name.lstrip('/').replace('/', '.')}.yaml"
 
 
@@ -107,10 +107,10 @@ def moveit_controllers_file(cell: Cell, target: str) -> str:
 
 
 def executes_plans(cell: Cell, one: Controller | AdaptedDevice) -> bool:
-    """Tell whether MoveIt may send goals to a controller or an adapter: one with a client is that node's alone.
+    """Return whether MoveIt may send goals to a controller or an adapter: one with a client is that node's alone.
 
-    move_group makes a client of each that it is told of as it starts, which shows as a second commander, and which an
-    enforced policy refuses.
+    move_group creates a client for each controller in its parameters as it starts. Such a client appears as a second
+    commander, and an enforced policy refuses it.
     """
     runs = one.active if isinstance(one, Controller) else True
     return runs and (one.client is None or any(one.client == node.name for node in cell.planners))

@@ -94,7 +94,7 @@ def real_actions(graph: CellGraph) -> Iterator[Values]:
 
 
 def unguarded(graph: CellGraph) -> Iterator[Values]:
-    """Yield what moves a device past every controller and is no interface of the cell: whoever calls it moves it."""
+    """Yield driver interfaces outside the cell that move a device past every controller, and what a call does."""
     for device, one, does in past_controllers(graph.cell):
         yield device.name, one.name, one.type, does, endpoint_command(graph.cell, one.kind, one.name)
 

@@ -133,7 +133,7 @@ def _components(graph: CellGraph) -> Iterator[Values]:
         for device in map(graph.cell.device, manager.devices):
             if device.hardware is not None and "real" in device.hardware.targets:
                 whose = "vendor default" if device.initial_state is None else "set in the spec"
-                yield device.hardware.name, device.comes_up, whose
+                yield device.hardware.name, device.startup_state, whose
 
 
 def _managed_nodes(graph: CellGraph) -> Iterator[Values]:

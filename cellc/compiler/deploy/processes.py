@@ -39,9 +39,9 @@ def _node(cell: Cell, manager: ControllerManager) -> str:
 
 
 def asks_for_motion(cell: Cell, node: Node) -> bool:
-    """Tell whether a node of the spec sends goals or commands without being asked.
+    """Return whether a node of the spec sends goals or commands of its own accord.
 
-    One that serves an action itself, such as a planner, acts when it is told to; one with neither moves nothing.
+    A node that serves an action itself, such as a planner, acts on request; one with neither moves nothing.
     """
     return node.full_name in cell.mover_names
 
@@ -57,9 +57,9 @@ def motion_clients(cell: Cell) -> tuple[Node, ...]:
 
 
 def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str]]:
-    """Yield what a driver offers that moves its device past every controller, with what a call does.
+    """Yield the driver's interfaces that move its device past every controller, with what a call does.
 
-    What the cell names has its clients in the spec; of the rest nobody in the cell is one.
+    Interfaces that the cell names have their clients in the spec; the others have no client in the cell.
     """
     named = {interface.name for interface in cell.interfaces}
     for device in cell.devices:

@@ -27,7 +27,7 @@ def is_on(device: Device, target: Target) -> bool:
 
 def activated_later(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
     """Return what does not start active: its activation moves something, or must be one call, or the spec says so."""
-    return tuple(device for device in components_of(cell, manager, target) if device.comes_up != "active")
+    return tuple(device for device in components_of(cell, manager, target) if device.startup_state != "active")
 
 
 def started_active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
@@ -61,7 +61,7 @@ def is_exported(cell: Cell, manager: ControllerManager, reader: Controller, targ
     Source: https://github.com/ros-controls/ros2_controllers/blob/5.17.0/joint_state_broadcaster/src/joint_state_broadcaster.cpp
     """
     read = components_read(cell, manager, reader, target)
-    return not read or any(device.comes_up != "unconfigured" for device in read)
+    return not read or any(device.startup_state != "unconfigured" for device in read)
 
 
 def components_read(cell: Cell, manager: ControllerManager, reader: Controller, target: Target) -> tuple[Device, ...]:
@@ -94,9 +94,9 @@ def is_shown_late(cell: Cell, parent: str, child: str, target: Target = "real") 
 
 
 def _unconfigured(cell: Cell, target: Target) -> tuple[str, ...]:
-    """Return the devices whose components come up without their interfaces."""
+    """Return the names of the devices whose components start unconfigured, without their interfaces."""
     found = (device for manager in cell.managers for device in components_of(cell, manager, target))
-    return tuple(device.name for device in found if device.comes_up == "unconfigured")
+    return tuple(device.name for device in found if device.startup_state == "unconfigured")
 
 
 def silent_until_activation(cell: Cell) -> frozenset[str]:

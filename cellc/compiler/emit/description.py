@@ -69,15 +69,15 @@ def _semantic(graph: CellGraph) -> Iterator[Element]:
 
 def _named_together(poses: Sequence[NamedPose]) -> Iterator[Element]:
     """Yield a group of all groups that a pose names, for one request to move_group, and the pose of all of them."""
-    told: set[str] = set()
+    declared: set[str] = set()
     for name in dict.fromkeys(pose.name for pose in poses):
         parts = [pose for pose in poses if pose.name == name]
         group = _several_groups(pose.group for pose in parts)
-        if len(parts) > 1 and group not in told:
+        if len(parts) > 1 and group not in declared:
             yield element("group", {"name": group}, [element("group", {"name": pose.group}) for pose in parts])
         if len(parts) > 1:
             yield element("group_state", {"name": name, "group": group}, [item for pose in parts for item in _at(pose)])
-        told.add(group)
+        declared.add(group)
 
 
 def _state(pose: NamedPose) -> Element:

@@ -42,7 +42,7 @@ Parameters = Mapping[str, ParameterValue]
 _GROUPS: YamlPath = ("motion", "groups")
 _MANAGER = "moveit_simple_controller_manager"
 _TYPES = ("FollowJointTrajectory", "GripperCommand", "ParallelGripperCommand")
-# For a request that states none: MoveIt's own default, so that nobody gets full speed who did not ask for it.
+# For a request that states none: MoveIt's own default. Full speed is only on request.
 _SCALING: dict[str, float] = {"default_velocity_scaling_factor": 0.1, "default_acceleration_scaling_factor": 0.1}
 
 _SAMPLING = "ompl"
@@ -188,7 +188,7 @@ def _pipeline(cell: Cell, pipeline: Pipeline) -> Parameters:
 
 
 def _planners(cell: Cell) -> Parameters:
-    """Return the planner of each group in the sampling pipeline, and how it is told which states differ."""
+    """Return the planner of each group in the sampling pipeline, and its projection evaluator."""
     parameters: dict[str, ParameterValue] = {}
     for planner in dict.fromkeys(group.planner for group in cell.groups):
         parameters[f"{_SAMPLING}.planner_configs.{_config(planner)}.type"] = f"geometric::{planner}"
@@ -307,7 +307,7 @@ def _servo(cell: Cell, servo: Servo) -> Parameters:
         "ee_frame_name": group.tip_frame,
         "robot_link_command_frame": group.base_link,
     }
-    told: Parameters = {
+    parameters: Parameters = {
         "move_group_name": group.name,
         "command_in_type": servo.commands,
         "scale.linear": servo.linear,
@@ -326,7 +326,7 @@ def _servo(cell: Cell, servo: Servo) -> Parameters:
         "joint_topic": JOINT_STATES,
         **({} if Feature.PLUGIN_LISTS in features(cell.distro) else frames),
     }
-    return {f"moveit_servo.{name}": value for name, value in told.items()}
+    return {f"moveit_servo.{name}": value for name, value in parameters.items()}
 
 
 def _scene_topic(cell: Cell) -> str:

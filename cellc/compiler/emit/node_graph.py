@@ -1,9 +1,9 @@
-"""``graph/nodes.svg``: who talks to whom as a graph, each node once, with the list of what the arrows carry below it.
+"""``graph/nodes.svg``: the graph of nodes, each once, with a numbered list of interfaces below it.
 
-SVG 1.1 without scripts, styles or fonts from elsewhere. From left to right goes what commands: nodes, controllers,
-devices; what is told back goes from right to left, and is drawn lighter. Interfaces between the same ends share an
-arrow and its number in the list. Vendor control and physical safety are boundaries of their own, drawn bold. Left out:
-what no node of the cell uses, and what each arrow promises, which ``graph/responsibility.svg`` has.
+SVG 1.1 without scripts, styles or external fonts. Commands run from left to right: nodes, controllers, devices.
+Feedback runs from right to left and is drawn lighter. Interfaces between the same ends share an arrow and its number in
+the list. Vendor control and physical safety are boundaries of their own, drawn bold. Left out: interfaces that no node
+of the cell uses, and the contract of each arrow, which ``graph/responsibility.svg`` has.
 """
 
 from __future__ import annotations

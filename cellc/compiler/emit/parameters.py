@@ -57,7 +57,9 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
     rate: dict[str, ParameterValue] = {"update_rate": round(manager.update_rate_hz)}
     for state in ("unconfigured", "inactive"):
         devices = (cell.device(name) for name in manager.devices)
-        if named := tuple(device.hardware.name for device in devices if device.hardware and device.comes_up == state):
+        if named := tuple(
+            device.hardware.name for device in devices if device.hardware and device.startup_state == state
+        ):
             rate[f"hardware_components_initial_state.{state}"] = named
     hardware = [cell.device(name).hardware for name in manager.devices]
     if Feature.LIMITED_COMMANDS in features(cell.distro) and any(

@@ -1,8 +1,8 @@
 """``config/cell.rviz``: what RViz 2 shows: the robot, its transforms, the planned scene and path, images.
 
-A file of ``rviz2 -d``, Humble to Lyrical, in YAML. It looks and never commands: MoveIt's display that plans and
-executes is left out, since whoever presses its button would be a second client of move_group past the gates, and so
-are the tools that publish goals and initial poses.
+A file of ``rviz2 -d``, Humble to Lyrical, in YAML. It shows and never commands. MoveIt's display that plans and
+executes is left out: its button is a second client of move_group past the gates. The tools that publish goals and
+initial poses are left out too.
 """
 
 from __future__ import annotations

@@ -23,9 +23,9 @@ class DisabledAnswer:
     """All such pairs, sorted by name.
 
     Attributes:
-        samples: number of configurations that "never" and "always" rest on.
-        refused: why the description cannot be used, empty where it can.
-        limit: the row of the limits that it is beyond, empty where it is none.
+        samples: number of configurations behind "never" and "always".
+        refused: why the description cannot be used; empty where it can.
+        limit: the row of the limits that it exceeds; empty where it exceeds none.
     """
 
     pairs: tuple[DisabledLinks, ...]

@@ -177,7 +177,7 @@ def _poses(cell: Cell) -> tuple[PoseQuestion, ...]:
 
 
 def _goal(frames: FrameTree, goal: CartesianGoal, transform_tip_to_link: Pose) -> tuple[GoalQuestion, ...]:
-    """Return the question of one goal, none where its frame moves or nobody knows where it will be."""
+    """Return the question of one goal; empty where its frame moves or has no known pose."""
     place = frames.in_world(goal.frame)
     if place is None:
         return ()

@@ -1,4 +1,4 @@
-"""A file of ROS parameters: one section a node, each with the spec path that it came from; QoS as such parameters."""
+"""A file of ROS parameters: one section a node, each with its path in the spec; QoS as such parameters."""
 
 from __future__ import annotations
 

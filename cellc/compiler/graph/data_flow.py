@@ -160,11 +160,11 @@ class AgeShare:
 
 
 def age_chains(cell: Cell) -> Mapping[str, tuple[AgeShare, ...]]:
-    """Return, for each topic with a rate, the shares from the sensor to it, the sensor first.
+    """Return, for each topic with a rate, its shares of age from the sensor on, the sensor first.
 
-    A node passes the stamp of its input on where its output is in the input's frame, as a detector does that publishes
-    poses in the frame of the camera. Of several inputs the freshest counts: whoever is too old by that one is too old
-    by all. Topics that only feed each other in a circle observe nothing and stand alone.
+    A node forwards the stamp of its input where its output is in the input's frame, as a detector does that publishes
+    poses in the camera frame. Of several inputs the freshest counts: data too old by that one is too old by all.
+    Topics that only feed each other in a circle observe nothing; each has its own share alone.
     """
     topics = {topic.name: topic for topic in cell.interfaces if topic.kind is InterfaceKind.TOPIC and topic.rate_hz}
     shares = {name: age_share(cell, topic) for name, topic in topics.items()}

@@ -155,7 +155,7 @@ def as_driven(cell: Cell) -> Cell:
     nodes, what both offer, and the fields of records that its controllers would tell.
     """
     behind = {adapted.device: adapted for adapted in cell.adapters}
-    nodes = tuple(_told(node, behind[node.device]) if node.device in behind else node for node in cell.nodes)
+    nodes = tuple(_with_parameters(node, behind[node.device]) if node.device in behind else node for node in cell.nodes)
     ours = tuple(node for node in nodes if node.device not in behind or node.full_name == behind[node.device].node)
     devices = (
         _adapted_device(device, behind[device.name], ours) if device.name in behind else device
@@ -173,8 +173,8 @@ def as_driven(cell: Cell) -> Cell:
     )
 
 
-def _told(node: Node, adapted: AdaptedDevice) -> Node:
-    """Return the node of an adapter with the parameters that it may declare: what the spec says about it, in SI."""
+def _with_parameters(node: Node, adapted: AdaptedDevice) -> Node:
+    """Return the node of an adapter with the parameters that the spec states for it, in SI units."""
     parameters: dict[str, ParameterValue] = {
         "joints": adapted.joints,
         "command_timeout": adapted.command_timeout_s,

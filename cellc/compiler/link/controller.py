@@ -111,7 +111,7 @@ class _Interfaces:
 
 
 def link_controller(place: ControllerPlace, written: ControllerSpec, context: ControlContext) -> Outcome[Controller]:
-    """Bind a controller; what it names and nobody has is reported."""
+    """Bind a controller; a diagnostic for each name that does not exist."""
     bound = None if written.device is None else context.devices.get(written.device)
     if written.device is not None and bound is None:
         at = (*place.path, "device")
@@ -211,9 +211,9 @@ def _controller(
 
 
 def _behavior(chosen: _Chosen, distro: Distro) -> Behavior:
-    """Return what a plugin does: what its kind does, unless the distribution's plugin does otherwise.
+    """Return the behavior of a plugin: that of its kind, unless the distribution's plugin differs.
 
-    A trajectory controller that is told of the device's speed scaling follows it.
+    A trajectory controller whose parameters name the device's speed scaling follows it.
     """
     usual = chosen.plugin.behavior or chosen.kind.kind
     neutral = chosen.kind.plugins.get(distro)

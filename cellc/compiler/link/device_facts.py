@@ -211,9 +211,9 @@ def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
 
 
 def _joint_speed(gripper: GripperFacts) -> float | None:
-    """Return how fast the joint moves as the jaws do at their own speed, in rad/s or m/s; None where it is none.
+    """Return the joint speed that corresponds to the speed of the jaws, in rad/s or m/s; None where it has no value.
 
-    The way of a linkage is taken as even along its stroke. A vendor's URDF has another limit, which was not measured.
+    Jaw travel is taken as linear in the joint position. The limit in a vendor's URDF differs, and was not measured.
     """
     way, stroke = abs(float(gripper.closed.si) - float(gripper.open.si)), gripper.stroke.si
     return gripper.max_speed.si * way / stroke or None if stroke > 0.0 else None
@@ -295,7 +295,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
     if safety is None:
         return VendorSafety()
 
-    def told(steps: Iterable[HumanStep]) -> tuple[str, ...]:
+    def applicable(steps: Iterable[HumanStep]) -> tuple[str, ...]:
         free = (
             step if isinstance(step, str) else step.does if holding.intersection(step.when) else "" for step in steps
         )
@@ -311,11 +311,12 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
             for facts in safety.reported_by
             if (kind := f"controller_{facts.controller}") in known.values
         ),
-        ending=told(safety.ending),
-        ended=told(safety.ended),
+        ending=applicable(safety.ending),
+        ended=applicable(safety.ended),
         modes=safety.modes,
         recovery=tuple(
-            RecoveryProcedure(state=facts.state, steps=told(facts.steps), by=facts.by) for facts in safety.recovery
+            RecoveryProcedure(state=facts.state, steps=applicable(facts.steps), by=facts.by)
+            for facts in safety.recovery
         ),
         watchdog=safety.watchdog,
     )

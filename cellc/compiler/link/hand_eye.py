@@ -1,7 +1,7 @@
-"""Places what a calibration tool has measured: the file is the one truth, and the spec says the same or nothing.
+"""Poses from a hand-eye calibration file: the file is the only source, and the spec states the same pose or none.
 
-The tool tells the pose of one frame of the moved, or standing, side in one of the other. Both hang rigidly on what the
-spec mounts, so that the transform of the mount follows, whichever frames the tool was told to use.
+The tool reports the pose of a frame on one side of the mount in a frame on the other side. Each side is rigid, so the
+transform of the mount follows whichever frames the tool was configured with.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ def _place(
     )
     measured = said.pose
     if parent == placed.child and child == mount:
-        # The tool was told the frames the other way round: their names say which way the transform goes.
+        # The tool was configured with the frames swapped: their names give the direction of the transform.
         (parent, near), (child, far), measured = (child, far), (parent, near), measured.inverse()
     if (parent, child) != (mount, placed.child):
         return Outcome(None, (_elsewhere(placed, read, ends),))

@@ -55,7 +55,7 @@ class _MalformedError(Exception):
 
 
 def read_hand_eye(file: SideFile) -> Outcome[HandEyeFile]:
-    """Return what a file says, told by its content; what is wrong with it has its line there."""
+    """Return the calibration in a file, whose format follows from its content; a problem is located at its line."""
     try:
         if "static_transform_publisher" in file.text:
             return Outcome(_of_launch(file))

@@ -26,10 +26,10 @@ from cellc.contract.pins import older
 from cellc.contract.vocabulary import UNKNOWN, Distro, InterfaceKind, Unmet
 
 JOINT_STATES = "/joint_states"
-"""Where robot_state_publisher and planners hear of all joints.
+"""The topic from which robot_state_publisher and planners read all joints.
 
-Nobody merges: several publishers on it are usual, readers put joints together by name. joint_state_publisher with a
-``source_list`` would stamp old states again, and report zero for joints that it has not heard of.
+It needs no merging node: several publishers on it are usual, and readers combine joints by name. joint_state_publisher
+with a ``source_list`` would stamp old states again, and report zero for joints that it has not received.
 """
 
 
@@ -93,7 +93,7 @@ def _with_effects(component: HardwareComponent, real: HardwareFacts, distro: Dis
         component,
         effects={moment: effect(facts, distro) for moment, facts in real.effects.items()},
         initial_state="active" if start is None else start.initial_state,
-        at_once=start is not None and start.at_once,
+        direct_activation=start is not None and start.direct_activation,
         command_timeout_s=None if timeout is None else timeout.si,
         reported_by={
             need: NeedReport(

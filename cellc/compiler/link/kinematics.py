@@ -75,7 +75,7 @@ def link_kinematics(
 
 
 def with_kinematics(device: Device, kinematics: Kinematics | None, facts: DeviceModel) -> Device:
-    """Return a device that says whose joints it has; its real plugin is told the hash of a calibration."""
+    """Return a device with the source of its kinematics; its real plugin gets the hash of a calibration."""
     calibration, hardware = None if kinematics is None else kinematics.calibration, device.hardware
     if calibration is None or facts.kinematics is None or hardware is None or "real" not in hardware.parameters:
         return replace(device, kinematics=kinematics)

@@ -101,7 +101,7 @@ def _packages(spec: CellSpec, document: SourceDocument) -> Outcome[tuple[str, ..
 
 @dataclass(frozen=True, slots=True)
 class _Placement:
-    """Where everything is: devices, frames and solid things, and the files that told of some."""
+    """Where everything is: devices, frames and solid objects, and the calibration files behind some poses."""
 
     bound: tuple[BoundDevice, ...]
     names: FrameNames

@@ -22,10 +22,9 @@ from cellc.contract.vocabulary import Distro
 
 @dataclass(frozen=True, slots=True)
 class Machine:
-    """What motion is bound to: the devices and controllers of the cell, and its frames by their names.
+    """What motion refers to: the devices and controllers of the cell, and its frames by name.
 
-    ``placed`` tells whether all devices and frames hang where the spec says; otherwise the cause of a broken chain is
-    told already.
+    ``placed``: all devices and frames have their parent; otherwise the cause of a broken chain is already reported.
     """
 
     devices: tuple[Device, ...]

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from cellc.compiler.catalog import robot_facts as catalog
 from cellc.compiler.catalog.device_model import DeviceModel
-from cellc.compiler.catalog.robot_facts import ProgramWay
+from cellc.compiler.catalog.robot_facts import StartMode
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.robot import (
@@ -36,11 +36,11 @@ DRIVER = "driver"
 
 
 def with_robot(device: Device, facts: DeviceModel, written: DeviceSpec) -> Device:
-    """Return a device with what its own controller gets, and its driver with the parameters of the way chosen."""
+    """Return a device with the settings of its own controller, and its driver with the parameters of the start mode."""
     program, hardware = written.program, device.hardware
-    way = chosen_way(facts, written)
-    if hardware is not None and way is not None and "real" in hardware.parameters:
-        real = {**hardware.parameters["real"], **way.parameters}
+    start = chosen_start_mode(facts, written)
+    if hardware is not None and start is not None and "real" in hardware.parameters:
+        real = {**hardware.parameters["real"], **start.parameters}
         hardware = replace(hardware, parameters={**hardware.parameters, "real": real})
     return replace(
         device,
@@ -65,20 +65,22 @@ def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames)
     return Outcome(tuple(bound), tuple(problems))
 
 
-def chosen_way(facts: DeviceModel, written: DeviceSpec) -> ProgramWay | None:
-    """Return how the program comes to run: as the spec says, else the first way, or None."""
+def chosen_start_mode(facts: DeviceModel, written: DeviceSpec) -> StartMode | None:
+    """Return the start mode of the program that the spec names, else the first of the catalog, or None."""
     program = facts.robot.program
     if program is None:
         return None
-    return program.ways[0] if written.program is None else program.way(_starter(written.program), written.program.mode)
+    if written.program is None:
+        return program.start_modes[0]
+    return program.start_mode(_starter(written.program), written.program.mode)
 
 
 def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
-    """Return what is so of a device, of all that a step of its vendor's procedure may be bound to."""
-    way = chosen_way(facts, written)
+    """Return the conditions that a device meets, of those that a step of its vendor's procedure may depend on."""
+    start = chosen_start_mode(facts, written)
     set_by = "installation" if written.payload is None else written.payload.set_by
     thresholds = "open" if written.collision is None else "stated"
-    name = "" if way is None else way.name
+    name = "" if start is None else start.name
     impedance = written.impedance
     stated = {
         "load_stated": written.payload is not None and written.payload.load is not None,
@@ -91,9 +93,9 @@ def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
 
 
 def node_parameters(facts: DeviceModel, written: DeviceSpec, node: str) -> Mapping[str, ParameterValue]:
-    """Return what the way of starting the program gives to a node of the driver, by its name in the catalog."""
-    way = chosen_way(facts, written)
-    return {} if way is None else way.node_parameters.get(node, {})
+    """Return the parameters that the start mode sets on a node of the driver, by its name in the catalog."""
+    start = chosen_start_mode(facts, written)
+    return {} if start is None else start.node_parameters.get(node, {})
 
 
 def robot_words(written: DeviceSpec) -> Iterator[tuple[str, str]]:
@@ -187,9 +189,9 @@ def _collision(written: CollisionSpec) -> CollisionThresholds:
 
 def _robot(facts: DeviceModel) -> RobotFacts:
     controller = facts.robot
-    ways = () if controller.program is None else controller.program.ways
+    modes = () if controller.program is None else controller.program.start_modes
     return RobotFacts(
-        ways=tuple((way.by, way.mode) for way in ways),
+        start_modes=tuple((start.by, start.mode) for start in modes),
         thresholds=controller.thresholds is not None,
         payload_service=controller.payload_service is not None,
         load_service=controller.load_service is not None,
@@ -200,10 +202,10 @@ def _robot(facts: DeviceModel) -> RobotFacts:
     )
 
 
-def _impedance_facts(told: catalog.ImpedanceFacts) -> ImpedanceFacts:
+def _impedance_facts(facts: catalog.ImpedanceFacts) -> ImpedanceFacts:
     return ImpedanceFacts(
-        joint=(told.joint.least, told.joint.most),
-        translation=(told.translation.least, told.translation.most),
-        rotation=(told.rotation.least, told.rotation.most),
-        acts_on=told.acts_on,
+        joint=(facts.joint.least, facts.joint.most),
+        translation=(facts.translation.least, facts.translation.most),
+        rotation=(facts.rotation.least, facts.rotation.most),
+        acts_on=facts.acts_on,
     )

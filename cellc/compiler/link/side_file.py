@@ -56,6 +56,6 @@ def compose_side_file(file: SideFile) -> Outcome[SourceDocument]:
 
 
 def number(text: str, largest: float) -> float:
-    """Return a figure of a file, whose `5e-06` is a text in YAML; NaN for what is none, or is larger than is meant."""
+    """Return a number of a file, where YAML reads `5e-06` as text; NaN for anything else, or beyond any real value."""
     value = float(text) if _NUMBER.fullmatch(text) else math.nan
     return value if abs(value) <= largest else math.nan

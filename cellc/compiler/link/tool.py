@@ -15,7 +15,7 @@ from cellc.compiler.spec.tool import ToolSerialSpec
 
 
 def with_tools(device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> Device:
-    """Return a device with what its tool connector gives, its driver told, and with what it takes from another's."""
+    """Return a device with its tool connector, the driver parameters for it, and what it takes from another's."""
     connector, line = written.tool_connector, _line(facts, written)
     device = replace(device, plug=_plug(facts.plug))
     if connector is None:
@@ -36,16 +36,16 @@ def with_tools(device: Device, facts: DeviceModel, written: DeviceSpec, known: P
     return replace(_with_parameters(device, parameters), programs=(forward,))
 
 
-def _with_parameters(device: Device, told: Mapping[str, str]) -> Device:
+def _with_parameters(device: Device, parameters: Mapping[str, str]) -> Device:
     hardware = device.hardware
     if hardware is None or "real" not in hardware.parameters:
         return device
-    real = {**hardware.parameters["real"], **told}
+    real = {**hardware.parameters["real"], **parameters}
     return replace(device, hardware=replace(hardware, parameters={**hardware.parameters, "real": real}))
 
 
 def gripper_words(facts: DeviceModel) -> dict[str, str]:
-    """Return placeholders for what a gripper is, in rad or m, m/s and N, as plugins are told it."""
+    """Return placeholders for the data of a gripper in the units of plugins: rad or m, m/s, N."""
     gripper = facts.gripper
     if gripper is None:
         return {}

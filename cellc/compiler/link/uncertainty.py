@@ -21,7 +21,7 @@ def link_uncertainty(
     """Bind the uncertainty of a cell; None where neither it nor a region nor a rate of success is stated.
 
     Args:
-        groups: None where they could not be bound, which is told elsewhere.
+        groups: None where they could not be bound, which is reported elsewhere.
     """
     alone = tuple(_confidence_alone(spec, document))
     wanted = any(rehearsal.success is not None for rehearsal in spec.rehearsals.values())

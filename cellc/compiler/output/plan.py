@@ -120,7 +120,7 @@ def _is_ours(path: str, content: bytes, known: Sequence[Mapping[str, str]]) -> b
 def is_inside(path: str, folder: Path) -> bool:
     """Whether a path that a manifest names is one that cellc makes, and lies in the folder."""
     # A manifest is data that others may have written, and so are the links in the folder: neither must make a build
-    # remove what lies elsewhere. Whoever made a file of cellc's had a path that cellc makes.
+    # remove files elsewhere. Every file of cellc has a path that cellc makes.
     return not unusable(path) and link_above(path, folder) is None
 
 

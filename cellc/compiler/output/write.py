@@ -100,11 +100,11 @@ class _Writing:
         return (_busy(self.folder),) if contested(self.folder) else ()
 
     def _carry_out(self) -> Outcome[WriteReport]:
-        """Replace files, after it was settled who does.
+        """Replace files, once this build holds the folder.
 
-        The staging folder is what tells others of this build. Of two that begin together, the later one to make its own
-        sees the other's, so that never both go on; and what there is to write is asked again, now that nobody else
-        changes it.
+        The staging folder announces this build to others. Of two builds that start together, the one that makes its
+        staging folder later sees the other's, so at most one continues. The plan is then computed again, because no
+        other build can change the folder from here on.
         """
         staging = staging_of(self.folder)
         try:

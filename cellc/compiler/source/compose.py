@@ -202,7 +202,7 @@ class _Composer:
         """Return the name of a key, or None after reporting why it cannot be one."""
         if not isinstance(node.data, str):
             shown = f"`{_short(node.text)}`" if node.text else "an empty key" if node.data is None else "a collection"
-            advice = _NO_VALUES if collection.start.flow_style and self._stands_alone(span) else ""
+            advice = _NO_VALUES if collection.start.flow_style and self._has_no_value(span) else ""
             self._report("non-string-key", f"the key is {_kind(node)}: {shown}", span, advice=advice)
             return None
         first = collection.children.get(node.data)
@@ -214,8 +214,8 @@ class _Composer:
             return None
         return node.data
 
-    def _stands_alone(self, span: Span) -> bool:
-        """Tell whether a comma or the end follows, as behind a value, and no value of its own."""
+    def _has_no_value(self, span: Span) -> bool:
+        """Return whether a comma or the closing brace follows a key, without a value."""
         rest = self._lines[span.end_line - 1][span.end_column - 1 :].lstrip()
         return rest[:1] in (",", "}")
 

@@ -81,8 +81,8 @@ class Comment:
 def comments(text: str, marker: re.Pattern[str], *, pure: bool = False) -> tuple[Comment, ...]:
     """Return the comments in which ``marker`` begins, each from its first one on.
 
-    The scanner says what is a comment: a ``#`` inside a quoted text or a block of text is none. The text is scanned
-    only where the marker occurs at all, so that a file without one costs nothing.
+    The scanner decides what a comment is: a ``#`` inside a quoted text or a block of text does not start one. The text
+    is scanned only where the marker occurs, so that a file without it costs nothing.
 
     Args:
         text: valid YAML with line breaks as ``\\n``.

@@ -33,7 +33,7 @@ def read_text(path: Path, name: str, place: Span) -> Outcome[str]:
 
 
 def text_of(content: bytes, name: str) -> Outcome[str]:
-    """Return the same of what a file holds, or what came in its place."""
+    """Return the same for the content of a file, or the diagnostics in its place."""
     if len(content) > limits().spec_bytes:
         return Outcome(None, (_too_large(name, "larger", Span(name, 1, 1, 1, 1)),))
     text = _decode(content, name)
@@ -80,7 +80,7 @@ def bytes_of(path: Path, name: str, place: Span) -> bytes | Diagnostic:
 
 
 def _file_in(folder: Path) -> str:
-    """Return which file of a folder was meant; an empty text where none can be told."""
+    """Return the file of a folder that was meant; an empty text where there is no clear candidate."""
     if os.path.isfile(folder / "cell.yaml"):
         return f"name the spec in it: `{(folder / 'cell.yaml').as_posix()}`"
     if os.path.isfile(folder / "contract.json"):

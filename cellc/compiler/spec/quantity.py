@@ -145,7 +145,7 @@ class QuantityType:
         """Return what a user wrote as a quantity.
 
         Raises:
-            PydanticCustomError: it is none, or none of this kind.
+            PydanticCustomError: the value is no quantity, or has another dimension.
         """
         if isinstance(value, (Quantity, QuantityVector)):
             return value

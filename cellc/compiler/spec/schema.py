@@ -66,7 +66,7 @@ def tidy(schema: Json) -> Json:
     properties = schema.get("properties")
     if isinstance(properties, dict):
         inner["properties"] = {key: tidy(value) for key, value in properties.items()}
-    return _with_units_told(_titled(_one_of_scalars(_keys_checked(_without_null(inner)))))
+    return _with_unit_notes(_titled(_one_of_scalars(_keys_checked(_without_null(inner)))))
 
 
 def _without_null(schema: dict[str, Json]) -> dict[str, Json]:
@@ -116,7 +116,7 @@ def _titled(schema: dict[str, Json]) -> dict[str, Json]:
     return {**schema, "properties": titled}
 
 
-def _with_units_told(schema: dict[str, Json]) -> dict[str, Json]:
+def _with_unit_notes(schema: dict[str, Json]) -> dict[str, Json]:
     units, description = schema.get("x-units"), schema.get("description")
     if not isinstance(units, list) or not isinstance(description, str) or " Units: " in description:
         return schema

@@ -142,9 +142,8 @@ def _pose(matrix: Any) -> Pose:
 def import_yourdfpy() -> ModuleType:
     """Return the package ``yourdfpy``.
 
-    It builds its scene on trimesh, which imports libraries for operations on meshes where it finds them and does
-    without where it does not. Hiding them from that one import saves every build 0.6 s of
-    0.75 s processor time; whoever imports them afterwards gets them.
+    It builds its scene on trimesh, which imports libraries for mesh operations where they are installed and works
+    without them. Hiding them from that import saves every build 0.6 s of 0.75 s processor time; later imports get them.
     """
     for name in _LOGGERS:
         logging.getLogger(name).addHandler(logging.NullHandler())
@@ -174,8 +173,8 @@ def read_by_pinocchio(urdf: str, positions: Mapping[str, float]) -> Reading:
     """Return joints and link poses.
 
     Args:
-        positions: position of each joint for the displaced poses, mimic joints included: pinocchio is told to treat
-            them as free, so that zero means zero for all.
+        positions: position of each joint for the displaced poses, in rad or m. Mimic joints are included: pinocchio
+            treats them as free here, so that zero means zero for all.
 
     Raises:
         RefusedError: pinocchio does not take the description.

@@ -19,10 +19,10 @@ _PARSERS = Program(
 
 
 def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic, ...]:
-    """Return a diagnostic for everything that foreign parsers make of the artifacts and the cell does not mean.
+    """Return a diagnostic for each difference between the cell and what foreign parsers read from its artifacts.
 
-    Each finding is a bug of cellc; it is at the name of the cell. That there is none is kept: to load the parsers
-    and to ask them takes as long as all that a build does else. What they found is asked again.
+    Each finding is a bug of cellc, located at the name of the cell. A clean result is cached, because loading and
+    running the parsers takes as long as the rest of a build. Findings are computed again.
     """
     meant = meant_by(graph)
 

@@ -101,9 +101,9 @@ def _self_contained(content: bytes, suffix: str) -> bytes:
 
 
 def _shape_of_obj(content: bytes) -> bytes:
-    """Return the lines of a Wavefront OBJ that make its shape, each by itself: none of them names another file.
+    """Return the lines of a Wavefront OBJ that make its shape, one by one: none of them names another file.
 
-    Where a line ends, and whether a backslash joins it with the next, is decided here and left to nobody else.
+    Line ends, and backslashes that join lines, are resolved here, so that no other parser decides them differently.
     """
     lines = (line.split() for line in _LINE_END.split(_CONTINUED.sub(b" ", content)))
     kept = (b" ".join(words) for words in lines if words and words[0] in _OBJ_SHAPE)

@@ -135,7 +135,7 @@ def without_meshes(urdf: str) -> str:
 
 
 def readable(files: Mapping[str, MeshFile | MeshError]) -> tuple[MeshFile, ...]:
-    """Return the files that are there, each once and in one order whoever asks."""
+    """Return the files that exist, each once, in a fixed order."""
     found = {file for file in files.values() if isinstance(file, MeshFile)}
     return tuple(sorted(found, key=lambda file: (file.digest, file.path)))
 
@@ -264,7 +264,7 @@ def _within(file: Path, root: Path) -> Path:
 
 
 def _regular(real: Path) -> Path:
-    """Return a real path where a regular file lies that is none of the operating system's."""
+    """Return the real path of a regular file outside the folders of the operating system; None for anything else."""
     if any(real.is_relative_to(folder) for folder in _OF_THE_SYSTEM):
         raise MeshError(MESH_OUTSIDE_ROOT, "must not be a file of the operating system", "name a mesh file")
     mode = os.lstat(real).st_mode

@@ -1,8 +1,8 @@
 """Where the packages lie that a description names, and whether a file lies under a folder.
 
 Packages come with a spec, under its own folder or in the folders of its repository that it names, or lie in the folders
-of the package path, which whoever calls cellc gives. Variables of the environment count for nothing: the same call
-gives the same answer in every shell.
+of the package path, which the caller of cellc sets. Environment variables are ignored: the same call gives the same
+answer in every shell.
 
 The package path belongs to the process, as the limits do: the command line alone sets it, for the time of a command,
 and hands it to the processes that it starts.

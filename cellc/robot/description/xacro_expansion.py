@@ -1,4 +1,4 @@
-"""One expansion of a xacro file, every failure told as a diagnostic: in this process, or in a child with limits.
+"""One expansion of a xacro file, every failure a diagnostic: in this process, or in a child with limits.
 
 A file of the catalog is expanded here. A file of the user is expanded in a child process with bounded time, memory
 and output: the confinement refuses what reaches out of the folder, the process ends an expansion that takes too long.

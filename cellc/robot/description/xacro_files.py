@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     class XacroError(Exception):
         """The error of xacro 2, which has no types: texts, and the error behind it."""
 
-        def __init__(self, *told: object, exc: BaseException | None = None) -> None: ...
+        def __init__(self, *texts: object, exc: BaseException | None = None) -> None: ...
 
 else:
     from xacro import XacroException as XacroError
@@ -71,7 +71,7 @@ class ConfinedFiles:
         # A path that is written out of the root is out of it; a link may lead to another folder of the repository.
         written = os.path.abspath(path)
         if any(f"{written}{os.sep}".startswith(f"{os.path.abspath(folder)}{os.sep}") for folder in package_path()):
-            return True  # whoever calls chose it, and links to a workspace are usual there
+            return True  # the caller chose it, and links to a workspace are usual there
         return any(
             lies_under(path, root)
             or (f"{written}{os.sep}".startswith(f"{os.path.abspath(root)}{os.sep}") and lies_under(path, self._within))

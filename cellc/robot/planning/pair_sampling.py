@@ -83,8 +83,8 @@ class PairCheck:
     def some_touching(self, configuration: Array) -> set[LinkPair]:
         """Return at least one pair that touches; empty where none does.
 
-        Whoever asks drops what is returned before asking again: a pair that the search did not come to keeps its answer
-        of an earlier configuration, which was "no" then.
+        The caller drops the returned pairs before the next call: a pair that this search did not reach keeps its answer
+        for an earlier configuration, which was "no".
         """
         found = pinocchio.computeCollisions(self._model, self._data, self._manager, configuration, True)
         return self._touching() if found else set()

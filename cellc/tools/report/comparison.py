@@ -65,7 +65,9 @@ def _moving(cell: Cell) -> tuple[Device, ...]:
 def _start(cell: Cell) -> Iterator[str]:
     for device in _moving(cell):
         state = (
-            "" if device.hardware is None or "real" not in device.hardware.targets else f", starts {device.comes_up}"
+            ""
+            if device.hardware is None or "real" not in device.hardware.targets
+            else f", starts {device.startup_state}"
         )
         yield f"{device.name}: {real_driver(device)}{state}"
         if device.program is not None:

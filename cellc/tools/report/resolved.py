@@ -33,7 +33,8 @@ _HIDDEN = {
     },
     Node: {"endpoints", "inside"},
     HardwareComponent: {
-        *("effects", "told", "initial_state", "at_once", "command_timeout_s", "enforce_command_limits", "nodes"),
+        *("effects", "reported_by", "initial_state", "direct_activation"),
+        *("command_timeout_s", "enforce_command_limits", "nodes"),
         "modes",
     },
 }

@@ -45,7 +45,7 @@ def _device(cell: Cell, device: Device) -> ContractDevice:
         camera=_camera(cell, device),
         switched=_switched(device),
         effects=_effects(hardware),
-        at_once=hardware is not None and hardware.at_once,
+        nan_after_inactive=hardware is not None and hardware.direct_activation,
         command_timeout_s=None if hardware is None else hardware.command_timeout_s,
     )
 

@@ -108,8 +108,8 @@ def managers(cell: Cell) -> dict[str, ContractManager]:
 def joint_limits(cell: Cell) -> dict[str, ContractJointLimits]:
     """Return the limits of every joint that moves on its own and whose limits are all stated.
 
-    A figure past what any machine has, such as the 1e16 that exporters write, is no limit. A joint with a speed of 0
-    is at standstill, and whoever commands it is told so by a rule.
+    A figure beyond any machine, such as the 1e16 that exporters write, is no limit. A joint with a speed limit of 0
+    cannot move; a rule reports its commander.
     """
     limits: dict[str, ContractJointLimits] = {}
     for joint in (joint for device in cell.devices for joint in device.joints if joint.mimics is None):

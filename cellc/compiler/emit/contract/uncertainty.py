@@ -42,7 +42,7 @@ def uncertainty(cell: Cell, stated: Stated, clocks: dict[str, ContractClock]) ->
     drawn = (*_calibrations(cell, stated), *_arms(cell, stated), *_regions(cell, stated), *_clocks(cell, clocks))
     return Uncertainty(
         format=1,
-        quantities=tuple(_told_apart([item for item in drawn if item.quantity.spread >= SMALLEST])),
+        quantities=tuple(_uniquely_named([item for item in drawn if item.quantity.spread >= SMALLEST])),
         tolerances=dict(stated.tolerances_m),
         expected={
             rehearsal.name: ExpectedSuccess(success=rehearsal.success, confidence=rehearsal.confidence)
@@ -52,8 +52,8 @@ def uncertainty(cell: Cell, stated: Stated, clocks: dict[str, ContractClock]) ->
     )
 
 
-def _told_apart(drawn: Iterable[_Drawn]) -> Iterator[UncertainQuantity]:
-    """Yield quantities under names of their own: a short one that two things would have is neither's."""
+def _uniquely_named(drawn: Iterable[_Drawn]) -> Iterator[UncertainQuantity]:
+    """Yield quantities under unique names: the short name, or the full one where two would share the short one."""
     drawn = tuple(drawn)
     known = Counter(item.quantity.name for item in drawn)
     alike = {item.full_name for item in drawn if known[item.quantity.name] > 1}

@@ -1,11 +1,11 @@
 """``launch/*.launch.xml``: starts the cell on the mock, or on real hardware up to where a human takes over.
 
 Launch XML for ``ros2 launch``, Humble to Lyrical: only actions and substitutions that all of them know.
-``cell.launch.xml`` discovers, configures and observes, and on the mock claims; it enables no drive and starts nothing
-that asks for motion, on any target. With several hosts it includes the file of the one that it is told.
-``activate.launch.xml`` and ``claim.launch.xml`` are released by a person on the real target: hardware that moves as it
-is activated, and claims. ``move.launch.xml`` starts what sends goals. The real target passes a gate in each: an
-argument without a default and with one choice. Left out: enabling, which is a step of the vendor's procedure.
+``cell.launch.xml`` discovers, configures and observes, and on the mock claims; it enables no drive and starts no motion
+client, on any target. With several hosts it includes the file of the host in its argument. On the real target a person
+releases ``activate.launch.xml`` (self-moving hardware) and ``claim.launch.xml``. ``move.launch.xml`` starts motion
+clients. Each has a gate on the real target: an argument without a default and with one choice. Left out: enabling,
+which is a step of the vendor's procedure.
 """
 
 from __future__ import annotations

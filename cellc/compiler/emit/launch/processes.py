@@ -76,7 +76,7 @@ def enclave(path: str) -> dict[str, str]:
 
 
 def ends_launch(cell: Cell) -> dict[str, str]:
-    """Return the attribute of a process without which the cell is none: the launch ends with it."""
+    """Return the attribute of a process that the cell cannot run without: the launch ends with it."""
     if Feature.EXIT_ENDS_LAUNCH in features(cell.distro):
         return {"on_exit": "shutdown"}
     program = REQUIRED_PROGRAM.rpartition("/")[2]

@@ -104,10 +104,10 @@ def _offered(cell: Cell, node: Node) -> NodeEndpoints:
 def _renamed(node: Node, own: NodeEndpoints) -> NodeEndpoints:
     """Return endpoints under the names that they have in the cell."""
 
-    def told(names: tuple[str, ...]) -> tuple[str, ...]:
+    def remapped(names: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(node.remaps.get(name, name) for name in names)
 
-    return NodeEndpoints(**{field.name: told(getattr(own, field.name)) for field in fields(NodeEndpoints)})
+    return NodeEndpoints(**{field.name: remapped(getattr(own, field.name)) for field in fields(NodeEndpoints)})
 
 
 def _with(granted: Profile, own: NodeEndpoints) -> Profile:
@@ -158,9 +158,9 @@ def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]
 
 
 def _controller(cell: Cell, controller: Controller) -> Profile:
-    """Grant what the interfaces grant, and what the kind has besides: it fails where one of these is denied to it.
+    """Grant the rights of the interfaces, and those that the kind of node needs in order to run.
 
-    Nobody is granted to publish what it subscribes to unless an interface of the cell says so.
+    A subscriber gets no right to publish on the same topic unless an interface of the cell says so.
     """
     granted = _granted(cell, controller.full_name, cell.implied.controller)
     kind = controller.declared
@@ -236,9 +236,9 @@ def sender(cell: Cell, node: str, action: str, states: str) -> Profile:
 
 
 def people(cell: Cell) -> Iterator[Profile]:
-    """Yield the rights of what people type: to look at everything, and to activate the managed nodes that move.
+    """Yield the rights of manual commands: to read everything, and to activate the managed nodes that move.
 
-    Nobody publishes, calls an action or switches a controller from a shell.
+    A shell may not publish, call an action or switch a controller.
     """
     topics = (interface.name for interface in cell.interfaces if interface.kind is InterfaceKind.TOPIC)
     actions = (interface.name for interface in cell.interfaces if interface.kind is InterfaceKind.ACTION)

@@ -192,7 +192,7 @@ def device_joint(joint: Joint, limits: DeviceJoint | None) -> Element:
 
 def _limit(joint: DeviceJoint) -> Element:
     # urdfdom refuses a limit that lacks effort or velocity; a continuous joint has no lower and upper. A joint without
-    # one of them is excused and commanded by nobody: it is told to have none.
+    # one of them is excused and has no commander: its limit is written as 0.
     values = {"lower": joint.lower, "upper": joint.upper} if joint.type != "continuous" else {}
     values |= {"velocity": joint.velocity or 0.0, "effort": joint.effort or 0.0}
     return element("limit", {name: shortest(value) for name, value in values.items() if value is not None})

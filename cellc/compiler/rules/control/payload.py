@@ -115,7 +115,7 @@ def payload_set_too_late(graph: CellGraph) -> Findings:
         path = (*device.path, "payload", "set_by")
         if not device.robot.payload_service:
             yield found(graph, path, f"no service tells `{device.name}` its payload")
-        elif device.robot.ways and (device.program is None or device.program.mode == "local"):
+        elif device.robot.start_modes and (device.program is None or device.program.mode == "local"):
             message = f"`{device.name}` is in local mode, and refuses a payload by service before its program runs"
             yield found(graph, path, message)
 

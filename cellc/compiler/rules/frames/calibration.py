@@ -196,7 +196,7 @@ def unused_calibration(graph: CellGraph) -> Findings:
     for name in graph.cell.calibrations:
         if name not in used:
             message = f"no frame uses calibration `{name}`"
-            # Links, boxes and the world are designed, too, and nobody measures them.
+            # Links, boxes and the world are designed, too, but are never measured.
             designed = [frame for frame in graph.cell.frames if frame.designed and frame.kind is FrameKind.FIXED]
             related = tuple(Related("designed, without a measurement", frame.span) for frame in designed)
             yield found(graph, ("calibrations", name), message, related=related)

@@ -24,7 +24,7 @@ def drop_at_power_loss(graph: CellGraph) -> Findings:
 def impossible_program(graph: CellGraph) -> Findings:
     """Yield devices whose controller has no such mode of starting a program."""
     for device in graph.cell.devices:
-        program, modes = device.program, device.robot.ways
+        program, modes = device.program, device.robot.start_modes
         if program is None:
             continue
         path = (*device.path, "program")
@@ -90,7 +90,7 @@ def _refused_state(device: Device, hardware: HardwareComponent) -> str:
             return f"{said} the effect of its activation is not stated"
         if hardware.moves_as_it_is_activated:
             return f"{said} its activation {hardware.effects[Moment.ACTIVATE].does.split('; ')[0]}"
-    if hardware.at_once and device.initial_state != hardware.initial_state:
+    if hardware.direct_activation and device.initial_state != hardware.initial_state:
         return f"{said} it must become active in one call from `{hardware.initial_state}`"
     return ""
 
