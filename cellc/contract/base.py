@@ -13,7 +13,7 @@ Json: TypeAlias = Union[bool, int, float, str, list["Json"], dict[str, "Json"], 
 
 
 class ContractModel(BaseModel):
-    """A part of the format between the compiler and whoever executes what it made."""
+    """A part of the format between the compiler and any program that executes its packages."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 

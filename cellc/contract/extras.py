@@ -56,7 +56,7 @@ def gate(extra: Extra) -> Iterator[None]:
         module = (missing.name or "").partition(".")[0]
         if module not in extra.modules:
             raise
-        # Whoever runs cellc from a checkout has no index with cellc in it, and may not have activated its environment.
+        # A checkout has no package index with cellc in it, and its environment may not be activated.
         pip = shlex.join([sys.executable or "python", "-m", "pip", "install", *extra.requirements])
         text = f"{extra.asked_by} needs the package `{module}`, which is not installed; install it with `{pip}`"
         raise MissingExtraError(text) from None

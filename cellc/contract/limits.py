@@ -43,8 +43,8 @@ class Row:
 
 
 def _row(default: int, unit: str, highest: int, bounds: str) -> int:
-    found: int = field(default=default, metadata={"row": Row(unit, bounds, highest)})
-    return found
+    row: int = field(default=default, metadata={"row": Row(unit, bounds, highest)})
+    return row
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

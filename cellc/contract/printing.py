@@ -1,8 +1,8 @@
-"""The one door to standard output and standard error: nobody else prints.
+"""The only module that writes to standard output and standard error.
 
-Every text that comes here is untrusted. It is shown on its line, with an escape for each character that
-hides text or steers a terminal, and no line of it is a command to the program that runs CI. Colors are ours and are
-passed beside the text. Escape sequences: ECMA-48, SGR.
+Every text is untrusted. It stays on its line, with an escape for each character that hides text or controls a terminal,
+and no line of it can be a command to the program that runs CI. Colors are ours and are passed beside the text. Escape
+sequences: ECMA-48, SGR.
 """
 
 from __future__ import annotations
@@ -66,8 +66,8 @@ class WorkflowCommand:
 
     def text(self) -> str:
         """Return the line."""
-        told = ",".join(f"{key}={_of_property(str(value))}" for key, value in self.properties.items())
-        return f"::{self.name} {told}::{'%0A'.join(_of_message(line) for line in self.message)}"
+        properties = ",".join(f"{key}={_of_property(str(value))}" for key, value in self.properties.items())
+        return f"::{self.name} {properties}::{'%0A'.join(_of_message(line) for line in self.message)}"
 
 
 def _of_message(text: str) -> str:
@@ -184,21 +184,21 @@ def overheard() -> Iterator[list[str]]:
     from cellc.contract.store.swap import temporary_file  # most commands ask no such library
 
     lines: list[str] = []
-    with _terminal, temporary_file() as kept:
+    with _terminal, temporary_file() as file:
         before: dict[int, int] = {}
         try:
             for descriptor in (1, 2):
                 with suppress(OSError):  # closed by the caller
                     before[descriptor] = os.dup(descriptor)
             for descriptor in before:
-                os.dup2(kept.fileno(), descriptor)
+                os.dup2(file.fileno(), descriptor)
             yield lines
         finally:
-            for descriptor, own in before.items():
-                os.dup2(own, descriptor)
-                os.close(own)
-            kept.seek(0)
-            lines += kept.read(_HEARD_BYTES).decode(errors="backslashreplace").splitlines()
+            for descriptor, copy in before.items():
+                os.dup2(copy, descriptor)
+                os.close(copy)
+            file.seek(0)
+            lines += file.read(_HEARD_BYTES).decode(errors="backslashreplace").splitlines()
 
 
 def wants_color(is_terminal: bool, environment: Mapping[str, str]) -> bool:
@@ -228,7 +228,7 @@ def run_to_end(run: Callable[[], int]) -> int:
         code = run()
         sys.stdout.flush()
         return code
-    except BrokenPipeError:  # the reader of our output went away (`cellc show … | head`)
+    except BrokenPipeError:  # the reader of our output has closed it (`cellc show … | head`)
         drop_output()
         return CLOSED_PIPE
     except OSError as error:
@@ -302,7 +302,7 @@ def progress(
 
 
 def stage(text: str) -> None:
-    """Tell which stage a command is in, where its progress is shown; nothing is told anywhere else."""
+    """Show the stage of a command where its progress is shown; elsewhere do nothing."""
     if _progress is not None:
         _progress.stage(text)
 
@@ -338,12 +338,12 @@ class _ProgressLine:
             threading.Thread(target=self._watch, daemon=True).start()
 
     def begin(self, label: str) -> None:
-        """Go one deeper: label, step and stage are told from now on."""
+        """Enter a level: label, step and stage are shown from now on."""
         with self._lock:
             self._told.append([label, "", ""])
 
     def end(self) -> None:
-        """Come back to what was told before."""
+        """Leave a level: the level above is shown again."""
         with self._lock:
             self._told.pop()
 
@@ -361,7 +361,7 @@ class _ProgressLine:
                 self._show()
 
     def hide(self) -> None:
-        """Leave the terminal as it was; what is told shows again when it changes, or some time later."""
+        """Clear the line; progress shows again when it changes, or some time later."""
         with self._lock:
             if self._drawn:
                 self._draw("")
@@ -372,7 +372,7 @@ class _ProgressLine:
         self.hide()
 
     def _watch(self) -> None:
-        """Show what is told when nobody calls for a long time: one cell with heavy meshes is one step."""
+        """Show progress without a call for a long time: one cell with heavy meshes is one step."""
         while not self._closed.wait(_LOOK_S):
             with self._lock, suppress(OSError, ValueError):  # a terminal that was closed
                 if not self._closed.is_set():

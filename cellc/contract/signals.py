@@ -19,7 +19,7 @@ from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import TypeVar
 
-# SIGHUP: the terminal was closed. SIGXCPU: the limit of processor time, told once a second from then on (Linux).
+# SIGHUP: the terminal was closed. SIGXCPU: limit of processor time, sent once a second from then on (Linux).
 # Not SIGPIPE, which Python ignores: writing to a closed pipe raises BrokenPipeError instead.
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU")
 STOPPING = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
@@ -77,8 +77,8 @@ def run_program(run: Callable[[], int]) -> int:
         try:
             return run()
         finally:
-            # From here on a signal changes nothing: Python gives handlers back to the system as it ends, and one that
-            # came then would kill a process that has done all its work.
+            # Ignore signals from here on: Python restores the default handlers at its exit, and a late signal would
+            # kill a process that has completed its work.
             _watch.over = True
             _ignore()
     except Stopped as stop:
@@ -93,7 +93,7 @@ def run_program(run: Callable[[], int]) -> int:
 
 
 def drop_output() -> None:
-    """Keep Python from waiting at its end for somebody who takes the output, and from complaining of nobody."""
+    """Keep Python at its exit from waiting for a reader of the output, and from reporting a closed one."""
     with suppress(OSError, ValueError, AttributeError):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())

@@ -16,12 +16,12 @@ Axis = Literal["x", "y", "z", "rx", "ry", "rz", "offset"]
 
 
 class UncertainQuantity(ContractModel):
-    """One number that each run draws again.
+    """One random number, drawn for each run: m for (x, y, z), rad for (rx, ry, rz), s for a clock.
 
-    ``calibration``: the frame ``target`` really is displaced along (x, y, z), or turned about (rx, ry, rz), an axis
-    of its own; so do ``place``, where something lies that nobody looks at, and ``repeatability``, the tip of an arm.
-    Several of one frame add up. ``region``: the object that frame ``target`` follows lies displaced along, or is turned
-    about, an axis of the parent of its simulated pose. ``clock``: the clock ``target`` reads so much more.
+    ``calibration``: real offset of frame ``target`` along or about one of its own axes. ``place``: the same for an
+    object that no camera observes. ``repeatability``: the same for the tip of an arm. Several of one frame add up.
+    ``region``: offset of the object that frame ``target`` follows, along or about an axis of the parent of its
+    simulated pose. ``clock``: offset of the reading of clock ``target``.
     """
 
     name: str = Field(description="Name in reports.")

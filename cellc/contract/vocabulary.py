@@ -233,7 +233,7 @@ class Need(Term):
 
     BRAKES_OPEN = "brakes_open"
     INTERFACE_ENABLED = "interface_enabled"
-    """The device was told by a person to take commands of a computer at all."""
+    """A person has set the device to accept commands from a computer."""
     PROGRAM_RUNNING = "program_running"
     PROGRAM_STOPPED = "program_stopped"
     """No program waits for set points that would be late."""

@@ -16,7 +16,6 @@ from cellc.mock.bus.stream import StreamEdge
 from cellc.mock.bus.timers import StreamDeadline
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
-from cellc.mock.coming_up import played
 from cellc.mock.control import ControllerManager, DeclaredInterfaces, JointFault, Noise
 from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
@@ -36,6 +35,7 @@ from cellc.mock.nodes.perception import (
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.plant import Plant, TaskNode
+from cellc.mock.real_bring_up import played
 from cellc.mock.reality import AS_STATED, Displacement, Reality
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
@@ -146,7 +146,7 @@ def assemble(
     )
     control.listen(plant.effects.hear)
     if bring_up == "real":
-        plant.effects.come_up(folder.real_bring_up)
+        plant.effects.bring_up(folder.real_bring_up)
     clocks.listen(partial(_note_jump, plant))
     images = _add_cameras(plant)
     tf = TfBroadcast(contract.interfaces.get(TF), task.name, network, simulation)

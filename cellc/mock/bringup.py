@@ -107,8 +107,8 @@ class PlanTaker:
             until_ns = self._plant.now_ns + self._plant.effects.activate(asked.component)
             while self._plant.now_ns < until_ns:
                 yield Wait(until_ns)
-            told = (f"hardware component `{asked.component}` is {answer.state or 'unknown'}",)
-            facts, problems = (told, ()) if answer.ok else ((), told)
+            states = (f"hardware component `{asked.component}` is {answer.state or 'unknown'}",)
+            facts, problems = (states, ()) if answer.ok else ((), states)
         elif isinstance(asked, Comparison):
             facts = (f"step `{step.name}` believes that {len(asked.parts)} parts of the tuple are installed as pinned",)
         elif asked is not None:

@@ -34,14 +34,14 @@ def not_executed(folder: GeneratedFolder) -> tuple[str, ...]:
 
 def refuse_not_executed(folder: GeneratedFolder) -> None:
     """Raise MockError where a file was edited or removed that no run executes."""
-    found = not_executed(folder)
-    if not found:
+    files = not_executed(folder)
+    if not files:
         return
-    others = ", ".join(f"`{name}`" for name in found[1:_SHOWN])
-    more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
+    others = ", ".join(f"`{name}`" for name in files[1:_SHOWN])
+    more = f" and {len(files) - _SHOWN} more" if len(files) > _SHOWN else ""
     also = f", as {others}{more}" if others else ""
     reason = f"was edited or removed by hand{also}, and is not executed, so that no run would show it"
-    raise MockError(found[0], f"{reason}; put it back, or build the folder again")
+    raise MockError(files[0], f"{reason}; put it back, or build the folder again")
 
 
 def notes_on(folder: GeneratedFolder) -> Iterator[str]:

@@ -27,12 +27,12 @@ from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Reality
 from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageEvidence
-from cellc.mock.standing import StandingMemory, comes_up_alike
+from cellc.mock.snapshot import SnapshotMemory, has_same_bring_up
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task
 
 Watch = Callable[[Plant], None]
-"""Called with the plant before anything runs, so that whoever keeps evidence can listen from the first cycle on."""
+"""Called with the plant before anything runs, so that recorders of evidence can listen from the first cycle on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ class _Run:
         watch: sees the plant first; it may listen, and must not change anything. It sees another plant where the run
             is made again.
         reality: where the cell differs from what its folder says.
-        standing: copies of the cell that the run may begin with; None where it must begin with a cell that is off.
+        snapshots: copies of the cell that the run may begin with; None where it must begin with a cell that is off.
     """
 
     folder: GeneratedFolder
@@ -52,7 +52,7 @@ class _Run:
     seed: int
     watch: Watch | None
     reality: Reality
-    standing: StandingMemory | None
+    snapshots: SnapshotMemory | None
 
     def result(self) -> RehearsalResult:
         """Run the rehearsal to its named end.
@@ -71,7 +71,7 @@ class _Run:
 
     def _ended(self) -> RehearsalResult:
         try:
-            return self._executed(may_oversleep=self.standing is not None and not self.rehearsal.faults)
+            return self._executed(may_oversleep=self.snapshots is not None and not self.rehearsal.faults)
         except OversleptError:
             return self._executed(may_oversleep=False)
 
@@ -79,8 +79,8 @@ class _Run:
         rehearsal = self.rehearsal
         injections = [Injection(entry, build_fault(entry, self.folder.contract)) for entry in rehearsal.faults]
         alike = rehearsal.bring_up == "mock" and all(entry.phase is None for entry in rehearsal.faults)
-        standing = self.standing if alike else None
-        copied = None if standing is None else self._resumed(standing)
+        snapshots = self.snapshots if alike else None
+        copied = None if snapshots is None else self._resumed(snapshots)
         if copied is not None:
             plant, evidence = copied
             return _run_task(plant, fault_ports(plant), rehearsal, self.seed, injections, evidence, may_oversleep)
@@ -97,10 +97,10 @@ class _Run:
             if injection.entry.phase is not None:
                 injection.schedule(ports, plant.now_ns)
         bringup = Bringup(plant)
-        if standing is None:
+        if snapshots is None:
             plant.simulation.run_process(bringup.run())
         else:
-            standing.bring_up(plant, bringup)
+            snapshots.bring_up(plant, bringup)
         evidence = tuple(bringup.evidence)
         if not bringup.passed:
             failed = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
@@ -108,13 +108,13 @@ class _Run:
             return _not_up(rehearsal, evidence, _findings(plant), outcome)
         return _run_task(plant, ports, rehearsal, self.seed, injections, evidence, may_oversleep)
 
-    def _resumed(self, standing: StandingMemory) -> tuple[Plant, tuple[StageEvidence, ...]] | None:
+    def _resumed(self, snapshots: SnapshotMemory) -> tuple[Plant, tuple[StageEvidence, ...]] | None:
         """Return a plant that is after its bring-up; None where it must be brought up."""
-        known = standing.get()
+        known = snapshots.get()
         if known is None:
             return None
         plant = assemble(self.folder, self.memory, self.seed, "mock", self.reality, known.control())
-        if not comes_up_alike(plant):
+        if not has_same_bring_up(plant):
             return None
         if self.watch is not None:
             self.watch(plant)
@@ -133,22 +133,22 @@ def _run_task(
     may_oversleep: bool,
 ) -> RehearsalResult:
     """Inject the faults at their times, and run the task to its named end."""
-    begun_ns = plant.now_ns
+    start_ns = plant.now_ns
     if rehearsal.bring_up == "real":
-        plant.effects.end_coming_up()
+        plant.effects.operator_takes_over()
     for injection in injections:
         if injection.entry.phase is None:
-            injection.schedule(ports, begun_ns)
+            injection.schedule(ports, start_ns)
     disturbed = partial(any_started, injections)
-    deadline_ns = begun_ns + round(rehearsal.timeout_s * 1e9)
+    deadline_ns = start_ns + round(rehearsal.timeout_s * 1e9)
     task = Task(rehearsal, TaskContext(plant, deadline_ns, seed, disturbed, may_oversleep))
     plant.simulation.run_process(task.run())
-    absent = tuple(injection.describe_absence() for injection in injections if injection.begun_ns is None)
+    absent = tuple(injection.describe_absence() for injection in injections if injection.start_ns is None)
     return RehearsalResult(
         name=rehearsal.name,
         outcome=task.outcome,
         expected=rehearsal.expect,
-        sim_time_s=(plant.now_ns - begun_ns) / 1e9,
+        sim_time_s=(plant.now_ns - start_ns) / 1e9,
         response_s=_response_s(injections, task.records),
         within_s=rehearsal.within_s,
         attempts=tuple(task.records),
@@ -170,9 +170,9 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
     ended = next((record for record in attempts if record.outcome != AttemptOutcome.SUCCEEDED), attempts[-1])
     # What began after that end did not cause it.
     begun = [
-        injection.begun_ns
+        injection.start_ns
         for injection in injections
-        if injection.begun_ns is not None and injection.begun_ns <= ended.ended_ns
+        if injection.start_ns is not None and injection.start_ns <= ended.ended_ns
     ]
     if not begun:
         return None
@@ -231,7 +231,7 @@ class MockCell:
         """Bind what ``load`` has read; ``realities`` has what is different in rehearsals of these names."""
         self._folder = folder
         self._memory = memory
-        self._standing = StandingMemory()
+        self._snapshots = SnapshotMemory()
         self._realities = realities or {}
 
     def with_realities(self, folder: GeneratedFolder, realities: Mapping[str, Reality]) -> MockCell:
@@ -269,25 +269,25 @@ class MockCell:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """How the folder differs from its manifest, and which links nobody sees, one line each."""
-        return (*self._folder.notes, *self._told_unseen())
+        """How the folder differs from its manifest, and which links have no collision mesh, one line each."""
+        return (*self._folder.notes, *self._unseen_notes())
 
-    def _told_unseen(self) -> Iterator[str]:
+    def _unseen_notes(self) -> Iterator[str]:
         """Yield the links whose meshes are not there: those first that move, for they may hit anything."""
         model = self._memory.model
-        told = (
+        lines = (
             f"{len(links)} that {word}, {', '.join(f'`{link}`' for link in links[:_SHOWN])}"
             for word, stand in (("move", False), ("stand", True))
-            if (links := [link for link in model.unseen if model.links.stands(link) is stand])
+            if (links := [link for link in model.unseen if model.links.is_fixed(link) is stand])
         )
-        if named := "; ".join(told):
+        if named := "; ".join(lines):
             yield f"these links are not checked for collision, because their meshes are missing: {named}"
 
     def entry(self, rehearsal: str) -> RehearsalEntry:
         """Return a rehearsal of the folder.
 
         Raises:
-            MockError: there is none of this name.
+            MockError: no rehearsal has this name.
         """
         for entry in self.entries:
             if entry.name == rehearsal:
@@ -322,8 +322,8 @@ class MockCell:
             MockError: it names what the contract does not have.
         """
         known = self._realities.get(entry.name, AS_STATED) if reality is None else reality
-        standing = None if from_off and watch is not None else self._standing
-        return _Run(self._folder, self._memory, entry, seed, watch, known, standing).result()
+        snapshots = None if from_off and watch is not None else self._snapshots
+        return _Run(self._folder, self._memory, entry, seed, watch, known, snapshots).result()
 
 
 def load(folder: Path, *, edited: bool = False) -> MockCell:

@@ -25,7 +25,7 @@ STALE = 0.01
 REACTION_NS = 20_000_000
 """A message of the robot, and a request to its controller manager: so much later a watch lets go of its claims."""
 JOGGED = 0.03
-"""rad or m: below what a robot ignores as too far, above what nobody would see."""
+"""rad or m: small enough for the robot not to ignore it, large enough to be seen."""
 STARTED_AFTER_NS = 300_000_000
 LOCKED_NS = 3_000_000_000
 """Seconds, says the source of a gripper that is asked every second whether it has come to an end of its stroke."""
@@ -62,7 +62,7 @@ class UncommandedMotion:
 
 
 class Effects:
-    """What holds of each device now, and what came of it.
+    """Which needs of each device hold now, and the consequences.
 
     Attributes:
         motions: motions without a command.
@@ -83,7 +83,7 @@ class Effects:
         self._simulation = simulation
         self._unmet: dict[str, set[Need]] = {}
         self._phase = BringUpPhase.START
-        self._coming_up = False
+        self._bringing_up = False
         self._waiting: defaultdict[BringUpPhase, list[Action]] = defaultdict(list)
 
     @property
@@ -106,15 +106,15 @@ class Effects:
         for action in self._waiting.pop(phase, []):
             action()
 
-    # -- coming up as the real target does ---------------------------------------------------------------------------
+    # -- bring-up as on the real target --------------------------------------------------------------------------------
 
-    def come_up(self, steps: Sequence[BringUpStep]) -> None:
-        """Let devices be as they are before anybody brings the real target up: brakes closed, no program running.
+    def bring_up(self, steps: Sequence[BringUpStep]) -> None:
+        """Put devices in their state before the bring-up of the real target: brakes closed, no program running.
 
         Args:
-            steps: of the real target; a claim that they do not prove a running program for comes before its start.
+            steps: of the real target; a claim without proof of a running program is made before the program starts.
         """
-        self._coming_up = True
+        self._bringing_up = True
         proven = {
             proof.topic for step in steps for proof in step.proof if isinstance(proof, TopicProof) and proof.field
         }
@@ -125,8 +125,8 @@ class Effects:
                 continue
             for need in late:
                 self.unmet(device, need)
-            told = any(device in self._publishers(topic) for topic in proven)
-            ready = [need for need in late if need is not Need.PROGRAM_RUNNING or told]
+            is_published = any(device in self._publishers(topic) for topic in proven)
+            ready = [need for need in late if need is not Need.PROGRAM_RUNNING or is_published]
             self.expect(BringUpPhase.CLAIM, partial(self._prepare, device, ready))
             states = {component.name: component.state for component in self._manager(device).list_hardware_components()}
             state = states[self._component(device)]
@@ -143,10 +143,10 @@ class Effects:
     def activate(self, component: str) -> int:
         """Let a component do what the activation of the real one does; return for how long, in nanoseconds."""
         device = next(
-            (name for name, one in self._contract.devices.items() if one.hardware_component == component), None
+            (name for name, device in self._contract.devices.items() if device.hardware_component == component), None
         )
         effect = None if device is None else self._facts(device).effects.get(Moment.ACTIVATE)
-        if not self._coming_up or device is None or effect is None:
+        if not self._bringing_up or device is None or effect is None:
             return 0
         gripper, manager, now_ns = self._facts(device).gripper, self._manager(device), self._simulation.now_ns
         if effect.motion in _MOVING and self._phase is not BringUpPhase.ACTIVATE:
@@ -169,9 +169,9 @@ class Effects:
         claim = self._facts(device).effects.get(Moment.CLAIM)
         return claim is not None and claim.needs.get(Need.PROGRAM_RUNNING) is Unmet.KEEPS_SET_POINTS
 
-    def end_coming_up(self) -> None:
-        """Let people do what they do once the cell is up: jog a robot whose program does not run yet, and start it."""
-        self._coming_up = False
+    def operator_takes_over(self) -> None:
+        """Act as the operator once the cell is up: jog a robot whose program does not run yet, then start it."""
+        self._bringing_up = False
         for history in self._control.histories.values():
             history.count_again()
         for device in self.silenced:
@@ -202,11 +202,11 @@ class Effects:
 
     def jog(self, device: str, joint: str, distance: float) -> None:
         """Let somebody move a joint of a silenced device by the pendant, rad or m, at the speed of a careful person."""
-        start, begun_ns = self._manager(device).joint_positions()[joint], self._simulation.now_ns
+        start, start_ns = self._manager(device).joint_positions()[joint], self._simulation.now_ns
         steps = max(1, round(abs(distance) / (JOG_SPEED * JOG_NS / 1e9)))
         for number in range(1, steps + 1):
             place = partial(self._place, device, joint, start + distance * number / steps)
-            self._simulation.at(begun_ns + number * JOG_NS, place)
+            self._simulation.at(start_ns + number * JOG_NS, place)
 
     def _place(self, device: str, joint: str, position: float) -> None:
         if not self._follows(device):
@@ -224,8 +224,8 @@ class Effects:
     def _needs(self, device: str, *otherwise: Unmet) -> set[Need]:
         """Return what a claim of a device needs and does not have, of which one of these comes."""
         claim = self._facts(device).effects.get(Moment.CLAIM)
-        told = {} if claim is None else claim.needs
-        return {need for need in self._unmet.get(device, ()) if told.get(need) in otherwise}
+        needs = {} if claim is None else claim.needs
+        return {need for need in self._unmet.get(device, ()) if needs.get(need) in otherwise}
 
     def _follows(self, device: str) -> bool:
         return not self._needs(device, Unmet.KEEPS_SET_POINTS)
@@ -268,7 +268,7 @@ class Effects:
     # -- set points --------------------------------------------------------------------------------------------------
 
     def _fall_silent(self, device: str) -> None:
-        """Let set points no longer reach a device: it stops, and whoever watches it hears of it."""
+        """Stop set points from reaching a device: it stops, and its watches report it."""
         manager = self._manager(device)
         manager.disturbances.ignore_commands(self._component(device))
         manager.disturbances.rest(self._component(device))
@@ -297,7 +297,10 @@ class Effects:
 
     def _let_go(self, watch: Watch, why: str) -> None:
         name, manager = self._watched(watch)
-        keys = {one.full_name.rpartition("/")[2]: key for key, one in self._contract.managers[name].controllers.items()}
+        keys = {
+            controller.full_name.rpartition("/")[2]: key
+            for key, controller in self._contract.managers[name].controllers.items()
+        }
         active = {entry.name for entry in manager.list_controllers() if entry.state == "active"}
         claims = [key for key in (keys.get(each, each) for each in watch.controllers) if key in active]
         if claims:
@@ -318,7 +321,7 @@ class Effects:
             self.given_up.pop(event.controller, None)
 
     def _listen_again(self, device: str) -> None:
-        """Let set points reach a device again: those of its claims, however old; without a claim there are none."""
+        """Let set points reach a device again: those of its claims, however old."""
         manager, component = self._manager(device), self._component(device)
         claims, positions = self._claims(device), manager.joint_positions()
         self._scale(device, 1.0)

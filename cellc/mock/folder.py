@@ -156,9 +156,9 @@ def _bring_up(folder: Path, contract: Contract) -> BringUp:
 def _described(urdf: str, file: str) -> Description:
     read = read_urdf(urdf, file)
     if read.value is None:
-        found = read.diagnostics[0]
-        advice = f"; {found.help}" if "--limit" in found.help else ""
-        raise MockError(file, f"line {found.span.line}: {found.message}{advice}")
+        problem = read.diagnostics[0]
+        advice = f"; {problem.help}" if "--limit" in problem.help else ""
+        raise MockError(file, f"line {problem.span.line}: {problem.message}{advice}")
     return read.value
 
 
@@ -171,10 +171,10 @@ def _refuse_unexported(contract: Contract, description: Description) -> None:
         for interface in part.state_interfaces
     }
     for name, device in contract.devices.items():
-        told = device.speed_scaling_interface
-        if told is not None and told not in exported:
+        scaling = device.speed_scaling_interface
+        if scaling is not None and scaling not in exported:
             path = f"devices.{name}.speed_scaling_interface"
-            message = f"must have the state interface of `{path}` of the contract, got no `{told}`"
+            message = f"must have the state interface of `{path}` of the contract, got no `{scaling}`"
             raise MockError(contract.files.urdf_mock, message)
 
 
@@ -184,8 +184,8 @@ def _allowed_collisions(folder: Path, file: str | None) -> Iterator[tuple[str, s
         return
     read = read_xml(read_text(folder, file), file)
     if read.value is None:
-        found = read.diagnostics[0]
-        raise MockError(file, f"line {found.span.line}: {found.message}")
+        problem = read.diagnostics[0]
+        raise MockError(file, f"line {problem.span.line}: {problem.message}")
     for pair in read.value.all("disable_collisions"):
         first, second = (pair.attributes.get(name) for name in ("link1", "link2"))
         if first is None or second is None:
@@ -197,17 +197,19 @@ def _refuse_dangling(contract: Contract) -> None:
     """Refuse a name in the contract of a group, device or controller that it does not have."""
     named = [(f"goals.{name}.group", goal.group) for name, goal in contract.goals.items()]
     named += [
-        (f"poses.{name}[{at}].group", one.group) for name, pose in contract.poses.items() for at, one in enumerate(pose)
+        (f"poses.{name}[{at}].group", target.group)
+        for name, pose in contract.poses.items()
+        for at, target in enumerate(pose)
     ]
     for path, group in named:
         if group not in contract.groups:
             raise MockError(CONTRACT_FILE, f"`{path}` must be a group of the contract, got `{group}`")
     for name, pose in contract.poses.items():
-        for at, one in enumerate(pose):
-            wanted = len(contract.groups[one.group].joints)
-            if len(one.positions) != wanted:
+        for at, target in enumerate(pose):
+            wanted = len(contract.groups[target.group].joints)
+            if len(target.positions) != wanted:
                 path = f"poses.{name}[{at}].positions"
-                raise MockError(CONTRACT_FILE, f"`{path}` must be {wanted} positions, got {len(one.positions)}")
+                raise MockError(CONTRACT_FILE, f"`{path}` must be {wanted} positions, got {len(target.positions)}")
     _refuse_unknown_servers(contract)
     for of, manager in contract.managers.items():
         for name, controller in manager.controllers.items():
@@ -275,9 +277,9 @@ def _read_bytes(folder: Path, name: str) -> bytes:
 
 def _refuse_hidden(name: str, text: str) -> None:
     """Refuse a text that hides something from who reads it; what the compiler writes does not."""
-    found = hidden_in_json(text) if name.endswith(".json") else hidden_on_line(text)
-    if found is not None:
-        raise MockError(name, f"line {found[0]}: {found[1]}")
+    hidden = hidden_in_json(text) if name.endswith(".json") else hidden_on_line(text)
+    if hidden is not None:
+        raise MockError(name, f"line {hidden[0]}: {hidden[1]}")
 
 
 def _inside(folder: Path, name: str) -> Path:
@@ -294,8 +296,12 @@ def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[t
     Raises:
         MockError: the manifest names a file outside of the folder, or more of them than may be read.
     """
-    own, of_manifest = contract.configuration_id, manifest.configuration_id
-    notes = [] if own == of_manifest else [f"`{MANIFEST_FILE}` belongs to configuration `{of_manifest}`, not `{own}`"]
+    of_contract, of_manifest = contract.configuration_id, manifest.configuration_id
+    notes = (
+        []
+        if of_contract == of_manifest
+        else [f"`{MANIFEST_FILE}` belongs to configuration `{of_manifest}`, not `{of_contract}`"]
+    )
     edits: list[str] = []
     total, most = 0, limits().folder_total_bytes
     held = hashlib.sha256()
@@ -329,7 +335,7 @@ def named_files(contract: Contract) -> Iterator[str]:
 
 def path_tolerances(parameters: Mapping[str, str]) -> dict[str, float]:
     """Return `constraints.<joint>.trajectory` of the parameter files, of each joint that has one above zero."""
-    return dict(found for text in parameters.values() for found in _tolerances(text))
+    return dict(tolerance for text in parameters.values() for tolerance in _tolerances(text))
 
 
 def _tolerances(text: str) -> Iterator[tuple[str, float]]:

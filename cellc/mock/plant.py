@@ -1,6 +1,6 @@
 """Everything that runs in one rehearsal, each part with its owner.
 
-Whoever is handed less does not take a plant: faults get `faults.ports.FaultPorts`, nodes get what they are built from.
+Code that needs less does not take a plant: faults get `faults.ports.FaultPorts`, nodes get their own inputs.
 """
 
 from __future__ import annotations

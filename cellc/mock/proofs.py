@@ -77,7 +77,7 @@ class Proofs:
         The contract calls controllers that several managers have by their full names.
         """
         declared = self._plant.contract.managers[self.managers[manager]].controllers
-        return {one.full_name.rpartition("/")[2]: key for key, one in declared.items()}
+        return {controller.full_name.rpartition("/")[2]: key for key, controller in declared.items()}
 
     def _of(self, proof: Proof) -> str:
         if isinstance(proof, NodeProof):
@@ -93,8 +93,8 @@ class Proofs:
         if isinstance(proof, ActionProof):
             return self._action(proof)
         if isinstance(proof, TransformProof):
-            found = self._connected(proof.parent) & self._connected(proof.child)
-            return "" if found else f"no transform from {proof.parent} to {proof.child}"
+            connected = self._connected(proof.parent) & self._connected(proof.child)
+            return "" if connected else f"no transform from {proof.parent} to {proof.child}"
         return self._mock(proof) if isinstance(proof, MockProof) else ""  # two cells never run in one mock
 
     def _has_node(self, node: str) -> bool:
@@ -149,14 +149,14 @@ class Proofs:
         named = {
             name for history in self._plant.control.histories.values() if len(history.stamps) for name in history.names
         }
-        found: set[str] = set()
-        while frame in frames and frame not in found:
-            found.add(frame)
+        connected: set[str] = set()
+        while frame in frames and frame not in connected:
+            connected.add(frame)
             joint = joints.get(frame)
             if joint is not None and joint.moves and (joint.follows or joint.name) not in named:
                 break
             frame = frames[frame].parent
-        return found
+        return connected
 
     def _mock(self, proof: MockProof) -> str:
         name = proof.node.rpartition("/")[2]

@@ -1,7 +1,7 @@
-"""How a run differs from what its folder says: where things really stand, what clocks read, and how near a tip came.
+"""How a run differs from its folder: real poses, readings of clocks, and the distance from tip to goal.
 
-The description, TF and the planner keep what the folder says: that is what a robot believes. The world alone has what
-is really there, so that a wrong calibration moves the robot to a wrong place, as it does in the real cell.
+The description, TF and the planner keep the poses of the folder: what the robot assumes. Only the world has the real
+poses, so that a wrong calibration moves the robot to a wrong place, as in the real cell.
 """
 
 from __future__ import annotations

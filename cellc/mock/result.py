@@ -110,11 +110,11 @@ class AttemptRecord:
     def made(self) -> dict[PacketStep, MadeStep]:
         """The steps that were made, in their order."""
         stamps = {point.step: point.stamp_ns for point in self.trace}
-        before_ns, made = self.started_ns, {}
+        before_ns, steps = self.started_ns, {}
         for step in (step for step in PacketStep if step in stamps):
-            made[step] = MadeStep(stamps[step], (stamps[step] - before_ns) / 1e9)
+            steps[step] = MadeStep(stamps[step], (stamps[step] - before_ns) / 1e9)
             before_ns = max(before_ns, stamps[step])
-        return made
+        return steps
 
 
 def to_json_line(record: AttemptRecord) -> str:
@@ -194,7 +194,10 @@ class RehearsalResult:
         *attempts, end = self.attempts or (None,)
         if end is None or not end.fault_code:
             return ""
-        number = max((at for at, one in enumerate(attempts, 1) if one and one.fault_code == end.fault_code), default=0)
+        number = max(
+            (at for at, attempt in enumerate(attempts, 1) if attempt and attempt.fault_code == end.fault_code),
+            default=0,
+        )
         return f"{self._step(number)}: {end.fault_code}" if number else end.fault_code
 
     def _step(self, number: int) -> str:
@@ -218,8 +221,8 @@ class RehearsalResult:
         return self.outcome == self.expected and self.in_time and not self.vacuous
 
     def __repr__(self) -> str:
-        told = f"{self.outcome.value} (expected {self.expected.value}), {self.sim_time_s:.2f} s simulated"
-        return escaped(f"<RehearsalResult {self.title}: {told}>")
+        text = f"{self.outcome.value} (expected {self.expected.value}), {self.sim_time_s:.2f} s simulated"
+        return escaped(f"<RehearsalResult {self.title}: {text}>")
 
     def _repr_html_(self) -> str:
         rows = (

@@ -51,13 +51,13 @@ class Stops:
 
     def present(self) -> tuple[Stop, ...]:
         """Return the components that are stopped, the gravest first."""
-        found = [
+        stops = [
             Stop(
                 component, self._states.get(component, PROTECTIVE_STOP if lifecycle == "inactive" else FAULT), lifecycle
             )
             for component, lifecycle in self._control.unready_hardware.items()
         ]
-        return tuple(sorted(found, key=lambda stop: (_RANK.index(stop.state), stop.component)))
+        return tuple(sorted(stops, key=lambda stop: (_RANK.index(stop.state), stop.component)))
 
     def state(self) -> str:
         """Return the safety state of the cell."""
@@ -65,7 +65,7 @@ class Stops:
         return present[0].state if present else NORMAL
 
     def lasting(self) -> tuple[Stop, ...]:
-        """Return the stops whose cause is not over, so that nobody can acknowledge them."""
+        """Return the stops that cannot be acknowledged, because their cause persists."""
         return tuple(stop for stop in self.present() if self._causes.get(stop.component, 0) > 0)
 
     def recover(self) -> None:

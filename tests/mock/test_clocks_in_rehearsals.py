@@ -129,10 +129,10 @@ def test_transforms_after_a_long_step_back_are_refused_as_old_data(cell: MockCel
 
 
 def test_recording_clears_the_buffer_and_lets_everybody_live_in_its_time(cell: MockCell) -> None:
-    begun_ns = 1_000_000 * SECOND
-    result, plant = rehearse(cell, {0.6: lambda plant: plant.clocks.replay(begun_ns)})
+    start_ns = 1_000_000 * SECOND
+    result, plant = rehearse(cell, {0.6: lambda plant: plant.clocks.replay(start_ns)})
     assert "Detected time source change. Clearing TF buffer." in result.findings
-    assert plant.clocks.now_ns("task") - begun_ns == plant.now_ns - round(0.6 * 1e9)
+    assert plant.clocks.now_ns("task") - start_ns == plant.now_ns - round(0.6 * 1e9)
 
 
 def test_recording_that_begins_anew_clears_the_buffer_again(cell: MockCell) -> None:

@@ -68,7 +68,7 @@ class Phase(str, Enum):
 
     UNCONFIGURED = "unconfigured"  # no connection
     INACTIVE = "inactive"  # connected: state is read, every command is refused
-    ACTIVE = "active"  # takes commands, holds while there are none
+    ACTIVE = "active"  # takes commands, holds without them
     STOPPED = "stopped"  # held by the watchdog, a fault or the vendor's safety; a person acknowledges
     FINALIZED = "finalized"  # disconnected for good
 
@@ -173,8 +173,8 @@ def _check_joint(joint: JointModel, position: float, before: float, period_s: fl
 class DeviceAdapter(Protocol):
     """One device behind its library; vendor structs stay on the far side.
 
-    Calls return immediately and never wait for motion. One client commands at a time: whoever serves the device's
-    action. An implementation passes `cellc.contract.adapter.conformance`.
+    Calls return immediately and never wait for motion. One client commands at a time: the node that serves the
+    device's action. An implementation passes `cellc.contract.adapter.conformance`.
     """
 
     @property

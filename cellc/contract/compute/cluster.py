@@ -60,12 +60,12 @@ def _executor(address: str, tell: Callable[[str], None], sent: Sent, units: int)
         raise _unanswered(address) from None
     try:
         with _in_words(address, KilledWorker):
-            told = client.submit(_same, sent, key=f"cellc-{sent.digest}", pure=True)
+            future = client.submit(_same, sent, key=f"cellc-{sent.digest}", pure=True)
             executor = client.get_executor(pure=False)
             max_in_flight = _HANDS_OF_A_WORKER * max(1, len(client.nthreads()))
 
             def submit(packet: Sequence[Any]) -> Future[Any]:
-                asked: Future[Any] = executor.submit(_answer, told, versions(), packet)
+                asked: Future[Any] = executor.submit(_answer, future, versions(), packet)
                 return asked
 
             packet = max(1, min(_PACKET, units // (2 * max_in_flight)))
@@ -88,12 +88,12 @@ def _find_scheduler(address: str) -> None:
         return await asyncio.wait_for(kind(), _CONNECTS_S)
 
     try:
-        found = asyncio.run(in_time())
+        scheduler = asyncio.run(in_time())
     except Exception as problem:  # whatever else listens there may answer anything
         if isinstance(problem, TypeError) and "ssl_context" in str(problem):
             raise ComputeError(f"`{address}` needs TLS, of which the configuration of Dask says nothing") from None
         raise _unanswered(address) from None
-    if found != "Scheduler":
+    if scheduler != "Scheduler":
         raise _unanswered(address)
 
 
@@ -166,8 +166,8 @@ def _answer(sent: Sent, expected: Mapping[str, str], units: Sequence[Any]) -> li
     Raises:
         ComputeError: it has another version of what computes.
     """
-    found = versions()
+    installed = versions()
     for name, wanted in expected.items():
-        if found[name] != wanted:
-            raise ComputeError(f"a worker has {name} {found[name]}, here is {wanted}; both must be the same")
+        if installed[name] != wanted:
+            raise ComputeError(f"a worker has {name} {installed[name]}, here is {wanted}; both must be the same")
     return answer(sent, units)

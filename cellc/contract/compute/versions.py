@@ -17,13 +17,13 @@ _PACKAGES = ("cellc", "numpy", "pin")
 @cache
 def versions() -> Mapping[str, str]:
     """Return what computes here; of cellc with a digest of its modules, since a version may be under work."""
-    found = {name: _version(name) for name in _PACKAGES}
+    installed = {name: _version(name) for name in _PACKAGES}
     digest = hashlib.sha256()
     root = Path(__file__).parents[2]
     for file in sorted(root.rglob("*.py")):
         digest.update(file.relative_to(root).as_posix().encode() + b"\0" + own_bytes(file))
-    found["cellc"] += f" ({digest.hexdigest()[:12]})"
-    return found
+    installed["cellc"] += f" ({digest.hexdigest()[:12]})"
+    return installed
 
 
 def difference(there: Mapping[str, object]) -> str:

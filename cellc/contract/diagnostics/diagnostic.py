@@ -125,8 +125,8 @@ class Diagnostic:
 
 def counted(diagnostics: Iterable[Diagnostic]) -> str:
     """Return such as ``2 errors, 1 blocker``, the worst first, or ``no findings``."""
-    found = Counter(diagnostic.severity for diagnostic in diagnostics)
-    return ", ".join(severity.counted(found[severity]) for severity in Severity if found[severity]) or "no findings"
+    counts = Counter(diagnostic.severity for diagnostic in diagnostics)
+    return ", ".join(severity.counted(counts[severity]) for severity in Severity if counts[severity]) or "no findings"
 
 
 def findings_table(caption: str, diagnostics: Iterable[Diagnostic]) -> str:
@@ -151,8 +151,8 @@ class Outcome(Generic[T]):
         return self.value is not None and not any(d.severity is Severity.ERROR for d in self.diagnostics)
 
     def __repr__(self) -> str:
-        made = "no value" if self.value is None else type(self.value).__name__
-        return f"<Outcome: {made}, {counted(self.diagnostics)}>"
+        kind = "no value" if self.value is None else type(self.value).__name__
+        return f"<Outcome: {kind}, {counted(self.diagnostics)}>"
 
     def _repr_html_(self) -> str:
         return findings_table(repr(self).strip("<>"), self.diagnostics)
@@ -174,7 +174,7 @@ class Findings:
     @property
     def ok(self) -> bool:
         """Whether nothing was found that stops artifacts."""
-        return all(found.severity is not Severity.ERROR for found in self.diagnostics)
+        return all(diagnostic.severity is not Severity.ERROR for diagnostic in self.diagnostics)
 
     def with_more(self, found: Iterable[Diagnostic]) -> Findings:
         """Add findings of a later stage."""

@@ -48,9 +48,9 @@ def _said(character: str) -> str:
 
 def hidden_on_line(text: str) -> tuple[int, str] | None:
     """Return the line of the first character that hides text, and say which, or None."""
-    told = text.replace("\r\n", "\n")
-    match = HIDDEN.search(told)
-    return None if match is None else (told.count("\n", 0, match.start()) + 1, _said(match[0]))
+    line = text.replace("\r\n", "\n")
+    match = HIDDEN.search(line)
+    return None if match is None else (line.count("\n", 0, match.start()) + 1, _said(match[0]))
 
 
 def hidden_in_json(text: str) -> tuple[int, str] | None:

@@ -19,7 +19,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from cellc.contract.store.cache_key import cache_key, came_with, is_private
+from cellc.contract.store.cache_key import cache_key, is_private, is_shipped_with
 from cellc.contract.store.regular_file import own_bytes, read_regular
 from cellc.contract.store.swap import remove_file, replace_whole
 from cellc.version import __version__
@@ -141,9 +141,9 @@ def recall(
     content = read_entry(name, asked_by)
     if content is not None:
         try:
-            kept = adapter.validate_json(content)
-            if adapter.dump_json(kept) == content:
-                return kept
+            recalled = adapter.validate_json(content)
+            if adapter.dump_json(recalled) == content:
+                return recalled
         except ValidationError:
             pass
         # Not as this program writes it: of another release whose code looked the same.
@@ -200,7 +200,7 @@ def write_entry(name: str, content: bytes, asked_by: Path | None = None) -> None
 def _place(name: str, asked_by: Path | None) -> tuple[Path, bytes] | None:
     """Return the file of an entry and the key of its signature; None where folders or key are not this user's alone."""
     folder = cache_folder()
-    if folder is None or came_with(folder, asked_by):
+    if folder is None or is_shipped_with(folder, asked_by):
         return None
     file = folder / name
     try:
@@ -223,7 +223,7 @@ def _prune(folder: Path) -> None:
     if folder.is_symlink() or len(os.listdir(folder)) <= MAX_ENTRIES:
         return
     with os.scandir(folder) as entries:
-        kept = [entry for entry in entries if _ENTRY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
-        by_age = sorted((entry.stat(follow_symlinks=False).st_mtime_ns, entry.path) for entry in kept)
+        answers = [entry for entry in entries if _ENTRY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False)]
+        by_age = sorted((entry.stat(follow_symlinks=False).st_mtime_ns, entry.path) for entry in answers)
     for _, path in by_age[: len(by_age) // 2]:
         remove_file(Path(path))

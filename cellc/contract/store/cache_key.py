@@ -42,13 +42,13 @@ def state_folder(environment: Mapping[str, str] = os.environ, platform: str = sy
 
 
 def cache_key(asked_by: Path | None) -> bytes | None:
-    """Return the secret, which is made if it is missing; None where nobody can keep one.
+    """Return the secret, creating it if it is missing; None where it cannot be kept private.
 
     Args:
         asked_by: the spec; what lies in its working tree may have come with it.
     """
     folder = state_folder()
-    return None if folder is None or came_with(folder, asked_by) else _key_in(folder)
+    return None if folder is None or is_shipped_with(folder, asked_by) else _key_in(folder)
 
 
 @cache
@@ -67,18 +67,18 @@ def _key_in(folder: Path) -> bytes | None:
 
 
 def is_private(folder: Path) -> bool:
-    """Tell whether a folder, which is made where it is missing, is one of this user that nobody else may write to.
+    """Return whether a folder, created if missing, belongs to this user and is writable for no other.
 
     Raises:
-        OSError: it cannot be made.
+        OSError: it cannot be created.
     """
     make_folder(folder, 0o700)
     status = folder.lstat()
     return stat.S_ISDIR(status.st_mode) and _is_own(status) and not _may_others(status, _OTHERS_MAY_WRITE)
 
 
-def came_with(folder: Path, spec: Path | None) -> bool:
-    """Tell whether a folder lies in the working tree of a spec, where a branch of a stranger can have put it."""
+def is_shipped_with(folder: Path, spec: Path | None) -> bool:
+    """Return whether a folder lies in the working tree of a spec, where an untrusted branch can have put it."""
     tree = None if spec is None else _working_tree(os.path.dirname(os.path.realpath(spec)))
     return tree is not None and Path(os.path.realpath(folder)).is_relative_to(tree)
 

@@ -28,7 +28,7 @@ def open_regular(path: Path, *, follow: bool = True) -> BinaryIO:
 
     Raises:
         NotRegularError: it is something else.
-        OSError: there is none, or it cannot be read.
+        OSError: the file does not exist, or cannot be read.
     """
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags if follow else flags | getattr(os, "O_NOFOLLOW", 0))

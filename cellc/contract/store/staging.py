@@ -81,8 +81,8 @@ def contested(folder: Path) -> bool:
     A process that made its staging folder asks a second time: of two processes, the one that asks later sees the other.
     On a file system without locks a staging folder passes for that of a killed process, and may have been removed.
     """
-    own = staging_of(folder)
-    overtaken = own in _locks and not _is_staging(own)
+    own_staging = staging_of(folder)
+    overtaken = own_staging in _locks and not _is_staging(own_staging)
     return overtaken or any(is_alive(staging) for staging in others(folder))
 
 
@@ -93,8 +93,8 @@ def others(folder: Path) -> tuple[Path, ...]:
     mark is the sticky bit, which git stores of no folder, and which Linux sets as it makes one (mkdir(2)); other
     systems do not, and all count there.
     """
-    own = staging_of(folder)
-    return tuple(path for path in temporaries(folder) if path != own and _is_staging(path))
+    staging = staging_of(folder)
+    return tuple(path for path in temporaries(folder) if path != staging and _is_staging(path))
 
 
 def _is_staging(path: Path) -> bool:
@@ -136,8 +136,8 @@ def discard(staging: Path) -> None:
 def temporaries(path: Path) -> tuple[Path, ...]:
     """Return what processes made beside a file or folder to put it in place; names of another form are somebody's."""
     prefix = f".{path.name}.tmp-"
-    found = (item for item in path.parent.glob(".*") if item.name.startswith(prefix))
-    return tuple(sorted(item for item in found if _MAKER.fullmatch(item.name[len(prefix) :])))
+    hidden = (item for item in path.parent.glob(".*") if item.name.startswith(prefix))
+    return tuple(sorted(item for item in hidden if _MAKER.fullmatch(item.name[len(prefix) :])))
 
 
 def runs(part: Path) -> bool:

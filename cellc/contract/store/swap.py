@@ -76,11 +76,11 @@ class Swap:
     def undo(self) -> None:
         """Put back what was there, the same files with the same times, and remove what was not."""
         for path in reversed(self._changed):
-            kept = self.staging / "old" / path
+            backup = self.staging / "old" / path
             if path in self._absent:
                 (self.folder / path).unlink(missing_ok=True)
-            elif kept.exists():
-                os.replace(kept, self.folder / path)
+            elif backup.exists():
+                os.replace(backup, self.folder / path)
         # All that was kept is back in its place; the staging folder would hold the folder that was made around it.
         discard(self.staging)
         for folder in reversed(self._made):
@@ -92,17 +92,17 @@ class Swap:
         linked = link_above(path, self.folder)
         if linked is not None:
             raise OSError(errno.ELOOP, "is a symbolic link", str(linked))
-        here, kept = self.folder / path, self.staging / "old" / path
+        here, backup = self.folder / path, self.staging / "old" / path
         if not os.path.lexists(here):
             self._absent.add(path)
             self._changed.append(path)
             return
-        kept.parent.mkdir(parents=True, exist_ok=True)
+        backup.parent.mkdir(parents=True, exist_ok=True)
         self._changed.append(path)
         try:
-            os.link(here, kept)
+            os.link(here, backup)
         except OSError:  # a file system without hard links
-            shutil.copy2(here, kept)
+            shutil.copy2(here, backup)
 
 
 def link_above(path: str, folder: Path) -> Path | None:

@@ -72,9 +72,9 @@ def read_goal(goal: TrajectoryGoal, model: AdapterModel, state: DeviceState) -> 
         away = max(abs(a - b) for a, b in zip(points[0].positions, state.positions, strict=True))
         if away > START_TOLERANCE:
             raise ValueError(f"the trajectory begins {away:.4g} away from where the joints stand")
-        at_once, points = points[0], points[1:]
+        start, points = points[0], points[1:]
         # A goal that is reached already is a trajectory of one period.
-        points = points or [replace(at_once, time_s=model.command_period_s)]
+        points = points or [replace(start, time_s=model.command_period_s)]
     zero = (0.0,) * len(order)
     return Trajectory((Waypoint(0.0, state.positions, zero, zero), *points))
 
@@ -185,13 +185,13 @@ class AdapterServer:
 
     def advance(self, until_ns: int) -> int:
         """Run the periods up to ``until_ns``, or up to the first that has something to tell."""
-        told = len(self._events)
-        while self._next_ns <= until_ns and len(self._events) == told:
+        published = len(self._events)
+        while self._next_ns <= until_ns and len(self._events) == published:
             if self._follower is None and self.adapter.phase is self._phase:
                 self._rest(until_ns)
             else:
                 self._tick()
-        if len(self._events) == told:
+        if len(self._events) == published:
             self.now_ns = until_ns
         return self.now_ns
 
@@ -214,7 +214,7 @@ class AdapterServer:
         return JointStateBlock(np.array(stamps, dtype=np.int64), names, values, nothing, nothing)
 
     def _rest(self, until_ns: int) -> None:
-        """Publish the same state in every period: nobody commands, so the joints stand."""
+        """Publish the same state in every period: without commands the joints are at standstill."""
         count = (until_ns - self._next_ns) // self.period_ns + 1
         if self._phase not in (Phase.UNCONFIGURED, Phase.FINALIZED):
             self.now_ns = self._next_ns

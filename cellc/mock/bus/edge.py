@@ -49,8 +49,8 @@ class Edge(Generic[Sample]):
 
         Args:
             depth: samples that the writer keeps to send again; None for all.
-            deliver: is given each sample that reaches the reader, with the time at which it expires.
-            lose: is told how many samples never will, when the reader knows.
+            deliver: called with each sample that reaches the reader, and the time at which it expires.
+            lose: called with the number of samples that never will, when the reader knows.
         """
         self.behavior = IDEAL
         self._reliable = reliable
@@ -200,7 +200,7 @@ class Reader(Generic[Sample]):
         self._note(QosEventKind.MESSAGE_LOST, count)
 
     def note_liveliness(self, *, alive: bool, known: bool) -> None:
-        """Take note that a writer came alive or is no longer; ``known`` where it had been alive before."""
+        """Record that a writer is alive, or no longer; ``known`` where it had been alive before."""
         self._alive += 1 if alive else -1
         if known:
             self._not_alive += -1 if alive else 1

@@ -162,7 +162,7 @@ class Network:
         self._cuts: list[tuple[frozenset[str], frozenset[str] | None]] = []
 
     def attach(self, edge: EdgeName, apply: Apply) -> None:
-        """Let an edge be told of its behavior, now and whenever it changes."""
+        """Give an edge its behavior, now and at every change."""
         self._edges.setdefault(edge, []).append(apply)
         apply(self.behavior(edge))
 
@@ -230,7 +230,7 @@ class Network:
         self._cuts.append((frozenset(nodes), None if others is None else frozenset(others)))
         self._tell()
 
-    def mend(self) -> None:
+    def undo_cuts(self) -> None:
         """Undo every cut."""
         self._cuts.clear()
         self._tell()
@@ -238,8 +238,8 @@ class Network:
     def is_cut(self, node: str, other: str) -> bool:
         """Tell whether nothing passes between two nodes; ask it for services and actions too."""
         for group, others in self._cuts:
-            for one, two in ((node, other), (other, node)):
-                if one in group and (two not in group if others is None else two in others):
+            for first, two in ((node, other), (other, node)):
+                if first in group and (two not in group if others is None else two in others):
                     return True
         return False
 

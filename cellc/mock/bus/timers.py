@@ -62,7 +62,7 @@ class StreamDeadline:
         """Bind the watch, which begins with the first sample that it finds.
 
         Args:
-            newest_ns: returns when the last sample up to a time came; None before the first.
+            newest_ns: returns the arrival time of the last sample up to a time; None before the first.
             missed: is called once for each period without a sample.
         """
         self._period_ns = round(period_s * 1e9)

@@ -184,15 +184,15 @@ class Topic(Generic[Sample]):
 
     def _match(self, source: ContractEndpoint, reader: Reader[Sample]) -> None:
         sink = reader.endpoint
-        found = self._network.middleware.compare(source.qos, sink.qos)
-        if not found:
+        mismatches = self._network.middleware.compare(source.qos, sink.qos)
+        if not mismatches:
             match = Match[Sample](self.name, source, reader, self._network)
             self._writers[source.node].connect(match, wants_history=sink.qos.durability == "transient_local")
             return
         self.mismatches += [
-            f"`{self.name}` from `{source.node}` to `{sink.node}` is not connected: {problem}" for problem in found
+            f"`{self.name}` from `{source.node}` to `{sink.node}` is not connected: {problem}" for problem in mismatches
         ]
-        now_ns, policies = self._network.timers.now_ns, ", ".join(problem.policy for problem in found)
+        now_ns, policies = self._network.timers.now_ns, ", ".join(problem.policy for problem in mismatches)
         for kind, node in (
             (QosEventKind.OFFERED_QOS_INCOMPATIBLE, source.node),
             (QosEventKind.REQUESTED_QOS_INCOMPATIBLE, sink.node),

@@ -41,8 +41,8 @@ def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it
         return RunEnd(run, _crashed(run), LimitsReport(), "", f"{type(bug).__name__}: {bug}")
     taken = [journal.take() for journal in journals]
-    samples = [each for found, _ in taken for each in found]
-    interruptions = [each for _, found in taken for each in found]
+    samples = [each for part, _ in taken for each in part]
+    interruptions = [each for _, part in taken for each in part]
     limits = check_limits(cell.contract, samples, interruptions)
     return RunEnd(run, result, limits, _digest(result, samples, interruptions))
 
@@ -86,7 +86,7 @@ class Assignment:
 
     @classmethod
     def of(cls, cell: MockCell, seed: int) -> Assignment:
-        """Return what workers are told of a cell that was loaded here."""
+        """Return the assignment for workers of a cell that was loaded here."""
         return cls(cell.folder, seed, limits(), package_path(), cell.unseen)
 
     def cell(self) -> MockCell:
@@ -183,7 +183,7 @@ def conduct(
     factory: ExecutorFactory | None,
     progress: Progress,
 ) -> Campaign:
-    """Execute runs here, or by a crew; the campaign is the same whoever does.
+    """Execute runs in this process or by an executor, with the same result.
 
     Raises:
         ComputeError: no worker can execute a run.

@@ -1,19 +1,19 @@
 """Whether commands stayed within the limits of the contract: position, velocity, acceleration and jerk.
 
 Commands are sampled once an update. Divided differences of samples x of a smooth motion are weighted means of its
-derivatives over the samples' span (mean value theorem, weights are B-splines): the first lies within the bounds of the
-velocity, twice the second within those of the acceleration, six times the third within those of the jerk, for any
-spacing. So nothing has to be allowed for sampling; what is allowed is rounding alone. A sample is wrong by a few units
-in its last place, 2^-53 |x| each, and a difference of order n over steps of h seconds makes of an error e at most
-2^n e / h^n: with 16 units, at 2 ms and 6.3 rad, 2e-5 rad/s^3, far below any jerk limit.
+derivatives over the span of the samples (mean value theorem, weights are B-splines). For any spacing, the first lies
+within the bounds of the velocity, twice the second within those of the acceleration, six times the third within those
+of the jerk. Sampling therefore needs no tolerance; only rounding does. A sample is wrong by a few units in its last
+place, 2^-53 |x| each. A difference of order n over steps of h seconds turns an error e into at most 2^n e / h^n: with
+16 units, at 2 ms and 6.3 rad, 2e-5 rad/s^3, far below any jerk limit.
 
-A hold sets the command to the measured position immediately, in the mock as in the real controller, so it steps; so
-does whatever else the controller notes as an interruption. There only the position is compared with its limit, and the
-step is reported with its size. A hold asks for no motion: where the measured position itself lies outside the limits,
-as that of a displaced joint may, the hold is distinguished and is no excess.
+A hold sets the command to the measured position immediately, in the mock as in the real controller, so the command
+steps; so does every other interruption that the controller records. At these points only the position is compared with
+its limit, and the size of the step is reported. A hold requests no motion: where the measured position itself lies
+outside the limits, as that of a displaced joint may, the hold does not count as an excess.
 
-Controllers that send positions instead of trajectories, those of grippers, leave speed to their device: their positions
-are checked, the rest nobody can check here.
+Controllers that send positions instead of trajectories, those of grippers, leave speed to their device: only their
+positions are checked.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class CommandStep:
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """The largest share of its limit that a quantity came to, 1 at the limit."""
+    """The largest share of its limit that a quantity reached; 1 is the limit."""
 
     quantity: str
     share: float
@@ -131,20 +131,20 @@ def _of_controller(contract: Contract, samples: CommandSamples, interruptions: S
     ]
     if not columns:
         return LimitsReport(unchecked=other)
-    own = [each for each in interruptions if each.controller == samples.controller]
+    holds = [each for each in interruptions if each.controller == samples.controller]
     trajectories = _sends_trajectories(contract, samples.controller)
     quantities = QUANTITIES if trajectories else QUANTITIES[:1]
     joints = tuple(joint for _, joint, _ in columns)
     limits = tuple(limit for _, _, limit in columns)
     positions = samples.values[:, [column for column, _, _ in columns]]
     commands = _Commands(samples.controller, joints, limits, samples.stamps_ns, positions)
-    compared = [_Compared(commands, order, own) for order in range(len(quantities))]
+    compared = [_Compared(commands, order, holds) for order in range(len(quantities))]
     unchecked = (*other, *(f"{joint}/{quantity}" for joint in joints for quantity in QUANTITIES[len(quantities) :]))
     return LimitsReport(
         peaks=tuple(each.peak() for each in compared[1:]),
         excesses=tuple(excess for each in compared if (excess := each.worst()) is not None),
-        steps=tuple(_steps(commands, own)) if trajectories else (),
-        held_outside=() if (held := _held_outside(commands, own)) is None else (held,),
+        steps=tuple(_steps(commands, holds)) if trajectories else (),
+        held_outside=() if (held := _held_outside(commands, holds)) is None else (held,),
         unchecked=unchecked,
     )
 

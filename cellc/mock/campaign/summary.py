@@ -163,7 +163,7 @@ def failure_lines(end: RunEnd, command: str) -> Iterator[str]:
 
 
 def limit_lines(limits: LimitsReport) -> Iterator[str]:
-    """Yield how near commands came to their limits, and where they stepped."""
+    """Yield the largest shares of limits that commands reached, and their steps."""
     peaks = ", ".join(f"{peak.quantity} {peak.share:.1%}" for peak in limits.peaks)
     held = "held by every commanded trajectory" if limits.held else f"EXCEEDED {len(limits.excesses)} times"
     yield f"limits: {held}; largest share: {peaks or 'nothing was commanded'}"
@@ -183,7 +183,7 @@ def limit_lines(limits: LimitsReport) -> Iterator[str]:
 
 
 def outcome_lines(ends: Sequence[RunEnd]) -> Iterator[str]:
-    """Yield how many runs ended in each outcome, and the one that came nearest to its bound."""
+    """Yield the number of runs with each outcome, and the run nearest to its bound."""
     for outcome in sorted({end.result.outcome for end in ends}):
         these = [end for end in ends if end.result.outcome == outcome]
         bounded = [(_share(end), end) for end in these if outcome != AttemptOutcome.SUCCEEDED and end.run.within_s]

@@ -112,8 +112,8 @@ def load_for_campaign(options: CampaignOptions) -> MockCell:
     """Load a folder; raise MockError where it or an option cannot be used."""
     most = limits().campaign_runs
     if not 0 <= options.pairs <= most:
-        told = f"the number of pairs is {options.pairs}; it must be 0 or greater, and at most {most}"
-        raise MockError("", f"{told}; {option('campaign-runs')}")
+        problem = f"the number of pairs is {options.pairs}; it must be 0 or greater, and at most {most}"
+        raise MockError("", f"{problem}; {option('campaign-runs')}")
     return load_seeded(options)
 
 
@@ -131,11 +131,11 @@ def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions | ReplayOp
     factory, who = executor(options.fan)
     with progress("campaign") as update:
 
-        def told(done: int, total: int, failed: int) -> None:
+        def report(done: int, total: int, failed: int) -> None:
             update(pace(f"{done} of {total}", total, done, failed, perf_counter() - begun))
 
         try:
-            campaign = conduct(cell, runs, baselines, seed=options.seed, factory=factory, progress=told)
+            campaign = conduct(cell, runs, baselines, seed=options.seed, factory=factory, progress=report)
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
     if options.records is not None:

@@ -138,13 +138,13 @@ def sweep_all(members: Sequence[Member], options: SweepOptions) -> Iterator[Rehe
             continue
         try:
             cell = cell_of(member.read)
-            found = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
-            yield Rehearsed(sweeps=tuple(map(_told, found)))
+            sweeps = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
+            yield Rehearsed(sweeps=tuple(map(_as_entry, sweeps)))
         except MockError as problem:
             yield Rehearsed(sweeps=(), problem=str(problem))
 
 
-def _told(sweep: Sweep) -> FleetSweep:
+def _as_entry(sweep: Sweep) -> FleetSweep:
     words = {True: "passed", False: "failed", None: UNKNOWN}
     return FleetSweep.model_validate(
         {

@@ -1,8 +1,8 @@
 """``cellc mock --live``: each rehearsal is shown in Foxglove at the pace of a clock, with the messages of its bag.
 
-The server is that of the Foxglove SDK (github.com/foxglove/foxglove-sdk, 0.30). It offers no capability, so that who
-watches can neither publish nor call nor set anything. A rehearsal is over in a fraction of its time: it is executed
-first, and shown afterwards, so that nobody who watches slows it down or changes it.
+The server is that of the Foxglove SDK (github.com/foxglove/foxglove-sdk, 0.30). It offers no capability, so a viewer
+can neither publish nor call nor set anything. A rehearsal executes in a fraction of its time: it is executed first and
+shown afterwards, so a viewer cannot slow it down or change it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from cellc.contract.store.swap import temporary_file
 from cellc.mock.cell import MockCell
 from cellc.mock.command.evidence import recorded
 from cellc.mock.errors import MockError
-from cellc.mock.evidence.begun_faults import begun_faults
+from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.evidence.topics import LOG
 from cellc.mock.result import RehearsalResult
 from cellc.robot.description.yaml_values import load_values
@@ -49,7 +49,7 @@ def live_view(address: str, speed: float) -> Iterator[LiveView]:
     """Give a view that shows rehearsals, at an address such as ``127.0.0.1:8765``.
 
     Raises:
-        MockError: the address is none.
+        MockError: the text is not an address.
     """
     host, _, port = address.rpartition(":")
     if not host or not port.isdigit() or int(port) > _LAST_PORT:
@@ -116,17 +116,17 @@ class LiveView:
         else:
             self._server.clear_session()  # time starts again
         latched = {channel.topic for channel in summary.channels.values() if _is_latched(channel.metadata)}
-        told = _told(entry, result)
+        lines = _log_lines(entry, result)
         begun, first_ns = monotonic(), None
         for _, channel, message in reader.iter_messages():
             first_ns = message.log_time if first_ns is None else first_ns
-            while told and told[0][0] <= message.log_time:
-                self._say(*told.pop(0))
+            while lines and lines[0][0] <= message.log_time:
+                self._say(*lines.pop(0))
             sleep(max(0.0, begun + (message.log_time - first_ns) / 1e9 / self._speed - monotonic()))
             if channel.topic in latched:
                 self._latched[channel.topic] = (message.data, message.log_time)
             self._channels[channel.topic].log(message.data, log_time=message.log_time)
-        for each in told:
+        for each in lines:
             self._say(*each)
 
     def _serve(self) -> None:
@@ -171,11 +171,11 @@ class LiveView:
         self._log.log(messages.Log(timestamp=stamp, level=level, name=name, message=words), log_time=at_ns)
 
 
-def _told(entry: RehearsalEntry, result: RehearsalResult) -> list[tuple[int, str, str, str]]:
+def _log_lines(entry: RehearsalEntry, result: RehearsalResult) -> list[tuple[int, str, str, str]]:
     """Return what is said when: in ns, with its level and who it is about."""
     said = [(0, "Info", entry.name, f"it must end with {entry.expect}")]
-    for begun_s, fault in begun_faults(entry.faults, result.attempts):
-        said.append((round(begun_s * 1e9), "Warning", entry.name, f"fault: {fault.kind} of {fault.target}"))
+    for start_s, fault in fault_times(entry.faults, result.attempts):
+        said.append((round(start_s * 1e9), "Warning", entry.name, f"fault: {fault.kind} of {fault.target}"))
     for record in result.attempts:
         level = "Info" if record.outcome == "succeeded" else "Error"
         words = f"{record.step}: {record.outcome}"

@@ -81,7 +81,7 @@ def run_rehearsals(options: RehearsalOptions) -> int:
     """Run rehearsals of a folder and print the results.
 
     Returns:
-        0 where every rehearsal passed, 1 where one did not or there is none, 2 where the folder or a name is unusable.
+        0: every rehearsal passed; 1: one did not, or the folder has none; 2: the folder or a name is unusable.
     """
     if options.records is not None:
         refuse_foreign(Path(options.records))  # before the minutes that a run may take

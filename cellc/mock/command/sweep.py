@@ -63,8 +63,8 @@ def entries_to_sweep(cell: MockCell, options: SweepOptions) -> Sequence[Rehearsa
     """Return the rehearsals that are meant; raise MockError where they cannot be swept as the options ask."""
     most = limits().sweep_runs
     if not 1 <= options.runs <= most:
-        told = f"the number of runs is {options.runs}; it must be 1 or greater, and at most {most}"
-        raise MockError("", f"{told}; {option('sweep-runs')}")
+        problem = f"the number of runs is {options.runs}; it must be 1 or greater, and at most {most}"
+        raise MockError("", f"{problem}; {option('sweep-runs')}")
     _check_seed(options)
     entries = _meant(cell, options.rehearsals)
     if len(entries) > 1 and options.journal is not None:
@@ -89,7 +89,7 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) ->
     """Sweep one rehearsal, with its progress.
 
     Raises:
-        MockError: a run cannot be executed, or nobody does.
+        MockError: a run cannot be executed, or no worker can be reached.
     """
     begun, done = perf_counter(), 0
     failed = 0
@@ -110,11 +110,11 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) ->
 
         known = {} if journal is None else journal.runs
         try:
-            found = sweep(cell, entry, seed=options.seed, most=options.runs, factory=factory, known=known, keep=keep)
+            result = sweep(cell, entry, seed=options.seed, most=options.runs, factory=factory, known=known, keep=keep)
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
     remark(f"{done} runs in {perf_counter() - begun:.1f} s, {who}")
-    return found
+    return result
 
 
 @refusing

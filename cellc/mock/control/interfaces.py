@@ -25,8 +25,8 @@ class InterfaceTable:
         command: values of the command interfaces, NaN where nothing was commanded yet.
         state: values of the state interfaces.
         claims: name of the controller that owns a command interface.
-        absent: state interfaces that nobody exports now: their component is not configured.
-        journal: what was commanded, for who listens.
+        absent: state interfaces that are not exported now: their component is not configured.
+        journal: recorded commands, for listeners.
     """
 
     def __init__(self) -> None:

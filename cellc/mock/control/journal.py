@@ -61,10 +61,10 @@ class _Kept:
 
 
 class CommandJournal:
-    """Keeps commands and interruptions while somebody listens; costs nothing otherwise.
+    """Records commands and interruptions while there is a listener; costs nothing otherwise.
 
     Attributes:
-        listening: set by whoever wants to take the journal.
+        listening: set by a listener that takes the journal.
         interface_names: names of the command interfaces by column.
     """
 
@@ -80,9 +80,9 @@ class CommandJournal:
         """Keep updates of a controller; ``commands`` has all command interfaces as columns."""
         if not self.listening or not len(columns):
             return
-        kept = self._kept.setdefault(controller, _Kept(list(columns)))
-        kept.stamps_ns.append(stamps_ns)
-        kept.values.append(commands[:, kept.columns])
+        log = self._kept.setdefault(controller, _Kept(list(columns)))
+        log.stamps_ns.append(stamps_ns)
+        log.values.append(commands[:, log.columns])
 
     def note(self, stamp_ns: int, controller: str, cause: Cause, lasting_ns: int = 0) -> None:
         """Keep an interruption."""
@@ -91,9 +91,9 @@ class CommandJournal:
 
     def take(self) -> tuple[tuple[CommandSamples, ...], tuple[Interruption, ...]]:
         """Hand over what was kept since the last time."""
-        kept, self._kept = self._kept, {}
+        logs, self._kept = self._kept, {}
         interruptions, self._interruptions = tuple(self._interruptions), []
-        return tuple(self._samples(name, pieces) for name, pieces in kept.items()), interruptions
+        return tuple(self._samples(name, pieces) for name, pieces in logs.items()), interruptions
 
     def _samples(self, controller: str, kept: _Kept) -> CommandSamples:
         names = tuple(self.interface_names[column] for column in kept.columns)

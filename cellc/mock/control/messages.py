@@ -85,7 +85,7 @@ class GoalResponse:
     """The answer to a goal request.
 
     Attributes:
-        accepted: all that the client is told.
+        accepted: the only field that the client receives.
         goal_id: number of the goal, counted from 1 by the manager; 0 where it was rejected.
         log_reason: why it was rejected, which in reality is only in the controller's log.
     """

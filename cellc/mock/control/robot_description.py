@@ -190,7 +190,7 @@ def _urdf_limits(joint: Joint) -> tuple[float, float, float, float]:
 
 
 def _bound(text: str, default: float) -> float:
-    """Read a `min` or `max`; text that is no number is skipped by ros2_control, and a limit beyond all is none."""
+    """Return a `min` or `max`, or the default for text that is not a number, which ros2_control skips too."""
     try:
         return read_number(text)
     except ValueError:

@@ -227,7 +227,7 @@ class ControlStack:
             for server in servers:
                 while server.now_ns < until_ns:
                     server.advance(until_ns)
-        self._count({server: server.now_ns - begun_ns for server, begun_ns in before_ns.items()})
+        self._count({server: server.now_ns - start_ns for server, start_ns in before_ns.items()})
         for server in servers:
             self.events += server.take_events()
         self._collect()

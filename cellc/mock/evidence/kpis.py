@@ -33,7 +33,7 @@ class Kpi:
     """One figure.
 
     Attributes:
-        value: None where the rehearsal never came to what is measured.
+        value: None where the rehearsal ended before the measurement.
         target: bound of the contract; None where it sets none.
         met: whether the bound was held; None where there is no value or no bound.
         basis: what was measured.

@@ -42,14 +42,14 @@ def to_layout(contract: Contract) -> str:
         "RawMessages!attempts": {"topicPath": f"{ATTEMPTS.name}.data"},
         "RosOut!log": {"topicToRender": LOG, "minLogLevel": 1, "searchTerms": []},
     }
-    told = _split("column", ["Plot!positions", "Plot!errors", "DiagnosticSummary!all", "RawMessages!attempts"])
+    right = _split("column", ["Plot!positions", "Plot!errors", "DiagnosticSummary!all", "RawMessages!attempts"])
     left = _split("column", ["3D!cell", "RosOut!log"], 75)
     layout: Json = {
         "configById": panels,
         "globalVariables": {},
         "userNodes": {},
         "playbackConfig": {"speed": 1},
-        "layout": {"direction": "row", "first": left, "second": told, "splitPercentage": 60},
+        "layout": {"direction": "row", "first": left, "second": right, "splitPercentage": 60},
     }
     return harmless_json(json.dumps(layout, ensure_ascii=False, indent=2)) + "\n"
 

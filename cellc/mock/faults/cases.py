@@ -101,8 +101,8 @@ def first_joints(contract: Contract) -> dict[str, str]:
 
 def components(contract: Contract) -> dict[str, str]:
     """Return the hardware component of every device that has one."""
-    found = {name: device.hardware_component for name, device in contract.devices.items()}
-    return {name: component for name, component in found.items() if component is not None}
+    components = {name: device.hardware_component for name, device in contract.devices.items()}
+    return {name: component for name, component in components.items() if component is not None}
 
 
 def stoppable(contract: Contract) -> dict[str, str]:
@@ -126,13 +126,13 @@ def image_topic(contract: Contract, device: str) -> str | None:
 
 def cameras(contract: Contract) -> dict[str, tuple[str, ...]]:
     """Return the dynamic frames that are seen in the images of each camera."""
-    found: dict[str, tuple[str, ...]] = {}
+    cameras: dict[str, tuple[str, ...]] = {}
     for name, device in contract.devices.items():
         if device.camera is not None and device.camera.topic in contract.interfaces:
             nodes = {sink.node for sink in contract.interfaces[device.camera.topic].sinks}
             frames = (frame for frame, facts in contract.frames.items() if facts.kind == "dynamic")
-            found[name] = tuple(frame for frame in frames if contract.frames[frame].authority in nodes)
-    return found
+            cameras[name] = tuple(frame for frame in frames if contract.frames[frame].authority in nodes)
+    return cameras
 
 
 def published_frames(contract: Contract) -> tuple[str, ...]:
@@ -177,12 +177,12 @@ class FaultCase:
     Attributes:
         entry: kind, target and parameters; neither ``at_s`` nor ``event``.
         endings: by kind and target of a step; every step that a rehearsal of the cell can take is there.
-        at_once: a step that executes already meets the fault just as well as one that has not asked for its goal.
+        hits_running_step: the fault also meets a step whose goal is already executing.
     """
 
     entry: FaultEntry
     endings: Mapping[tuple[str, str], Ending]
-    at_once: bool = False
+    hits_running_step: bool = False
 
     @property
     def name(self) -> str:
@@ -221,7 +221,7 @@ class FaultCase:
         A step that executes already has done its asking, and may be over before the fault is noticed.
         """
         endings = [self.ending(step) for step in steps[first - 1 :]]
-        if endings and when != "started" and not self.at_once:
+        if endings and when != "started" and not self.hits_running_step:
             endings[0] = Ending(endings[0].outcomes | {AttemptOutcome.SUCCEEDED}, endings[0].within_s)
         return endings
 
@@ -237,8 +237,8 @@ def _met(endings: Sequence[Ending]) -> list[Ending]:
 
 
 def fault_case(
-    entry: FaultEntry, contract: Contract, ending: Callable[[CellStep], Ending], *, at_once: bool = False
+    entry: FaultEntry, contract: Contract, ending: Callable[[CellStep], Ending], *, hits_running_step: bool = False
 ) -> FaultCase:
     """Return the case of a fault; ``ending`` says of each step of the cell how it may end."""
     endings = {(step.kind, step.target): ending(step) for step in cell_steps(contract)}
-    return FaultCase(entry, endings, at_once)
+    return FaultCase(entry, endings, hits_running_step)

@@ -131,8 +131,8 @@ def _goal_time_s(contract: Contract, controller: str) -> float | None:
     """Return the time that a controller or adapter allows past the end of a trajectory; None or zero for no limit."""
     if controller in contract.adapters:
         return contract.adapters[controller].goal_time_s
-    found = (manager.controllers.get(controller) for manager in contract.managers.values())
-    return next((entry.goal_time_s for entry in found if entry is not None), None)
+    controllers = (manager.controllers.get(controller) for manager in contract.managers.values())
+    return next((entry.goal_time_s for entry in controllers if entry is not None), None)
 
 
 def stopped(bounds: Bounds, outcome: AttemptOutcome, after_s: float = 0.0) -> StepEnding:

@@ -70,7 +70,9 @@ class Cancel:
         for kind in STEPS_WITH_GOALS:
             if kind in kinds:
                 entry = FaultEntry(kind=cls.kind, target=kind)
-                yield fault_case(entry, contract, partial(_canceled, kind, cancel_bound_s(contract)), at_once=True)
+                yield fault_case(
+                    entry, contract, partial(_canceled, kind, cancel_bound_s(contract)), hits_running_step=True
+                )
 
     def begin(self, ports: FaultPorts) -> None:
         """Ask."""
@@ -136,7 +138,7 @@ class SecondCommander:
         for name, facts in controllers(contract).items():
             if facts.active and facts.action is not None:
                 entry = FaultEntry(kind=cls.kind, target=name)
-                yield fault_case(entry, contract, lambda step: ending, at_once=True)
+                yield fault_case(entry, contract, lambda step: ending, hits_running_step=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """Send it; a goal that is rejected commands nothing."""

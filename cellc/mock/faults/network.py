@@ -163,7 +163,7 @@ class CutNetwork:
         for device in components(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
             yield fault_case(
-                entry, contract, stopped(bounds, AttemptOutcome.HARDWARE_FAULT, KEEP_ALIVE_S), at_once=True
+                entry, contract, stopped(bounds, AttemptOutcome.HARDWARE_FAULT, KEEP_ALIVE_S), hits_running_step=True
             )
         for device, frames in cameras(contract).items():
             yield fault_case(FaultEntry(kind=cls.kind, target=device), contract, unobserved(bounds, frames))
@@ -182,7 +182,7 @@ class CutNetwork:
         """Connect again; a driver that gave up lets nothing move before somebody acknowledges."""
         self._cut = False
         if self.component is None:
-            ports.network.mend()
+            ports.network.undo_cuts()
         elif self._given_up:
             ports.hardware.end_cause(self.component)
         else:

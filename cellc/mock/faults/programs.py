@@ -26,13 +26,13 @@ START_AFTER_NS = 500_000_000
 
 def claim_needs(contract: Contract, *otherwise: Unmet) -> dict[str, tuple[Need, ...]]:
     """Return the devices with hardware whose claim needs something, of which one of these comes without it."""
-    found: dict[str, tuple[Need, ...]] = {}
+    by_device: dict[str, tuple[Need, ...]] = {}
     for name, device in contract.devices.items():
         claim = device.effects.get(Moment.CLAIM)
         needs = () if claim is None else tuple(need for need, unmet in claim.needs.items() if unmet in otherwise)
         if needs and device.hardware_component is not None:
-            found[name] = needs
-    return found
+            by_device[name] = needs
+    return by_device
 
 
 def _kept(contract: Contract, device: str) -> Need | None:
@@ -112,7 +112,7 @@ class Jog:
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield nothing: nobody jogs a robot whose program runs."""
+        """Yield nothing: a robot whose program runs cannot be jogged."""
         yield from ()
 
     def begin(self, ports: FaultPorts) -> None:
@@ -192,7 +192,9 @@ class BrakesClosed:
             if device in claim_needs(contract, Unmet.KEEPS_SET_POINTS):
                 yield fault_case(entry, contract, partial(_given_up, bounds))
             else:
-                yield fault_case(entry, contract, stopped(bounds, AttemptOutcome.PROTECTIVE_STOP), at_once=True)
+                yield fault_case(
+                    entry, contract, stopped(bounds, AttemptOutcome.PROTECTIVE_STOP), hits_running_step=True
+                )
 
     def begin(self, ports: FaultPorts) -> None:
         """Close them."""

@@ -52,20 +52,20 @@ class Injection:
     """One entry of rehearsals.json with its fault.
 
     Attributes:
-        begun_ns: when the fault began; None before, and for ever where its event never comes.
+        start_ns: when the fault began; None before, and for ever where its event never comes.
     """
 
     def __init__(self, entry: FaultEntry, fault: Fault) -> None:
         """Bind a fault to its entry; nothing happens before ``schedule``."""
         self.entry = entry
-        self.begun_ns: int | None = None
+        self.start_ns: int | None = None
         self._fault = fault
         self._missed = ""
 
     @property
     def touched(self) -> bool:
         """Tell whether the fault began, or tried to."""
-        return self.begun_ns is not None or bool(self._missed)
+        return self.start_ns is not None or bool(self._missed)
 
     def describe_absence(self) -> str:
         """Say why the fault never began."""
@@ -103,7 +103,7 @@ class Injection:
         except FaultMissedError as missed:
             self._missed = str(missed)
             return
-        self.begun_ns = ports.schedule.now_ns
+        self.start_ns = ports.schedule.now_ns
         if self.entry.lasting_s is not None:
             end_ns = ports.schedule.now_ns + round(self.entry.lasting_s * 1e9)
             ports.schedule.at(end_ns, partial(self._fault.end, ports))

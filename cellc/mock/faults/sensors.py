@@ -32,7 +32,9 @@ class SilentSensor:
         """Yield every device with a sensor that is wired."""
         for device, facts in _sensed(contract).items():
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, partial(_unseen, Bounds(contract), device, facts.within_s), at_once=True)
+            yield fault_case(
+                entry, contract, partial(_unseen, Bounds(contract), device, facts.within_s), hits_running_step=True
+            )
 
     def begin(self, ports: FaultPorts) -> None:
         """Let them read nothing new."""
@@ -40,12 +42,12 @@ class SilentSensor:
 
     def end(self, ports: FaultPorts) -> None:
         """Let them read again."""
-        ports.switches.mend(self.device)
+        ports.switches.restore(self.device)
 
 
 def _sensed(contract: Contract) -> dict[str, ContractSwitched]:
-    found = {name: device.switched for name, device in contract.devices.items()}
-    return {name: one for name, one in found.items() if one is not None and one.inputs}
+    switched = {name: device.switched for name, device in contract.devices.items()}
+    return {name: facts for name, facts in switched.items() if facts is not None and facts.inputs}
 
 
 def _unseen(bounds: Bounds, device: str, within_s: float, step: CellStep) -> Ending:

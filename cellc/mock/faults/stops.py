@@ -56,7 +56,7 @@ class _SafetyStop:
         """Yield every device with hardware or an adapter."""
         for device in stoppable(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), cls.outcome), at_once=True)
+            yield fault_case(entry, contract, stopped(Bounds(contract), cls.outcome), hits_running_step=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """Stop."""
@@ -106,7 +106,9 @@ class RestartDriver:
         """Yield every device with hardware."""
         for device in components(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), AttemptOutcome.HARDWARE_FAULT), at_once=True)
+            yield fault_case(
+                entry, contract, stopped(Bounds(contract), AttemptOutcome.HARDWARE_FAULT), hits_running_step=True
+            )
 
     def begin(self, ports: FaultPorts) -> None:
         """End the driver."""
@@ -118,10 +120,9 @@ class RestartDriver:
 
 
 class WrongPayload:
-    """An arm carries another load than it was told: it stops itself as soon as it moves, and every time it moves.
+    """The payload set in the controller of an arm is wrong: the arm stops itself every time it starts to move.
 
-    The torques that the robot's controller computes from the payload differ from those that it measures; it takes the
-    difference for a collision.
+    Its controller computes torques from the payload and measures others; it takes the difference for a collision.
     """
 
     kind: ClassVar[FaultKind] = FaultKind.WRONG_PAYLOAD

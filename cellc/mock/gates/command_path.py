@@ -125,16 +125,16 @@ def _rates(evidence: GateEvidence) -> Iterator[GateCheck]:
     for name, expected in () if drawn is None else drawn.expected.items():
         text = f"{name} succeeds in {expected.success:.6g} of its runs or more, where not everything is known exactly"
         needed = f"a sweep of {name} that decides it with confidence {expected.confidence:.6g}: `cellc gates --sweep N`"
-        found = swept.get(name)
-        if found is None:
+        swept_cell = swept.get(name)
+        if swept_cell is None:
             yield unknown(text, needed)
             continue
-        runs, rate = islice(count_lines(found), 2)
-        told = (f"{runs}, {evidence.contract.configuration_id}", rate)
-        if found.verdict is None:
-            yield unknown(text, f"{needed} above {len(found.runs)}; {rate}")
+        runs, rate = islice(count_lines(swept_cell), 2)
+        cells = (f"{runs}, {evidence.contract.configuration_id}", rate)
+        if swept_cell.verdict is None:
+            yield unknown(text, f"{needed} above {len(swept_cell.runs)}; {rate}")
         else:
-            yield passed(text, told) if found.verdict else failed(text, told)
+            yield passed(text, cells) if swept_cell.verdict else failed(text, cells)
 
 
 def _rehearsals(evidence: GateEvidence) -> GateCheck:

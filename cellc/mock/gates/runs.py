@@ -41,7 +41,7 @@ class JudgedRun:
         return not self.entry.faults
 
     def has_mark(self, attempt: AttemptRecord, *steps: PacketStep) -> bool:
-        """Tell whether the packet of an attempt came through all these steps."""
+        """Return whether the packet of an attempt passed all these steps."""
         return set(steps) <= {point.step for point in attempt.trace}
 
 

@@ -219,7 +219,7 @@ def _scene_of(model: MotionModel, state: SceneState) -> CollisionScene:
 def _to_goal(
     group: GroupModel, planner: Planner, start: tuple[float, ...], goal: GoalPose, rng_seed: int
 ) -> JointPath | PlanFailure:
-    """Try one configuration before the goal after the other; the failure of the first is the one that is told."""
+    """Try the configurations before the goal in turn; if all fail, report the failure of the first."""
     first = _reach(group, planner, start, goal, rng_seed)
     if isinstance(first, JointPath):
         return first

@@ -39,10 +39,10 @@ class ObservationInbox:
     Attributes:
         arrived: fires with each pose.
         newest: the pose that arrived last.
-        arrived_ns: when it did.
+        arrived_ns: when it arrived.
         max_age_s: older observations are stale.
-        on_stale: what the contract says to do with a stale one.
-        lapsed_ns: when one came last that found the one before too old, or was itself; None where none did.
+        on_stale: the reaction to a stale observation in the contract.
+        lapsed_ns: arrival of the last pose that was stale, or whose predecessor was; None where there was none.
     """
 
     def __init__(self, interface: ContractInterface | None, clock: Clock, simulation: Simulation) -> None:
@@ -75,9 +75,9 @@ class ObservationInbox:
         return (self._clock.read(self._simulation.now_ns) - stamp_ns) / 1e9
 
     def is_stale(self, stamp_ns: int, allowance_s: float = 0.0) -> bool:
-        """Tell whether a stamp is too old to act on, ``allowance_s`` beyond the bound of the contract.
+        """Return whether a stamp is too old to act on, ``allowance_s`` beyond the bound of the contract.
 
-        A stamp as far in the future as that bound is none to act on either: a clock was set back.
+        A stamp as far in the future as that bound is stale, too: a clock was set back.
         """
         age_ns = self._clock.read(self._simulation.now_ns) - stamp_ns
         max_age_ns = round(self.max_age_s * 1e9)

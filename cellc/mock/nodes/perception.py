@@ -76,14 +76,14 @@ class Camera:
 
     def start(self) -> None:
         """Stream from now on."""
-        begun_ns = self._simulation.now_ns
+        start_ns = self._simulation.now_ns
         rate_hz = self._facts.rate_hz
 
         def deliver(sequence: int) -> None:
-            taken_ns = begun_ns + round(sequence * 1e9 / rate_hz)
+            taken_ns = start_ns + round(sequence * 1e9 / rate_hz)
             self._deliver(Image(self._clock.read(taken_ns), taken_ns, self._facts.frame, sequence))
 
-        self._simulation.every(begun_ns + self._latency_ns, rate_hz, deliver)
+        self._simulation.every(start_ns + self._latency_ns, rate_hz, deliver)
 
     def _deliver(self, image: Image) -> None:
         if not self._frozen or self.last is None:
@@ -160,7 +160,7 @@ class ObjectPose:
 
     @property
     def pose(self) -> Pose:
-        """The pose, computed now where nobody has looked at it yet."""
+        """The pose, computed at its first use."""
         return self.seen.get()
 
 
@@ -182,7 +182,7 @@ class Perception:
 
     Attributes:
         taken: images that were taken from the queue.
-        rejected: those that were too old when their turn came, or stamped as far in the future.
+        rejected: those that were too old when taken, or stamped as far in the future.
         oldest_ns: the greatest age of those that were rejected.
         last: what was taken last.
     """

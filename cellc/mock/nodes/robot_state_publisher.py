@@ -30,7 +30,7 @@ class JointStateFeed:
         self._edge = edge
 
     @property
-    def at_once(self) -> bool:
+    def undelayed(self) -> bool:
         """Tell whether every message so far arrived as it was published."""
         return (self._edge is None or self._edge.ideal) and not self.history.is_delayed
 
@@ -103,9 +103,9 @@ class PublishedStates:
         self._last_ns: int | None = None
 
     @property
-    def at_once(self) -> bool:
+    def undelayed(self) -> bool:
         """Tell whether every message so far arrived as it was published, here and at the listener."""
-        return self._feed.at_once and (self._edge is None or self._edge.ideal)
+        return self._feed.undelayed and (self._edge is None or self._edge.ideal)
 
     def catch_up(self, now_ns: int) -> None:
         """Use the joint states that have arrived since the last call."""
@@ -222,9 +222,9 @@ class RobotStatePublisher:
         self.announced_ns: int | None = None
 
     @property
-    def at_once(self) -> bool:
+    def undelayed(self) -> bool:
         """Tell whether every joint state, and every transform made of it, arrived as it was published."""
-        return all(published.at_once for published in self._published)
+        return all(published.undelayed for published in self._published)
 
     def announce(self, buffer: TransformBuffer, now_ns: int, *, hears_static: bool, hears_moving: bool) -> None:
         """Start publishing to a listener; the names of the joints must be known from a first joint state.

@@ -207,9 +207,9 @@ def gate_section(gates: Sequence[GateResult]) -> Element:
 
 def _gate(gate: GateResult, *, open_: bool) -> Element:
     held = gate.tally(Verdict.PASSED)
-    told = f"{held.good} of {count(held.total, 'line')} passed"
+    text = f"{held.good} of {count(held.total, 'line')} passed"
     verdict = tag("span", gate.verdict.value, class_=_CLASSES[gate.verdict])
-    title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {told}")
+    title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {text}")
     rows = tag("ul", *(_check(check) for check in gate.checks), class_="checks")
     by = tag("code", gate.signature) if gate.signature else "not signed, because the folder was edited"
     signed = tag("p", f"State of the robot: {gate.state}. Signed by result: ", by, class_="hint")

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.evidence.begun_faults import begun_faults
+from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
@@ -112,14 +112,14 @@ def packet(record: AttemptRecord) -> Element:
 
 
 def _steps(record: AttemptRecord) -> Iterator[Element]:
-    made = record.made
+    made_steps = record.made
     for number, (step, words) in enumerate(_WORDS.items(), start=1):
-        if step not in made:
+        if step not in made_steps:
             yield _step(number, words, "–", "missing", f"step {step.value}: not made")
             continue
-        one = made[step]  # an image is older than the attempt that uses it
-        elapsed = f"{'+' if one.after_s >= 0.0 else '−'}{seconds(abs(one.after_s))}"
-        yield _step(number, words, elapsed, "made", f"step {step.value}: at {one.stamp_ns / 1e9:.6f} s")
+        made_step = made_steps[step]  # an image is older than the attempt that uses it
+        elapsed = f"{'+' if made_step.after_s >= 0.0 else '−'}{seconds(abs(made_step.after_s))}"
+        yield _step(number, words, elapsed, "made", f"step {step.value}: at {made_step.stamp_ns / 1e9:.6f} s")
 
 
 def _step(number: int, words: str, elapsed: str, state: str, hint: str) -> Element:
@@ -211,8 +211,8 @@ def _lane(interfaces: list[str], spans: _Spans, time: TimeAxis) -> Element:
 
 
 def _change(change: StateChange) -> tuple[Child, ...]:
-    told = change.reason or "it was asked to"
-    return tag("td", at(change.stamp_ns), class_="number"), f"{change.kind} {change.subject}", change.state, told
+    reason = change.reason or "it was asked to"
+    return tag("td", at(change.stamp_ns), class_="number"), f"{change.kind} {change.subject}", change.state, reason
 
 
 def run_section(number: int, run: RunEvidence, contract: Contract) -> Element:
@@ -264,7 +264,7 @@ def _parts(run: RunEvidence, trace: TraceResult, contract: Contract) -> Iterator
 def _time_axis(run: RunEvidence, trace: TraceResult) -> TimeAxis:
     spans = tuple((record.started_ns / 1e9, record.ended_ns / 1e9) for record in run.result.attempts[:-1])
     end_s = max(trace.ended_ns / 1e9, 1e-3)
-    faults_s = tuple(begun_s for begun_s, _ in begun_faults(run.entry.faults, run.result.attempts))
+    faults_s = tuple(start_s for start_s, _ in fault_times(run.entry.faults, run.result.attempts))
     return TimeAxis(0.0, end_s, faults_s, spans)
 
 

@@ -20,9 +20,9 @@ _BARS = 50
 def sweep_section(sweep: Sweep, contract: Contract) -> Element:
     """Return the section of one sweep."""
     tables = [cards(head, rest) for head, *rest in filter(None, (drawn_table(sweep), explained_table(sweep)))]
-    if found := tuple(margins(sweep, contract)):
-        names, *rows = margin_table(found)
-        drawn: list[tuple[Child, ...]] = [(*row, histogram(one)) for row, one in zip(rows, found, strict=True)]
+    if ranked := tuple(margins(sweep, contract)):
+        names, *rows = margin_table(ranked)
+        drawn: list[tuple[Child, ...]] = [(*row, histogram(margin)) for row, margin in zip(rows, ranked, strict=True)]
         tables.insert(0, cards((*names, "best to worst"), drawn))
     hint = (
         "95 % of the runs are as good as the figure below it, or better. A drawing ends at the bound, or at a run "

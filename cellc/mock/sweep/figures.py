@@ -126,8 +126,8 @@ def explain(
     compared = sum(len(group) + (len(group) > 1) for group in groups.values())
     # Smirnov's asymptotic distribution; 2 exp(-2 c^2) is its first term, an upper bound of the tail.
     critical = math.sqrt(-0.5 * math.log(_CHANCE / compared / 2.0)) * math.sqrt((fail + rest) / (fail * rest))
-    found = (_explanation(group, values, failed, critical) for group in groups.values())
-    return tuple(sorted(found, key=lambda one: (-one.statistic, one.name)))
+    explanations = (_explanation(group, values, failed, critical) for group in groups.values())
+    return tuple(sorted(explanations, key=lambda one: (-one.statistic, one.name)))
 
 
 def _explanation(

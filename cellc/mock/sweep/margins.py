@@ -66,9 +66,9 @@ def _at(goal: str, rooms: list[GoalRoom], sweep: Sweep, contract: Contract) -> I
 def _margin(
     name: str, unit: str, values: Iterable[float | None], bound: float | None, *, falling: bool = False
 ) -> Iterator[Margin]:
-    found = tuple(sorted((value for value in values if value is not None), reverse=falling))
-    if found:
-        yield Margin(name, unit, found, bound, falling)
+    figures = tuple(sorted((value for value in values if value is not None), reverse=falling))
+    if figures:
+        yield Margin(name, unit, figures, bound, falling)
 
 
 def _transform_age_s(contract: Contract, goal: str) -> float | None:

@@ -96,23 +96,23 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
     Raises:
         MockError: it says nothing of uncertainty, or names what it does not have.
     """
-    found, contract = cell.folder.uncertainty, cell.contract
-    if found is None:
+    uncertainty, contract = cell.folder.uncertainty, cell.contract
+    if uncertainty is None:
         raise MockError("", f"the folder has no `{UNCERTAINTY_FILE}`; write `uncertainty: {{}}` in the spec, and build")
     known: dict[str, tuple[str, Sequence[str]]] = {
         **dict.fromkeys(LINKS, ("frame of the description", [joint.child for joint in cell.folder.description.joints])),
-        "region": ("dynamic frame", [name for name, one in contract.frames.items() if one.simulated_parent]),
+        "region": ("dynamic frame", [name for name, frame in contract.frames.items() if frame.simulated_parent]),
         "clock": ("clock", list(contract.clocks)),
     }
-    named = [(quantity.target, *known[quantity.kind]) for quantity in found.quantities]
-    named += [(name, "goal", list(contract.goals)) for name in found.tolerances]
-    named += [(name, "rehearsal", cell.rehearsals) for name in found.expected]
+    named = [(quantity.target, *known[quantity.kind]) for quantity in uncertainty.quantities]
+    named += [(name, "goal", list(contract.goals)) for name in uncertainty.tolerances]
+    named += [(name, "rehearsal", cell.rehearsals) for name in uncertainty.expected]
     for name, kind, names in named:
         if name not in names:
             raise MockError(UNCERTAINTY_FILE, f"names {kind} `{name}`, which the folder does not have")
-    if len({quantity.name for quantity in found.quantities}) < len(found.quantities):
+    if len({quantity.name for quantity in uncertainty.quantities}) < len(uncertainty.quantities):
         raise MockError(UNCERTAINTY_FILE, "names two quantities alike")
-    return found
+    return uncertainty
 
 
 def reality(uncertainty: Uncertainty, seed: int, number: int) -> Reality:
@@ -139,7 +139,9 @@ def execute(cell: MockCell, entry: RehearsalEntry, uncertainty: Uncertainty, see
         goal: _worst([arrival for arrival in arrivals if arrival.goal == goal])
         for goal in {arrival.goal: 0 for arrival in arrivals}
     }
-    missed = next((name for name, one in goals.items() if one.distance_m > uncertainty.tolerances.get(name, inf)), None)
+    missed = next(
+        (name for name, room in goals.items() if room.distance_m > uncertainty.tolerances.get(name, inf)), None
+    )
     outcome = result.outcome.value if missed is None or not result.passed else f"missed {missed}"
     digest = hashlib.sha256(repr((result.attempts, arrivals)).encode()).hexdigest()[:16]
     passed = result.passed and missed is None
@@ -158,8 +160,8 @@ def _worst(arrivals: Sequence[Arrival]) -> GoalRoom:
 
 
 def _stated(worst: Callable[[list[float]], float], values: Iterable[float | None]) -> float | None:
-    found = [value for value in values if value is not None]
-    return worst(found) if found else None
+    stated = [value for value in values if value is not None]
+    return worst(stated) if stated else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -168,8 +168,8 @@ class TaskContext:
 
     Attributes:
         deadline_ns: end of the whole rehearsal.
-        seed: told to whatever draws numbers.
-        is_disturbed: tells whether a fault has started.
+        seed: seed of every random draw.
+        is_disturbed: returns whether a fault has started.
         may_oversleep: no fault can begin, and a run whose task slept too long is made again.
         observed: stamp of the kept observation, by dynamic frame.
         retreats: pose of the tip link in the base from which a group's goal was approached, while it is there.
@@ -301,7 +301,7 @@ class TaskContext:
             raise AttemptError(AttemptOutcome.MISSED_CYCLE, f"{missed} update cycles missed, {allowed} allowed")
 
     def _check_states(self) -> None:
-        """Raise AttemptError where a goal executes and nobody would see where the arm goes."""
+        """Raise AttemptError where a goal executes without current joint states."""
         if self.node.actions.is_executing():
             current_state(self.plant)
 
@@ -324,10 +324,10 @@ class TaskContext:
             return
         raise self.stale(self.acting_on or "", inbox.describe(self.acting_on or ""))
 
-    def stale(self, frame: str, told: str) -> AttemptError:
+    def stale(self, frame: str, observation: str) -> AttemptError:
         """Return what ends an attempt whose observation of a frame is stale, with the link that is starved."""
         why = starved_observation(self.plant, frame, self.node.observations[frame].max_age_s)
-        return AttemptError(AttemptOutcome.STALE_STATE, f"{told}; {why}")
+        return AttemptError(AttemptOutcome.STALE_STATE, f"{observation}; {why}")
 
     def check_authorities(self, frames: Iterable[str]) -> None:
         """Raise AttemptError where two nodes publish one of the frames: lookups would jump from one to the other."""

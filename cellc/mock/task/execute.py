@@ -24,7 +24,7 @@ STANDSTILL = 1e-3
 """rad/s or m/s below which a joint is held; far below what a person sees and above what rounding makes."""
 _LOOK_NS = 10_000_000
 RESULT_GRACE_NS = 100_000_000
-"""A controller that is deactivated sends the results of its goals immediately, or never: nobody waits longer for
+"""A controller that is deactivated sends the results of its goals immediately, or never: a client waits no longer for
 them."""
 _MOVED = 1e-9
 """rad or m: the least change of a joint that counts as having been driven."""
@@ -252,7 +252,7 @@ def _error(ended: TrajectoryEnded) -> tuple[int, str]:
 
 def _driven_ns(plant: Plant, joints: tuple[str, ...], since_ns: int) -> int | None:
     """Return the first stamp at which a joint is not where it was at ``since_ns``; None where none moved."""
-    found: list[int] = []
+    durations: list[int] = []
     for history in plant.control.histories.values():
         columns = [history.names.index(joint) for joint in joints if joint in history.names]
         first = max(0, int(np.searchsorted(history.stamps, since_ns, side="right")) - 1)
@@ -260,8 +260,8 @@ def _driven_ns(plant: Plant, joints: tuple[str, ...], since_ns: int) -> int | No
         if columns and len(positions):
             moved = np.flatnonzero(np.abs(positions - positions[0]).max(axis=1) > _MOVED)
             if moved.size:
-                found.append(int(history.stamps[first + int(moved[0])]))
-    return min(found) if found else None
+                durations.append(int(history.stamps[first + int(moved[0])]))
+    return min(durations) if durations else None
 
 
 def _joints(plant: Plant, controller: str) -> tuple[str, ...]:

@@ -21,11 +21,11 @@ def starved_observation(plant: Plant, frame: str, max_age_s: float) -> str:
 def _broken_links(plant: Plant, frame: str, max_age_ns: int) -> Iterator[str]:
     """Yield what is wrong from the camera on; what comes last is so where nothing else is."""
     authority, now_ns = plant.contract.frames[frame].authority, plant.now_ns
-    perception, found = plant.perceptions.get(frame), _camera(plant, authority)
-    if perception is None or found is None:
+    perception, stream = plant.perceptions.get(frame), _camera(plant, authority)
+    if perception is None or stream is None:
         yield f"no images reach `{authority}`"
         return
-    camera, facts = found
+    camera, facts = stream
     if camera.last is None:
         yield f"`{camera.device}` has published no image"
     elif now_ns - camera.last.taken_ns > max_age_ns:
@@ -57,8 +57,8 @@ def _of_detector(
     if look is None:
         yield f"no image of `{camera.device}` has reached `{name}`"
     elif look.rejected:
-        told = f"`{name}` rejected {perception.rejected} of {perception.taken} images"
-        yield f"{told}, oldest {_s(perception.oldest_ns)}, {queue}"
+        message = f"`{name}` rejected {perception.rejected} of {perception.taken} images"
+        yield f"{message}, oldest {_s(perception.oldest_ns)}, {queue}"
     elif look.taken_ns - look.image.taken_ns > max_age_ns:
         yield f"images are {_s(look.taken_ns - look.image.taken_ns)} old when `{name}` takes them, {queue}"
     elif now_ns - look.image.taken_ns > max_age_ns:

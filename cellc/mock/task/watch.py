@@ -48,7 +48,7 @@ def is_undisturbed(plant: Plant) -> bool:
     if not all(history.unbroken for history in plant.control.histories.values()):
         return False
     allowed_ns = round(joint_state_age_s(plant.contract) * 1e9)
-    return all(feed.at_once and _oldest_ns(plant, feed) < allowed_ns for feed in plant.task.feeds)
+    return all(feed.undelayed and _oldest_ns(plant, feed) < allowed_ns for feed in plant.task.feeds)
 
 
 def _oldest_ns(plant: Plant, feed: JointStateFeed) -> int:

@@ -170,10 +170,10 @@ class TransformBuffer:
             return Edge(source.parent(0), source.pose(0))
         if not stamps:
             return no_data() if child in self._remembered else None
-        found = find(stamps, stamp_ns)
-        if isinstance(found, Outside):
-            return found
-        return _between(source, found)
+        neighbors = find(stamps, stamp_ns)
+        if isinstance(neighbors, Outside):
+            return neighbors
+        return _between(source, neighbors)
 
     def _knows(self, frame: str) -> bool:
         """Tell whether a frame was ever heard of, as a child or as a parent."""

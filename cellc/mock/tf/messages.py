@@ -68,7 +68,7 @@ def unknown_frame(argument: str, frame: str) -> TfFailure:
 
 
 def loop() -> TfFailure:
-    """Return the failure of a lookup in a tree that is none."""
+    """Return the failure of a lookup in a TF graph with a loop."""
     return TfFailure(TfFailureKind.LOOKUP, "The tf tree is invalid because it contains a loop.")
 
 

@@ -21,8 +21,8 @@ _UNIT = identity()
 class TimeCache(Generic[Value]):
     """Values by stamp, over a bounded time before the newest one.
 
-    A stamp that is there already is no mistake to ROS 2: the value that came last is found. TF_REPEATED_DATA was a
-    warning of ROS 1.
+    ROS 2 accepts a stamp that exists already and keeps the value that arrived last. TF_REPEATED_DATA was a warning of
+    ROS 1.
     """
 
     def __init__(self, buffer_ns: int) -> None:
@@ -63,7 +63,7 @@ class Neighbors:
 
 
 def find(stamps: Sequence[int], stamp_ns: int) -> Neighbors | Outside:
-    """Return which of the rising stamps answer for one stamp, or why none does."""
+    """Return the two of the rising stamps to interpolate between for a stamp, or why the lookup fails."""
     if not stamps:
         return no_data()
     if stamp_ns == LATEST or stamp_ns == stamps[-1]:

@@ -89,8 +89,8 @@ class JointStateHistory:
                 self._restart(names)
         self._make_room(size)
         self._stamps[self._count : self._count + size] = block.stamps_ns
-        own = block.positions if len(self._columns) == len(block.names) else block.positions[:, self._columns]
-        self._positions[self._count : self._count + size] = own
+        positions = block.positions if len(self._columns) == len(block.names) else block.positions[:, self._columns]
+        self._positions[self._count : self._count + size] = positions
         self._count_missed(max(0, self._count - 1), self._count + size)
         self._resumed = False
         self._count += size
@@ -173,8 +173,8 @@ class JointStateHistory:
     def _restart(self, names: tuple[str, ...]) -> None:
         self.names = names
         if 2 * self._keep * len(names) > limits().mock_samples:
-            kept = f"a buffer of {self._keep} joint states of {len(names)} joints is kept"
-            raise LimitReachedError(f"{kept}, at most {limits().mock_samples // 2} values may be", "mock-samples")
+            what = f"a buffer of {self._keep} joint states of {len(names)} joints is kept"
+            raise LimitReachedError(f"{what}, at most {limits().mock_samples // 2} values may be", "mock-samples")
         self._stamps = np.empty(2 * self._keep, dtype=np.int64)
         self._positions = np.empty((2 * self._keep, len(names)))
         self._count = 0
@@ -182,13 +182,13 @@ class JointStateHistory:
     def _make_room(self, size: int) -> None:
         if self._count + size <= len(self._stamps):
             return
-        kept = min(self._count, self._keep)
-        capacity = max(2 * self._keep, kept + size)
+        remaining = min(self._count, self._keep)
+        capacity = max(2 * self._keep, remaining + size)
         stamps: IntArray = np.empty(capacity, dtype=np.int64)
         positions: FloatArray = np.empty((capacity, len(self.names)))
-        stamps[:kept] = self._stamps[self._count - kept : self._count]
-        positions[:kept] = self._positions[self._count - kept : self._count]
-        self._stamps, self._positions, self._count = stamps, positions, kept
+        stamps[:remaining] = self._stamps[self._count - remaining : self._count]
+        positions[:remaining] = self._positions[self._count - remaining : self._count]
+        self._stamps, self._positions, self._count = stamps, positions, remaining
 
     def _count_missed(self, first: int, last: int) -> None:
         stamps = self._stamps[first + 1 if self._resumed else first : last]

@@ -23,9 +23,11 @@ class Switches:
 
     def __init__(self, contract: Contract) -> None:
         """Put every device into the state of its power-up."""
-        found = {name: device.switched for name, device in contract.devices.items()}
-        self._facts: dict[str, ContractSwitched] = {name: one for name, one in found.items() if one is not None}
-        self._ways = {name: _Way(one.starts, one.starts, 0) for name, one in self._facts.items()}
+        switched = {name: device.switched for name, device in contract.devices.items()}
+        self._facts: dict[str, ContractSwitched] = {
+            name: facts for name, facts in switched.items() if facts is not None
+        }
+        self._ways = {name: _Way(facts.starts, facts.starts, 0) for name, facts in self._facts.items()}
 
     def set(self, device: str, state: str, now_ns: int) -> int:
         """Switch the outputs of a device for a state; return when it is there."""
@@ -54,6 +56,6 @@ class Switches:
         """Let the sensors of a device read for ever what they read now."""
         self._ways[device].read = self.read(device, now_ns)
 
-    def mend(self, device: str) -> None:
+    def restore(self, device: str) -> None:
         """Let the sensors of a device read again."""
         self._ways[device].read = None

@@ -76,8 +76,8 @@ class LinkTree:
             pose = pose @ joint.displacement(positions) @ fixed
         return pose
 
-    def stands(self, link: str) -> bool:
-        """Tell whether no joint moves a link."""
+    def is_fixed(self, link: str) -> bool:
+        """Return whether no joint moves a link."""
         return not self._run(link)[1]
 
     def _run(self, link: str) -> tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]:
@@ -188,7 +188,7 @@ class World:
     def sight(self, link: str, name: str, stamp_ns: int) -> DeferredPose:
         """Return the true pose of an object in the frame of a link at a time, from what is recorded by now."""
         placement = self._placement(name, stamp_ns)
-        if self._links.stands(link) and self._links.stands(placement.link):
+        if self._links.is_fixed(link) and self._links.is_fixed(placement.link):
             if (link, placement) not in self._standing:
                 self._standing[link, placement] = DeferredPose(partial(self._relative, link, placement, {}))
             return self._standing[link, placement]

@@ -60,10 +60,10 @@ def ask_child(module: str, request: bytes, wall_seconds: float = HANG_S) -> byte
         except subprocess.TimeoutExpired:
             ended = f"hangs: it has not ended after {wall_seconds:g} s"
         answer.seek(0)
-        written = answer.read()
+        content = answer.read()
     if ended:
-        raise ChildEndedError(ended, written)
-    return written
+        raise ChildEndedError(ended, content)
+    return content
 
 
 def confine_this_process(cpu_seconds: int, memory_bytes: int, file_bytes: int) -> None:

@@ -106,8 +106,8 @@ def _shape_of_obj(content: bytes) -> bytes:
     Line ends, and backslashes that join lines, are resolved here, so that no other parser decides them differently.
     """
     lines = (line.split() for line in _LINE_END.split(_CONTINUED.sub(b" ", content)))
-    kept = (b" ".join(words) for words in lines if words and words[0] in _OBJ_SHAPE)
-    return b"\n".join(kept).replace(b"\\", b"_") + b"\n"
+    shape = (b" ".join(words) for words in lines if words and words[0] in _OBJ_SHAPE)
+    return b"\n".join(shape).replace(b"\\", b"_") + b"\n"
 
 
 def _one_file(content: bytes) -> bytes:
@@ -136,9 +136,9 @@ def _one_file(content: bytes) -> bytes:
 
 
 def _each_once(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    if len(found := dict(pairs)) < len(pairs):
+    if len(members := dict(pairs)) < len(pairs):
         raise ValueError
-    return found
+    return members
 
 
 if __name__ == "__main__":

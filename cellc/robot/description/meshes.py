@@ -136,8 +136,8 @@ def without_meshes(urdf: str) -> str:
 
 def readable(files: Mapping[str, MeshFile | MeshError]) -> tuple[MeshFile, ...]:
     """Return the files that exist, each once, in a fixed order."""
-    found = {file for file in files.values() if isinstance(file, MeshFile)}
-    return tuple(sorted(found, key=lambda file: (file.digest, file.path)))
+    usable = {file for file in files.values() if isinstance(file, MeshFile)}
+    return tuple(sorted(usable, key=lambda file: (file.digest, file.path)))
 
 
 def unusable(

@@ -297,14 +297,14 @@ class Description:
 
 
 def _direct(mimic: Mimic, mimics: Mapping[str, Mimic]) -> Mimic:
-    found = mimic
+    direct = mimic
     for _ in mimics:
-        above = mimics.get(found.joint)
+        above = mimics.get(direct.joint)
         if above is None:
-            return found
-        offset = found.multiplier * above.offset + found.offset
-        found = Mimic(above.joint, found.multiplier * above.multiplier, offset)
-    return mimic if found.joint in mimics else found
+            return direct
+        offset = direct.multiplier * above.offset + direct.offset
+        direct = Mimic(above.joint, direct.multiplier * above.multiplier, offset)
+    return mimic if direct.joint in mimics else direct
 
 
 def _renamed_joint(joint: Joint, prefix: str) -> Joint:

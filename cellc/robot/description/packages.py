@@ -125,12 +125,12 @@ def folders_elsewhere(names: Iterable[str], folder: str, candidates: Sequence[st
     top, here = repository_of(folder), os.path.realpath(folder)
     above = [*map(os.path.realpath, candidates), *map(str, Path(here).parents)]
     inside = [place for place in above if lies_under(place, top) and not lies_under(place, here)]
-    found: dict[str, None] = {}
+    folders: dict[str, None] = {}
     for name in sorted(set(names)):
         if not any(map(os.path.isdir, package_folders(name, folder))):
             holding = (place for place in inside if any(map(os.path.isdir, package_folders(name, place))))
-            found |= dict.fromkeys([os.path.relpath(place, here).replace(os.sep, "/") for place in holding][:1])
-    return tuple(found)
+            folders |= dict.fromkeys([os.path.relpath(place, here).replace(os.sep, "/") for place in holding][:1])
+    return tuple(folders)
 
 
 def root_of(file: Path) -> Path:
@@ -151,10 +151,10 @@ def declared_name(manifest: str) -> str:
     """Return the name of a package as its ``package.xml`` has it; empty where it has none."""
     try:
         with open_regular(Path(manifest)) as file:
-            found = _DECLARED.search(file.read(_MANIFEST_BYTES))
+            declared = _DECLARED.search(file.read(_MANIFEST_BYTES))
     except OSError:
         return ""
-    return "" if found is None else found[1].decode("ascii")
+    return "" if declared is None else declared[1].decode("ascii")
 
 
 def repository_of(folder: str) -> str:

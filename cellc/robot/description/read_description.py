@@ -34,8 +34,8 @@ def read_description(
         return _read_expanded(file, expand_xacro(file, arguments, root, budget=budget, beside=beside))
     if arguments:
         message, start = f"`{file.name}` is URDF and takes no arguments", Span(file.as_posix(), 1, 1, 1, 1)
-        found = Diagnostic("xacro-unknown-argument", Severity.ERROR, message, start, help="remove `arguments:`")
-        return Outcome(None, (found,))
+        problem = Diagnostic("xacro-unknown-argument", Severity.ERROR, message, start, help="remove `arguments:`")
+        return Outcome(None, (problem,))
     text = text_under(file, root)
     return Outcome(None, text.diagnostics) if text.value is None else _read(text.value, file.as_posix(), limits())
 

@@ -79,16 +79,16 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
     if too_many := _too_many(root):
         return Outcome(None, (too_many,))
     _move_spans(root, origins or {})
-    found: list[Diagnostic] = []
-    name = _read_each([root], lambda element: required(element, "name"), found)
-    colors = _read_each(root.all("material"), _read_color, found)
+    problems: list[Diagnostic] = []
+    name = _read_each([root], lambda element: required(element, "name"), problems)
+    colors = _read_each(root.all("material"), _read_color, problems)
     known = {material: rgba for material, rgba in colors if rgba is not None}
-    links: list[Link] = _read_each(root.all("link"), lambda element: _read_link(element, known), found)
-    joints = _read_each(root.all("joint"), _read_joint, found)
-    found.extend(_left_from_xacro(root))
-    found.extend(_unsafe(root, from_user))
-    if found:
-        return Outcome(None, tuple(found))
+    links: list[Link] = _read_each(root.all("link"), lambda element: _read_link(element, known), problems)
+    joints = _read_each(root.all("joint"), _read_joint, problems)
+    problems.extend(_left_from_xacro(root))
+    problems.extend(_unsafe(root, from_user))
+    if problems:
+        return Outcome(None, tuple(problems))
     return Outcome(Description(name[0], tuple(links), tuple(joints), *read_hardware(root)))
 
 

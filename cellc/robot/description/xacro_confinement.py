@@ -83,8 +83,8 @@ class Confinement:
             raise
         parsed = read_xml(text, self.files.shown(filename))
         if parsed.value is None:
-            found = parsed.diagnostics[0]
-            raise XacroRefusedError(found.code, found.message, found.help, found.span)
+            problem = parsed.diagnostics[0]
+            raise XacroRefusedError(problem.code, problem.message, problem.help, problem.span)
         dom = minidom.parseString(text)
         _set_places(dom.documentElement, parsed.value)
         for macro in dom.getElementsByTagName("xacro:macro"):
@@ -137,9 +137,9 @@ class Confinement:
     def _without_environment(self, name: str, *default: str) -> str:
         """Return the default of a variable of the environment: no description may depend on the machine."""
         value = " ".join(default)
-        told = f"`$(optenv {name})` is read as its default `{value}`: variables of the environment count for nothing"
-        if told not in self.warnings:
-            self.warnings.append(told)
+        message = f"`$(optenv {name})` is read as its default `{value}`: variables of the environment count for nothing"
+        if message not in self.warnings:
+            self.warnings.append(message)
         return value
 
     def _typed_arguments(self) -> dict[str, Any]:
@@ -154,9 +154,9 @@ class Confinement:
         """
         path = filename.removeprefix("file://")
         for name, folder in sorted(self._packages.items()):
-            for written in (folder, f"/{folder}"):
-                if path.startswith(f"{written}/"):
-                    return f"package://{name}{path[len(written) :]}"
+            for prefix in (folder, f"/{folder}"):
+                if path.startswith(f"{prefix}/"):
+                    return f"package://{name}{path[len(prefix) :]}"
         return filename
 
     def argument(self, name: str) -> str:

@@ -208,8 +208,14 @@ def _encoded(outcome: Outcome[Expansion]) -> dict[str, Any]:
         "text": None if expansion is None else expansion.text,
         "origins": [] if expansion is None else [[*key, _span_values(span)] for key, span in expansion.origins.items()],
         "diagnostics": [
-            [found.code, found.severity.value, found.message, _span_values(found.span), found.help]
-            for found in outcome.diagnostics
+            [
+                diagnostic.code,
+                diagnostic.severity.value,
+                diagnostic.message,
+                _span_values(diagnostic.span),
+                diagnostic.help,
+            ]
+            for diagnostic in outcome.diagnostics
         ],
     }
 

@@ -69,12 +69,12 @@ class ConfinedFiles:
     def holds(self, path: str) -> bool:
         """Whether a path lies under the root or in a folder beside it, links followed."""
         # A path that is written out of the root is out of it; a link may lead to another folder of the repository.
-        written = os.path.abspath(path)
-        if any(f"{written}{os.sep}".startswith(f"{os.path.abspath(folder)}{os.sep}") for folder in package_path()):
+        absolute = os.path.abspath(path)
+        if any(f"{absolute}{os.sep}".startswith(f"{os.path.abspath(folder)}{os.sep}") for folder in package_path()):
             return True  # the caller chose it, and links to a workspace are usual there
         return any(
             lies_under(path, root)
-            or (f"{written}{os.sep}".startswith(f"{os.path.abspath(root)}{os.sep}") and lies_under(path, self._within))
+            or (f"{absolute}{os.sep}".startswith(f"{os.path.abspath(root)}{os.sep}") and lies_under(path, self._within))
             for root in self._roots
         )
 

@@ -86,16 +86,16 @@ def read_xml(text: str, file: str) -> Outcome[XmlElement]:
 def with_values(text: str, tag: str, attribute: str, change: Callable[[str], str]) -> str:
     """Return a document that `read_xml` takes with the values of an attribute changed, and all else to the letter."""
     data = text.encode("utf-8", "surrogatepass")
-    parser, found = expat.ParserCreate(encoding="utf-8"), list[tuple[int, str]]()
+    parser, values = expat.ParserCreate(encoding="utf-8"), list[tuple[int, str]]()
 
     def start(name: str, attributes: dict[str, str]) -> None:
         if name == tag and attribute in attributes:
-            found.append((parser.CurrentByteIndex, attributes[attribute]))
+            values.append((parser.CurrentByteIndex, attributes[attribute]))
 
     parser.StartElementHandler = start
     parser.Parse(data, True)
     parts, done = list[bytes](), 0
-    for at, value in found:
+    for at, value in values:
         begin, end = _value_place(data, at + 1 + len(tag.encode()), attribute.encode())
         changed = change(value)
         if changed != value:

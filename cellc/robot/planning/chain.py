@@ -37,13 +37,13 @@ def _driven_joints(model: RobotModel, group: PlanningGroup) -> list[_DrivenJoint
     """List the joints that a group moves: its own, and those that mimic them."""
     columns = {joint: column for column, joint in enumerate(group.joints)}
     leads = [MimicJoint(joint, joint, 1.0, 0.0) for joint in group.joints if model.joint_of(joint)]
-    found: list[_DrivenJoint] = []
+    driven: list[_DrivenJoint] = []
     for lead in (*leads, *(mimic for mimic in model.mimics if mimic.leader in columns)):
         index = model.kinematics.getJointId(lead.joint)
         place, width = int(model.kinematics.idx_qs[index]), int(model.kinematics.nqs[index])
         row = int(model.kinematics.idx_vs[index])
-        found.append(_DrivenJoint(place, width, row, columns[lead.leader], lead.multiplier, lead.offset))
-    return found
+        driven.append(_DrivenJoint(place, width, row, columns[lead.leader], lead.multiplier, lead.offset))
+    return driven
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -156,8 +156,8 @@ class GroupChain:
         The arm's own base does not stand around: links from the base of the group on.
         """
         moved = np.asarray(self._rates.any(axis=1), dtype=np.bool_)
-        own = set(self._upwards())
-        around = np.array([shape.parentFrame not in own for shape in self.scene.shapes()], dtype=np.bool_)
+        links = set(self._upwards())
+        around = np.array([shape.parentFrame not in links for shape in self.scene.shapes()], dtype=np.bool_)
         return self.scene.clearance_m(self.full(configuration), moved, around & ~moved)
 
     def _upwards(self) -> Iterator[int]:

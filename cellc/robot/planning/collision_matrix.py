@@ -92,12 +92,12 @@ def _without_never(
     moving = set(_pairs(shape_links(model))) - adjacent - rigid - unreached
     at_rest = PairCheck(model, rigid, margin_m=margin_m).all_touching(configurations[0])
     always = _touching_in_all(PairCheck(model, moving), moving, budget.over(configurations))
-    found = {
+    reasons = {
         DisabledReason.ADJACENT: adjacent,
         DisabledReason.ALWAYS: at_rest | always,
         DisabledReason.NEVER: (rigid - at_rest) | unreached,
     }
-    decided = (DisabledPair(*pair, reason) for reason, pairs in found.items() for pair in pairs)
+    decided = (DisabledPair(*pair, reason) for reason, pairs in reasons.items() for pair in pairs)
     return tuple(sorted(decided)), moving - always
 
 

@@ -71,22 +71,22 @@ def solve_inverse(
         seeds: number of descents: the first from ``current``, the others from configurations drawn with ``rng_seed``.
         min_singular_value: solutions below it are refused as singular.
     """
-    found: list[tuple[float, Array, Descent]] = []
+    solutions: list[tuple[float, Array, Descent]] = []
     for number, seed in enumerate(_seeds(limits, current, seeds, rng_seed)):
         descent = descend(chain, target_to_world, seed, limits)
         if not descent.reached:
             continue
         near = undo_turns(descent.configuration, current, limits, chain.turning)
-        if all(float(np.max(np.abs(near - known))) > _SAME_SOLUTION for _, known, _ in found):
-            found.append((float(np.linalg.norm(near - current)), near, descent))
+        if all(float(np.max(np.abs(near - known))) > _SAME_SOLUTION for _, known, _ in solutions):
+            solutions.append((float(np.linalg.norm(near - current)), near, descent))
         if number == 0 and _stays_on_branch(chain, current, near):
-            usable = _first_usable(chain, found, min_singular_value)
+            usable = _first_usable(chain, solutions, min_singular_value)
             if isinstance(usable, IkSolution):
                 return usable
-    if not found:
+    if not solutions:
         return _unreached(chain, target_to_world, current)
-    found.sort(key=lambda entry: (entry[0], entry[1].tolist()))
-    return _first_usable(chain, found, min_singular_value)
+    solutions.sort(key=lambda entry: (entry[0], entry[1].tolist()))
+    return _first_usable(chain, solutions, min_singular_value)
 
 
 def _stays_on_branch(chain: GroupChain, current: Array, near: Array) -> bool:

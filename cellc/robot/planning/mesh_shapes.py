@@ -39,8 +39,8 @@ def mesh_shapes(description: Description, roots: Sequence[Path]) -> dict[tuple[s
     if not placed:
         return {}
     files = identify_all(placed.values(), roots)
-    found = readable(files)
-    read = dict(zip(found, read_meshes(found), strict=False))
+    usable = readable(files)
+    read = dict(zip(usable, read_meshes(usable), strict=False))
     facts = {file: facts_of(numbers) for file, numbers in read.items()}
     for _, fault in unusable(tuple(placed.values()), files, facts):
         raise fault

@@ -243,7 +243,7 @@ def _resolve_mimics(description: Description) -> tuple[MimicJoint, ...]:
     for follower, mimic in direct.items():
         if mimic.joint in direct:
             raise ModelError(f"joint `{follower}` mimics itself over `{mimic.joint}`")
-    return tuple(MimicJoint(name, one.joint, one.multiplier, one.offset) for name, one in direct.items())
+    return tuple(MimicJoint(name, mimic.joint, mimic.multiplier, mimic.offset) for name, mimic in direct.items())
 
 
 def _followers(description: Description) -> Iterator[tuple[str, Mimic]]:

@@ -86,8 +86,8 @@ class PairCheck:
         The caller drops the returned pairs before the next call: a pair that this search did not reach keeps its answer
         for an earlier configuration, which was "no".
         """
-        found = pinocchio.computeCollisions(self._model, self._data, self._manager, configuration, True)
-        return self._touching() if found else set()
+        touches = pinocchio.computeCollisions(self._model, self._data, self._manager, configuration, True)
+        return self._touching() if touches else set()
 
     def all_touching(self, configuration: Array) -> set[LinkPair]:
         """Return all pairs that touch."""

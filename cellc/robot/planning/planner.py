@@ -114,10 +114,10 @@ class Planner:
             return failure
         if edge_is_free(self._chain, first, last):
             return self._path([first, last])
-        found = connect(self._chain, self.limits, first, last, rng_seed=rng_seed, max_iterations=max_iterations)
-        if found is None:
+        path = connect(self._chain, self.limits, first, last, rng_seed=rng_seed, max_iterations=max_iterations)
+        if path is None:
             return PlanFailure(FailureReason.NO_PATH, f"no path in {max_iterations} iterations of RRT-Connect")
-        return self._path(shorten(self._chain, found, rng_seed=rng_seed, attempts=_SHORTCUT_ATTEMPTS))
+        return self._path(shorten(self._chain, path, rng_seed=rng_seed, attempts=_SHORTCUT_ATTEMPTS))
 
     def plan_cartesian(self, start: Sequence[float], target_in_base: Pose) -> JointPath | PlanFailure:
         """Plan a straight line of the tip to the target, in steps of at most 5 mm and 0.05 rad.

@@ -39,11 +39,11 @@ class _Tree:
 
     def branch(self, node: int) -> list[Array]:
         """Return the configurations from the root to a node."""
-        found: list[Array] = []
+        configurations: list[Array] = []
         while node >= 0:
-            found.append(self.nodes[node])
+            configurations.append(self.nodes[node])
             node = self.parents[node]
-        return found[::-1]
+        return configurations[::-1]
 
 
 def connect(

@@ -92,8 +92,8 @@ class CollisionScene:
 
     def shapes(self) -> Sequence[PinShape]:
         """Return pinocchio's shapes, boxes last."""
-        found: Sequence[PinShape] = self._geometry.geometryObjects
-        return found
+        geometries: Sequence[PinShape] = self._geometry.geometryObjects
+        return geometries
 
     def box_shapes(self) -> Iterator[PinShape]:
         """Yield pinocchio's shape of each box."""
@@ -128,8 +128,8 @@ class CollisionScene:
             for index, pair in pairs
             if (these[pair.first] and others[pair.second]) or (others[pair.first] and these[pair.second])
         ]
-        found = (pinocchio.computeDistance(geometry, geometry_data, index).min_distance for index in between)
-        least = min(found, default=None)
+        distances = (pinocchio.computeDistance(geometry, geometry_data, index).min_distance for index in between)
+        least = min(distances, default=None)
         return None if least is None else round(float(least), 6)
 
     def touching(self, box: Box, configuration: Array) -> tuple[str, ...]:
@@ -145,18 +145,18 @@ class CollisionScene:
         geometry.setCollisionPairs(pairs)
         data, geometry_data = self.model.kinematics.createData(), geometry.createData()
         pinocchio.computeCollisions(self.model.kinematics, data, geometry, geometry_data, configuration, False)
-        found = zip(geometry.collisionPairs, geometry_data.collisionResults, strict=True)
-        return tuple(sorted({names[pair.first] for pair, result in found if result.isCollision()}))
+        results = zip(geometry.collisionPairs, geometry_data.collisionResults, strict=True)
+        return tuple(sorted({names[pair.first] for pair, result in results if result.isCollision()}))
 
     def contacts(self, configuration: Array) -> tuple[LinkPair, ...]:
         """Return all pairs of names that touch at a configuration of pinocchio, sorted."""
         model = self.model.kinematics
         pinocchio.computeCollisions(model, self._data, self._geometry, self._geometry_data, configuration, False)
-        found: set[LinkPair] = set()
+        pairs: set[LinkPair] = set()
         for pair, result in zip(self._geometry.collisionPairs, self._geometry_data.collisionResults, strict=True):
             if result.isCollision():
-                found.add(ordered(self._names[pair.first], self._names[pair.second]))
-        return tuple(sorted(found))
+                pairs.add(ordered(self._names[pair.first], self._names[pair.second]))
+        return tuple(sorted(pairs))
 
     def checked_pairs(self) -> tuple[LinkPair, ...]:
         """Return the pairs of names that are checked, sorted."""

@@ -211,13 +211,13 @@ def _spaced(changes: list[float], crossings: list[float]) -> list[int]:
     if not changes[-1] <= _LONGEST_S:
         raise LimitsError(f"a motion within the limits takes {changes[-1]:.3g} s, at most {_LONGEST_S:g} s are planned")
     end = -int(-changes[-1] * 1e9 // 1)  # upwards: the motion is over at the last point
-    kept = [0, max(end, _LEAST_SPACING_NS)]
+    times = [0, max(end, _LEAST_SPACING_NS)]
     for instant in (*changes, *crossings):
         time = round(instant * 1e9)
-        place = bisect_left(kept, time)
-        if all(abs(time - other) >= _LEAST_SPACING_NS for other in kept[max(0, place - 1) : place + 1]):
-            kept.insert(place, time)
-    return kept
+        place = bisect_left(times, time)
+        if all(abs(time - other) >= _LEAST_SPACING_NS for other in times[max(0, place - 1) : place + 1]):
+            times.insert(place, time)
+    return times
 
 
 def measure_use(times_ns: list[int], states: tuple[Array, Array, Array], limits: JointLimits) -> LimitUse:

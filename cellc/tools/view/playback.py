@@ -13,7 +13,7 @@ from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.cell import MockCell
 from cellc.mock.control import JointStateBlock
 from cellc.mock.engine.control_stack import GoalSent
-from cellc.mock.evidence.begun_faults import begun_faults
+from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, RehearsalResult
 from cellc.tools.view.scene import Numbers, numbers
@@ -196,7 +196,7 @@ def _run(
         base=tuple(value for pose in first for value in pose),
         tracks=tuple(Track(number, tuple(value for row in postures for value in row[number])) for number in moving),
         moments=tuple(_moment(record) for record in result.attempts[:-1]),
-        faults=tuple(FaultMark(round(at, 3), _said(fault)) for at, fault in begun_faults(faults, result.attempts)),
+        faults=tuple(FaultMark(round(at, 3), _said(fault)) for at, fault in fault_times(faults, result.attempts)),
     )
 
 

@@ -171,7 +171,7 @@ def test_cut_stops_a_node_both_ways_until_it_is_mended() -> None:
     assert bench.network.is_cut("listener", "talker")
     assert not bench.network.is_cut("talker", "third")
     bench.publish_every(1, count=2)
-    bench.network.mend()
+    bench.network.undo_cuts()
     bench.publish_every(1, count=1, first=3)
     assert [sample for _, sample in bench.received] == [3]
 

@@ -121,7 +121,7 @@ def test_automatic_publisher_behind_a_cut_is_not_alive_after_its_lease() -> None
     bench.clock.run_until(50)
     bench.network.cut(["talker"])
     bench.clock.run_until(400)
-    bench.network.mend()
+    bench.network.undo_cuts()
     assert bench.events("listener") == [(0.0, CHANGED), (150.000001, CHANGED), (400.0, CHANGED)]
     assert bench.events("talker") == []  # its own process is well
 

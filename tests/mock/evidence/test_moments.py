@@ -9,8 +9,8 @@ import pytest
 
 from cellc.contract.rehearsals import FaultEntry, FaultEvent
 from cellc.contract.vocabulary import FaultKind
-from cellc.mock.evidence.begun_faults import begun_faults
 from cellc.mock.evidence.envelope import Envelope
+from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.result import AttemptRecord, MadeStep, PacketStep, RehearsalResult, TracePoint, simulated_s
 from tests.mock.conftest import Written
 
@@ -43,7 +43,7 @@ def test_simulated_time_is_that_of_all(plain: RehearsalResult) -> None:
 
 
 @pytest.mark.parametrize(
-    ("at_s", "event", "begun_s"),
+    ("at_s", "event", "start_s"),
     [
         (0.5, None, 2.5),  # the last record begins at 2 s, with the first step
         (None, FaultEvent(step=1, when="started", after_s=0.1), 2.1),  # 2 + 0.1
@@ -54,18 +54,18 @@ def test_simulated_time_is_that_of_all(plain: RehearsalResult) -> None:
     ],
 )
 def test_a_fault_begins_with_what_it_waits_for(
-    plain: RehearsalResult, at_s: float | None, event: FaultEvent | None, begun_s: float | None
+    plain: RehearsalResult, at_s: float | None, event: FaultEvent | None, start_s: float | None
 ) -> None:
     of = plain.attempts[0]
     attempts = [attempt(of, 2000), attempt(of, 3000, ACCEPTED=3400, DRIVEN=3500), attempt(of, 2000)]
     fault = FaultEntry.model_construct(kind=next(iter(FaultKind)), target="x", at_s=at_s, event=event)
-    assert [at for at, _ in begun_faults([fault], attempts)] == ([] if begun_s is None else [pytest.approx(begun_s)])
-    assert begun_faults([fault], []) == ()
+    assert [at for at, _ in fault_times([fault], attempts)] == ([] if start_s is None else [pytest.approx(start_s)])
+    assert fault_times([fault], []) == ()
 
 
 def test_faults_are_in_the_order_of_their_begin(plain: RehearsalResult) -> None:
     faults = [FaultEntry.model_construct(kind=next(iter(FaultKind)), target="x", at_s=at, event=None) for at in (3, 1)]
-    assert [at for at, _ in begun_faults(faults, [attempt(plain.attempts[0], 500)])] == [1.5, 3.5]
+    assert [at for at, _ in fault_times(faults, [attempt(plain.attempts[0], 500)])] == [1.5, 3.5]
 
 
 def test_extremes_are_of_all_slots_that_have_a_value() -> None:

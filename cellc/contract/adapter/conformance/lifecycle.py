@@ -75,8 +75,8 @@ def require_standstill(rig: Rig, adapter: DeviceAdapter) -> None:
 
 def require_phase(adapter: DeviceAdapter, phase: Phase) -> None:
     """Require a phase."""
-    found = adapter.read().phase
-    require(found is phase, f"it is {found.value}, not {phase.value}")
+    current = adapter.read().phase
+    require(current is phase, f"it is {current.value}, not {phase.value}")
 
 
 def require_error(action: Callable[[], object], error: type[Exception], text: str) -> None:

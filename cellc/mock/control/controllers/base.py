@@ -120,7 +120,7 @@ class Controller(Protocol):
         """Whether its next update is known to be part of no block."""
 
     def expected_updates(self) -> int | None:
-        """Updates up to the next one that is likely to decide something; None where none is, or nobody knows."""
+        """Number of updates up to the next one that is likely to decide something; None without one, or unknown."""
 
     def preview(self, block: Block) -> int:
         """Write the commands of a block of this controller's cycles; return how many leading cycles are regular."""

@@ -177,13 +177,13 @@ class JointStateBroadcaster(QuietController):
             name for name in table.exported_states() if table.data_type(name) in ("double", "float32")
         )
         fields = set(self._kinds().values())
-        found = {name.rpartition("/")[0] for name in available if name.rpartition("/")[2] in fields}
+        complete = {name.rpartition("/")[0] for name in available if name.rpartition("/")[2] in fields}
         if asked:
-            names = [joint for joint in parameters.texts("joints") if joint in found]
+            names = [joint for joint in parameters.texts("joints") if joint in complete]
         elif parameters.flag("use_urdf_to_filter"):
-            names = sorted(found & set(self.context.description.joints))
+            names = sorted(complete & set(self.context.description.joints))
         else:
-            names = sorted(found)
+            names = sorted(complete)
         return (*names, *(joint for joint in parameters.texts("extra_joints") if joint not in names))
 
     def activate(self, now_ns: int) -> None:

@@ -62,12 +62,12 @@ class GenericSystem:
     # -- what follows what -------------------------------------------------------------------------------------------
 
     def _find_mimics(self, joints: Mapping[str, Joint]) -> list[tuple[int, int, Mimic]]:
-        found = []
+        mimics = []
         for index, part in enumerate(self.info.joints):
             mimic = joints[part.name].mimic
             if mimic is not None and follows(part):
-                found.append((index, self._names.index(mimic.joint), mimic))
-        return found
+                mimics.append((index, self._names.index(mimic.joint), mimic))
+        return mimics
 
     def _columns(self, kind: str, command: bool) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Indices of the joints that have an interface of this component, and its columns."""
@@ -106,14 +106,14 @@ class GenericSystem:
         """
         if not self._dynamics:
             return []
-        found: dict[str, int] = {}
+        requested: dict[str, int] = {}
         for key in start:
             # The real one searches the joint's name anywhere in the key, so `joint1` also finds `joint10`.
             joint = next((name for name in self._names if name in key), None)
             if joint is not None:
-                found[joint] = found.get(joint, 0) + (key in {f"{joint}/{kind}" for kind in _MODES})
+                requested[joint] = requested.get(joint, 0) + (key in {f"{joint}/{kind}" for kind in _MODES})
         reasons = []
-        for joint, count in found.items():
+        for joint, count in requested.items():
             if count == 0:
                 reasons.append(f"Joint '{joint}' has to have 'position', 'velocity', or 'acceleration' interface!")
             elif count > 1:

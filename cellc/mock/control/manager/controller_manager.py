@@ -228,16 +228,16 @@ class ControllerManager:
     def publish_commands(self, controller: str, data: Sequence[float]) -> None:
         """Publish to `~/commands` of a forward command controller."""
         self._touch()
-        found = self._registry.controllers[controller].controller
-        assert isinstance(found, ForwardCommandController), f"{controller} takes no lists of commands"
-        found.receive(data)
+        publisher = self._registry.controllers[controller].controller
+        assert isinstance(publisher, ForwardCommandController), f"{controller} takes no lists of commands"
+        publisher.receive(data)
 
     def publish_gpio_commands(self, controller: str, values: Mapping[str, float]) -> None:
         """Publish to `~/commands` of a gpio command controller, values by full interface name."""
         self._touch()
-        found = self._registry.controllers[controller].controller
-        assert isinstance(found, GpioCommandController), f"{controller} takes no gpio commands"
-        found.receive(values)
+        publisher = self._registry.controllers[controller].controller
+        assert isinstance(publisher, GpioCommandController), f"{controller} takes no gpio commands"
+        publisher.receive(values)
 
     def publish_speed_scaling(self, controller: str, factor: float) -> None:
         """Publish to `~/speed_scaling_input` of a trajectory controller."""
@@ -249,9 +249,9 @@ class ControllerManager:
         return self._trajectory_controller(controller).query_state(time_ns)
 
     def _trajectory_controller(self, name: str) -> JointTrajectoryController:
-        found = self._registry.controllers[name].controller
-        assert isinstance(found, JointTrajectoryController), f"{name} is no trajectory controller"
-        return found
+        trajectory = self._registry.controllers[name].controller
+        assert isinstance(trajectory, JointTrajectoryController), f"{name} is no trajectory controller"
+        return trajectory
 
     # -- values ------------------------------------------------------------------------------------------------------
 
@@ -283,16 +283,16 @@ class ControllerManager:
         return self._broadcaster(controller).take()
 
     def _broadcaster(self, name: str) -> JointStateBroadcaster:
-        found = self._registry.controllers[name].controller
-        assert isinstance(found, JointStateBroadcaster), f"{name} is no joint state broadcaster"
-        return found
+        broadcaster = self._registry.controllers[name].controller
+        assert isinstance(broadcaster, JointStateBroadcaster), f"{name} is no joint state broadcaster"
+        return broadcaster
 
     def record(self, controller: str, rate_hz: float) -> Recorder:
         """Record a trajectory controller from now on, thinned to a rate; return what records it."""
         self._touch()
-        found = self._trajectory_controller(controller)
-        found.recorder = Recorder(found.interfaces, round(1e9 / rate_hz))
-        return found.recorder
+        trajectory = self._trajectory_controller(controller)
+        trajectory.recorder = Recorder(trajectory.interfaces, round(1e9 / rate_hz))
+        return trajectory.recorder
 
     def recording(self, controller: str) -> Recording:
         """What was recorded of a trajectory controller."""

@@ -148,7 +148,7 @@ class CycleRunner:
             loaded
             for loaded in self._registry.in_update_order()
             if loaded.state == "active"
-            and loaded.is_due(time_ns, self._rate)
+            and loaded.updates_in_cycle(time_ns, self._rate)
             and not self._update(loaded, time_ns, period_ns)
         ]
         if failed:

@@ -47,7 +47,7 @@ class HardwareSet:
         table: where interfaces are exported to.
         disturbances: faults.
         log: the log.
-        events: where changes are told.
+        events: receives changes.
 
     Raises:
         DescriptionError: a component cannot be loaded or initialized.
@@ -174,7 +174,7 @@ class HardwareSet:
         """Read all components once; returns those whose read failed."""
         failed = []
         for component in self.components.values():
-            if not component.available or not _is_due(component, time_ns, rate):
+            if not component.available or not _reads_in_cycle(component, time_ns, rate):
                 continue
             if self._disturbances.take_read_failure(component.name):
                 failed.append(component)
@@ -206,12 +206,12 @@ class HardwareSet:
         return any(0 < component.system.info.rw_rate < rate for component in self.components.values())
 
 
-def _is_due(component: Component, time_ns: int, rate: int) -> bool:
-    own = component.system.info.rw_rate
-    if own == 0 or own >= rate or component.last_read_ns is None:
+def _reads_in_cycle(component: Component, time_ns: int, rate: int) -> bool:
+    rw_rate = component.system.info.rw_rate
+    if rw_rate == 0 or rw_rate >= rate or component.last_read_ns is None:
         return True
     # The factor is the one that the manager uses for its controllers.
-    return (time_ns - component.last_read_ns) / 1e9 * own >= 0.99
+    return (time_ns - component.last_read_ns) / 1e9 * rw_rate >= 0.99
 
 
 def _check_plugin(kind: str, plugin: str) -> None:

@@ -52,8 +52,13 @@ class _Part:
         """Return the updates within the first cycles of the block, with their states; these cycles where it has all."""
         if self.rows is None:
             return block
-        own, count = self.block, self.updates_within(len(block))
-        return Block(own.times_ns[:count], own.period_ns, own.command[:count], block.state[self.rows[:count]])
+        rows_block, count = self.block, self.updates_within(len(block))
+        return Block(
+            rows_block.times_ns[:count],
+            rows_block.period_ns,
+            rows_block.command[:count],
+            block.state[self.rows[:count]],
+        )
 
 
 class Lookahead:
@@ -123,19 +128,19 @@ class Lookahead:
         rows = np.arange(max(first, 0), len(block), divisor)
         if not len(rows):
             return None
-        own = Block(block.times_ns[rows], divisor * self._period_ns, block.command[rows], block.state)
-        return _Part(loaded, rows, own, columns)
+        rows_block = Block(block.times_ns[rows], divisor * self._period_ns, block.command[rows], block.state)
+        return _Part(loaded, rows, rows_block, columns)
 
     def _previewed(self, part: _Part, block: Block) -> int:
         """Let a controller write its commands, limited, into the block; returns the regular cycles."""
-        own = part.block
-        updates = part.loaded.controller.preview(own)
+        rows_block = part.block
+        updates = part.loaded.controller.preview(rows_block)
         if updates and self._limiter is not None:
-            updates = min(updates, self._limiter.limit_block(own.cut(updates), part.columns))
+            updates = min(updates, self._limiter.limit_block(rows_block.cut(updates), part.columns))
         if part.rows is not None and part.columns:
             first = int(part.rows[0])
             lasting = np.searchsorted(part.rows, np.arange(first, len(block)), side="right") - 1
-            block.command[first:, part.columns] = own.command[lasting][:, part.columns]
+            block.command[first:, part.columns] = rows_block.command[lasting][:, part.columns]
         return part.cycles_before(updates, len(block))
 
     def _read(self, block: Block, cycles: int) -> int:

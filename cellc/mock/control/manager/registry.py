@@ -52,8 +52,8 @@ class LoadedController:
     last_update_ns: int | None = None
     chained: bool = False
 
-    def is_due(self, time_ns: int, manager_rate: int) -> bool:
-        """Whether it is updated in the cycle at a time."""
+    def updates_in_cycle(self, time_ns: int, manager_rate: int) -> bool:
+        """Return whether it is updated in the cycle at a time."""
         if self.rate >= manager_rate or self.last_update_ns is None:
             return True
         return (time_ns - self.last_update_ns) / 1e9 * self.rate >= _DUE
@@ -83,8 +83,8 @@ class ControllerRegistry:
         distro: ROS distribution.
         behaviors: behaviors of further plugin types.
         log: the log.
-        events: where changes are told.
-        declared: interfaces of controllers that only the cell tells, by name.
+        events: receives changes.
+        declared: interfaces of controllers that only the contract of the cell states, by name.
     """
 
     def __init__(
@@ -130,11 +130,11 @@ class ControllerRegistry:
     def load(self, name: str, spawner_file: ParameterFile | None) -> ServiceResponse:
         """Answer load_controller; `spawner_file` is the file of the spawner's --param-file."""
         bare = name.rpartition("/")[2]  # one of several namesakes is called by its full name
-        own = self._file.of_node(bare, self._namespace)
+        parameters = self._file.of_node(bare, self._namespace)
         given = self._own.get(f"{bare}.type")
         if spawner_file is not None:
             from_spawner = spawner_file.of_node(bare, self._namespace)
-            own.update(from_spawner)
+            parameters.update(from_spawner)
             given = from_spawner.get("type", given)
         if name in self.controllers:
             return self._refuse(f"A controller named '{name}' was already loaded inside the controller manager")
@@ -145,7 +145,7 @@ class ControllerRegistry:
             return self._refuse(f"Loader for controller '{name}' (type '{given}') not found.")
         context = Context(
             name,
-            ParameterSet(own),
+            ParameterSet(parameters),
             self._distro,
             self._period_ns,
             self._rate,
@@ -265,11 +265,11 @@ class ControllerRegistry:
 
     def preceding(self, loaded: LoadedController) -> list[LoadedController]:
         """Controllers that write a controller's references."""
-        own = set(loaded.controller.reference_interfaces())
-        if not own:
+        references = set(loaded.controller.reference_interfaces())
+        if not references:
             return []
         configured = [c for c in self.controllers.values() if c.state in ("inactive", "active")]
-        return [other for other in configured if own & set(other.controller.command_interfaces())]
+        return [other for other in configured if references & set(other.controller.command_interfaces())]
 
     def interfaces_of(self, names: Sequence[str]) -> list[str]:
         """Command interfaces of several controllers."""

@@ -45,11 +45,11 @@ class GoalDesk:
         """Answer a goal request."""
         self._log.now_ns = now_ns
         loaded = self._registry.controllers.get(controller)
-        found = None if loaded is None else loaded.controller
-        if isinstance(found, JointTrajectoryController) and isinstance(goal, TrajectoryGoal):
-            return self._send_trajectory(controller, found, goal, now_ns, listened)
-        if isinstance(found, GripperController) and isinstance(goal, GripperGoal):
-            return self._send_gripper(controller, found, goal, now_ns)
+        receiver = None if loaded is None else loaded.controller
+        if isinstance(receiver, JointTrajectoryController) and isinstance(goal, TrajectoryGoal):
+            return self._send_trajectory(controller, receiver, goal, now_ns, listened)
+        if isinstance(receiver, GripperController) and isinstance(goal, GripperGoal):
+            return self._send_gripper(controller, receiver, goal, now_ns)
         return GoalResponse(False, log_reason=f"no action server for this goal at '{controller}'")
 
     def _send_trajectory(
@@ -315,12 +315,12 @@ class Listing:
         )
 
     def _connections(self, commands: tuple[str, ...]) -> tuple[ChainConnection, ...]:
-        found: dict[str, list[str]] = {}
+        followers: dict[str, list[str]] = {}
         for command in commands:
             exporter = self._registry.exporter(command)
             if exporter is not None:
-                found.setdefault(exporter.name, []).append(command)
-        return tuple(ChainConnection(name, tuple(references)) for name, references in found.items())
+                followers.setdefault(exporter.name, []).append(command)
+        return tuple(ChainConnection(name, tuple(references)) for name, references in followers.items())
 
     def _is_available(self, interface: str) -> bool:
         exporter = self._registry.exporter(interface)
@@ -349,7 +349,7 @@ class Listing:
 
     def components(self) -> tuple[HardwareComponentState, ...]:
         """All components, in the order of the description."""
-        found = [] if self._hardware is None else list(self._hardware.components.values())
+        hardware = [] if self._hardware is None else list(self._hardware.components.values())
         return tuple(
             HardwareComponentState(
                 component.name,
@@ -361,5 +361,5 @@ class Listing:
                 tuple(self._interface(name, True) for name in component.system.command_names),
                 tuple(self._interface(name, False) for name in component.system.state_names),
             )
-            for component in found
+            for component in hardware
         )

@@ -135,10 +135,10 @@ class SwitchChecker:
         return self._keep(stop, [self._stop_complaint(name, start, stop) for name in stop], "deactivate", strict)
 
     def _keep(self, names: Sequence[str], complaints: Sequence[str], verb: str, strict: bool) -> list[str]:
-        kept = []
+        remaining = []
         for name, complaint in zip(names, complaints, strict=True):
             if not complaint:
-                kept.append(name)
+                remaining.append(name)
                 continue
             self._log.warn(NODE_NAME, complaint)
             self._log.warn(
@@ -150,7 +150,7 @@ class SwitchChecker:
             if strict:
                 self._log.error(NODE_NAME, "Aborting, no controller is switched! (::STRICT switch)")
                 raise _RefusedError(complaint)
-        return kept
+        return remaining
 
     def _start_complaint(self, name: str, start: Sequence[str], stop: Sequence[str]) -> str:
         loaded = self._registry.controllers[name]
@@ -265,7 +265,7 @@ class Switcher:
         limiter: the limiter, None where limits are not enforced.
         checker: checks the activation of fallback controllers.
         log: the log.
-        events: where changes are told.
+        events: receives changes.
     """
 
     def __init__(

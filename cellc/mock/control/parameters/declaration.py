@@ -203,7 +203,7 @@ class ParameterSet:
         """The period of a declared rate in Hz.
 
         Raises:
-            LimitReachedError: the rate is none that can be simulated.
+            LimitReachedError: the rate cannot be simulated.
         """
         rate_hz, most = self.number(name), limits().mock_rate
         if not _SLOWEST_HZ <= rate_hz <= most:

@@ -75,37 +75,37 @@ def _sequence(node: yaml.SequenceNode) -> ParameterValue:
 
 
 def _parameters(node: yaml.MappingNode, prefix: str) -> dict[str, ParameterValue]:
-    found: dict[str, ParameterValue] = {}
+    parameters: dict[str, ParameterValue] = {}
     for key, value in node.value:
         name = f"{prefix}{key.value}"
         if isinstance(value, yaml.MappingNode):
-            found.update(_parameters(value, f"{name}."))
+            parameters.update(_parameters(value, f"{name}."))
         elif isinstance(value, yaml.SequenceNode):
-            found[name] = _sequence(value)
+            parameters[name] = _sequence(value)
         elif value.value == "" and not value.style:
             raise ParameterFileError(f"No value at line {_line(value)}")
         else:
-            found[name] = scalar(value.value, bool(value.style))
-    return found
+            parameters[name] = scalar(value.value, bool(value.style))
+    return parameters
 
 
 def _sections(node: yaml.Node, path: str) -> list[tuple[str, dict[str, ParameterValue]]]:
     if not isinstance(node, yaml.MappingNode):
         raise ParameterFileError(f"Cannot have a value before ros__parameters at line {_line(node)}")
-    found: list[tuple[str, dict[str, ParameterValue]]] = []
+    sections: list[tuple[str, dict[str, ParameterValue]]] = []
     for key, value in node.value:
         if key.value == "ros__parameters":
             if not isinstance(value, yaml.MappingNode):
                 raise ParameterFileError(f"Cannot have a value before ros__parameters at line {_line(value)}")
-            found.append((path, _parameters(value, "")))
+            sections.append((path, _parameters(value, "")))
         elif isinstance(value, yaml.SequenceNode):
             raise ParameterFileError(
                 f"Sequences can only be values and not keys in params. Error at line {_line(value)}"
             )
         else:
             child = key.value if key.value.startswith("/") or not path else f"/{key.value}"
-            found.extend(_sections(value, f"{path}{child}"))
-    return found
+            sections.extend(_sections(value, f"{path}{child}"))
+    return sections
 
 
 def _matches(pattern: str, full_name: str) -> bool:

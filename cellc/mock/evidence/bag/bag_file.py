@@ -70,8 +70,8 @@ def _parts(name: str, distro: str) -> list[str]:
 
 def _text(name: str, distro: str) -> str:
     folder = Path(__file__).with_name("msg")
-    own = folder / distro / f"{name}.msg"
-    return own_text(own if own.is_file() else folder / f"{name}.msg")
+    definition = folder / distro / f"{name}.msg"
+    return own_text(definition if definition.is_file() else folder / f"{name}.msg")
 
 
 def offered_qos_profiles(qos: Qos) -> str:

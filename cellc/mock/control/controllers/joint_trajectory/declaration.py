@@ -88,16 +88,16 @@ def parameters(distro: Distro, scaled: bool) -> tuple[Parameter, ...]:
 
 def joint_parameters(joints: Sequence[str]) -> tuple[Parameter, ...]:
     """The parameters of each joint."""
-    found: list[Parameter] = []
+    parameters: list[Parameter] = []
     for joint in joints:
         gains, constraints = f"gains.{joint}.", f"constraints.{joint}."
-        found.extend(Parameter(gains + key, "double", 0.0) for key in ("p", "i", "d", "ff_velocity_scale"))
+        parameters.extend(Parameter(gains + key, "double", 0.0) for key in ("p", "i", "d", "ff_velocity_scale"))
         infinity = float("inf")
-        found.extend(Parameter(gains + key, "double", infinity) for key in ("u_clamp_max", "i_clamp_max"))
-        found.extend(Parameter(gains + key, "double", -infinity) for key in ("u_clamp_min", "i_clamp_min"))
-        found.extend(Parameter(constraints + key, "double", 0.0) for key in ("trajectory", "goal"))
-        found.append(Parameter(constraints + "max_deceleration_on_cancel", "double", 0.0, (at_least(0.0),), True))
-    return tuple(found)
+        parameters.extend(Parameter(gains + key, "double", infinity) for key in ("u_clamp_max", "i_clamp_max"))
+        parameters.extend(Parameter(gains + key, "double", -infinity) for key in ("u_clamp_min", "i_clamp_min"))
+        parameters.extend(Parameter(constraints + key, "double", 0.0) for key in ("trajectory", "goal"))
+        parameters.append(Parameter(constraints + "max_deceleration_on_cancel", "double", 0.0, (at_least(0.0),), True))
+    return tuple(parameters)
 
 
 def declare(parameter_set: ParameterSet, distro: Distro, scaled: bool) -> None:

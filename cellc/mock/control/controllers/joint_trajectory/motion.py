@@ -139,8 +139,8 @@ class Motion:
         if self.held or time_ns < spline.before_ns or reached[0] == spline.count:
             return TrajectoryStateResponse(False)
         values = (spline.positions, spline.velocities, spline.accelerations)
-        found = [tuple(value(reached, into)[0].tolist()) for value in values]
-        return TrajectoryStateResponse(True, self._interfaces.joints, *found)
+        states = [tuple(value(reached, into)[0].tolist()) for value in values]
+        return TrajectoryStateResponse(True, self._interfaces.joints, *states)
 
 
 def first_true(flags: Flags) -> int:

@@ -67,8 +67,8 @@ class Recorder:
         shown = self._output(samples.next[start : len(block)], block.command[start:, command])
         rows = self._due(block.times_ns[start:])
         if len(rows):
-            kept = rows + start
-            self._keep(block.times_ns[kept], samples, kept, block.state[kept], shown[rows], factor)
+            indices = rows + start
+            self._keep(block.times_ns[indices], samples, indices, block.state[indices], shown[rows], factor)
 
     def _output(self, wanted: Array, command: Array) -> Array:
         """Return what the state topic shows of successive commands.
@@ -98,7 +98,7 @@ class Recorder:
             stamps = np.empty(0, dtype=np.int64)
             return Recording(stamps, self._interfaces.joints, empty, empty, empty, empty, empty, empty, np.empty(0))
         names = [field.name for field in fields(Recording) if field.name != "joints"]
-        columns = {name: np.concatenate([getattr(kept, name) for kept in self._kept]) for name in names}
+        columns = {name: np.concatenate([getattr(part, name) for part in self._kept]) for name in names}
         return Recording(joints=self._interfaces.joints, **columns)
 
     def take(self) -> Recording:

@@ -19,11 +19,11 @@ from cellc.contract.vocabulary import BringUpPhase
 
 
 def played(real: Sequence[BringUpStep], mock: Sequence[BringUpStep], contract: Contract) -> tuple[BringUpStep, ...]:
-    """Return the steps of the real target, without what only the real target has.
+    """Return the steps of the real target that the mock can execute.
 
-    People stand for what the robot tells in a topic: ``Effects.come_up`` plays them. The stopper is no node there.
-    Claims that the mock alone has, of a device that its own driver moves on the real target, come last; so does what
-    must show before a motion.
+    ``Effects.bring_up`` acts as the operator where the robot would report a state in a topic. The stopper is no node
+    here. Claims that only the mock has, of a device that its own driver moves on the real target, are last, with the
+    proofs required before a motion.
     """
     keys = {
         (f"{manager.namespace}/controller_manager", controller.full_name.rpartition("/")[2])
@@ -49,8 +49,8 @@ def _step(step: BringUpStep, keys: set[_Key]) -> BringUpStep:
     """Return a step of the real target with the controllers that the mock has."""
     asked = step.request
     if isinstance(asked, Activation | Restart):
-        kept = tuple(name for name in asked.controllers if (asked.manager, name) in keys)
-        asked = asked.model_copy(update={"controllers": kept}) if kept else None
+        present = tuple(name for name in asked.controllers if (asked.manager, name) in keys)
+        asked = asked.model_copy(update={"controllers": present}) if present else None
     shown = {"proof": _proofs(step.proof, keys), "effect": _proofs(step.effect, keys), "request": asked}
     return step.model_copy(update=shown)
 

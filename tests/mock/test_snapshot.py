@@ -14,7 +14,7 @@ from cellc.mock.campaign.plan import CampaignRun
 from cellc.mock.cell import cell_of
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Displacement, Reality
-from cellc.mock.standing import StandingMemory
+from cellc.mock.snapshot import SnapshotMemory
 
 _STRAIGHT = (0.0, 0.0, 0.0, 1.0)
 _ASIDE = Reality(
@@ -30,13 +30,13 @@ _FAR_CLOCK = Reality(offsets_s={"control_pc": 0.15, "camera": 0.15})
 def brought_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """One word for each bring-up that is executed."""
     found: list[str] = []
-    bring_up = StandingMemory.bring_up
+    bring_up = SnapshotMemory.bring_up
 
-    def counted(memory: StandingMemory, plant: Plant, bringup: Bringup) -> None:
+    def counted(memory: SnapshotMemory, plant: Plant, bringup: Bringup) -> None:
         found.append("brought up")
         bring_up(memory, plant, bringup)
 
-    monkeypatch.setattr(StandingMemory, "bring_up", counted)
+    monkeypatch.setattr(SnapshotMemory, "bring_up", counted)
     return found
 
 

@@ -8,18 +8,18 @@ from cellc.contract.rehearsals import FaultEntry, FaultEvent
 from cellc.mock.result import AttemptRecord, PacketStep
 
 
-def begun_faults(
+def fault_times(
     faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]
 ) -> tuple[tuple[float, FaultEntry], ...]:
     """Return the instant in seconds at which each fault began, rising; one whose event never occurred is left out."""
-    return tuple(sorted(_started(faults, attempts), key=lambda begun: begun[0])) if attempts else ()
+    return tuple(sorted(_started(faults, attempts), key=lambda started: started[0])) if attempts else ()
 
 
 def _started(faults: Sequence[FaultEntry], attempts: Sequence[AttemptRecord]) -> Iterator[tuple[float, FaultEntry]]:
-    begun_ns = attempts[-1].started_ns  # the last record sums up and begins with the first step
+    start_ns = attempts[-1].started_ns  # the last record sums up and begins with the first step
     for fault in faults:
         if fault.event is None:
-            yield begun_ns / 1e9 + (fault.at_s or 0.0), fault
+            yield start_ns / 1e9 + (fault.at_s or 0.0), fault
             continue
         came_ns = _event_ns(fault.event, attempts[:-1])
         if came_ns is not None:

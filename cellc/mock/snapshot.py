@@ -29,7 +29,7 @@ _SMALL_OFFSET_NS = 100_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class Snapshot:
     """A control stack after the bring-up, with what is to be known of the rest.
 
     Attributes:
@@ -87,13 +87,13 @@ class _Reader(pickle.Unpickler):
         return self._shared[pid]
 
 
-class StandingMemory:
+class SnapshotMemory:
     """Copies of one cell, by the limits that held."""
 
     def __init__(self) -> None:
-        self._kept: dict[Limits, Standing | None] = {}
+        self._kept: dict[Limits, Snapshot | None] = {}
 
-    def get(self) -> Standing | None:
+    def get(self) -> Snapshot | None:
         """Return what is known; None where nothing is, or the stack of this cell cannot be copied."""
         return self._kept.get(limits())
 
@@ -113,10 +113,10 @@ class StandingMemory:
             journal.take()
 
 
-def _copy(plant: Plant, evidence: tuple[StageEvidence, ...]) -> Standing | None:
+def _copy(plant: Plant, evidence: tuple[StageEvidence, ...]) -> Snapshot | None:
     """Return a copy; None of a plant that cannot be copied, or whose runs do not start alike."""
     announced_ns = plant.robot_state_publisher.announced_ns
-    if announced_ns is None or not comes_up_alike(plant):
+    if announced_ns is None or not has_same_bring_up(plant):
         return None
     file = io.BytesIO()
     writer = _Writer(file)
@@ -125,14 +125,14 @@ def _copy(plant: Plant, evidence: tuple[StageEvidence, ...]) -> Standing | None:
     except (pickle.PicklingError, AttributeError, TypeError):  # a controller has what only it can make
         return None
     simulation = plant.simulation
-    return Standing(file.getvalue(), tuple(writer.shared), evidence, simulation.now_ns, announced_ns, simulation.events)
+    return Snapshot(file.getvalue(), tuple(writer.shared), evidence, simulation.now_ns, announced_ns, simulation.events)
 
 
-def comes_up_alike(plant: Plant) -> bool:
-    """Tell whether what the bring-up of this plant finds depends on nothing that a run draws.
+def has_same_bring_up(plant: Plant) -> bool:
+    """Return whether the bring-up of this plant is independent of every number that a run draws.
 
-    Joint states must arrive as they are published, without noise, on one clock that reads about what is simulated: the
-    bring-up looks up transforms, and shows what it finds. Nobody may have seen an object before they were there.
+    The bring-up looks up transforms and records them. Joint states must therefore arrive as they are published, without
+    noise, on one clock that reads about the simulated time, and before the first observation of an object.
     """
     histories = plant.control.histories.values()
     readings = {plant.clocks.of(history.broadcaster).read(0) for history in histories}
@@ -142,8 +142,8 @@ def comes_up_alike(plant: Plant) -> bool:
         and abs(min(readings)) < _SMALL_OFFSET_NS
         and not plant.control.adapters
         and not any(facts.noise for facts in plant.contract.simulated_joints.values())
-        and all(feed.at_once for feed in plant.task.feeds)
-        and plant.robot_state_publisher.at_once
+        and all(feed.undelayed for feed in plant.task.feeds)
+        and plant.robot_state_publisher.undelayed
         and all(history.first_ns is not None and history.first_ns <= PROCESSING_S * 1e9 for history in histories)
         and plant.simulation.next_foreground_ns() is None
     )
