@@ -109,11 +109,11 @@ def build(spec: str | Path, output: str | Path = "generated", *, force: bool = F
 
     checked = check_cell(spec)
     compiled = compile_cell(checked)
-    found = (*checked.diagnostics, *compiled.diagnostics)
+    findings = (*checked.diagnostics, *compiled.diagnostics)
     if checked.graph is None or compiled.value is None or not compiled.ok:
-        return Outcome(None, found)
-    written = write(compiled.value, Path(output) / checked.graph.cell.name, force=force)
-    return Outcome(written.value, (*found, *written.diagnostics))
+        return Outcome(None, findings)
+    report = write(compiled.value, Path(output) / checked.graph.cell.name, force=force)
+    return Outcome(report.value, (*findings, *report.diagnostics))
 
 
 def load_mock(folder: str | Path, *, edited: bool = False) -> MockCell:

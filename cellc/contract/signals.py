@@ -43,7 +43,7 @@ class _Watch:
     """What the handlers know: signals that arrived, and whether they are held back for now."""
 
     def __init__(self) -> None:
-        self.came = 0
+        self.received = 0
         self.raised = 0
         self.holding = False
         self.held: list[int] = []
@@ -56,8 +56,8 @@ class _Watch:
         if self.holding:
             self.held.append(number)
             return
-        self.came += 1
-        if self.came == 1 or self.came > _PATIENCE:
+        self.received += 1
+        if self.received == 1 or self.received > _PATIENCE:
             self.raised = number
             raise Stopped(number)
 
@@ -117,11 +117,11 @@ def held() -> Iterator[None]:
         if foreign:
             signal.signal(signal.SIGINT, signal.default_int_handler)
         _watch.holding = False
-        came, _watch.held = _watch.held, []
-    if came and foreign:
+        held, _watch.held = _watch.held, []
+    if held and foreign:
         raise KeyboardInterrupt
-    if came:
-        _watch.on_signal(came[0], None)
+    if held:
+        _watch.on_signal(held[0], None)
 
 
 class _OutOfTimeError(BaseException):

@@ -169,16 +169,16 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
         return None
     ended = next((record for record in attempts if record.outcome != AttemptOutcome.SUCCEEDED), attempts[-1])
     # What began after that end did not cause it.
-    begun = [
+    starts = [
         injection.start_ns
         for injection in injections
         if injection.start_ns is not None and injection.start_ns <= ended.ended_ns
     ]
-    if not begun:
+    if not starts:
         return None
     if ended.outcome == AttemptOutcome.CANCELED and ended.cancel is not None:
         return ended.cancel.latency_s
-    return (ended.ended_ns - max(*begun, ended.started_ns)) / 1e9
+    return (ended.ended_ns - max(*starts, ended.started_ns)) / 1e9
 
 
 def _not_run(rehearsal: RehearsalEntry, error: LimitReachedError) -> RehearsalResult:

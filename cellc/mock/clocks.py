@@ -237,11 +237,11 @@ def clock_from(name: str, entry: ContractClock) -> Clock:
     A stated offset beyond the bound stays: that is a discipline that failed before the rehearsal began.
     """
     offset_ns = round(entry.offset_s * 1e9)
-    begun = Segment(0, offset_ns, 1.0 + entry.drift)
-    segments = [begun]
+    first = Segment(0, offset_ns, 1.0 + entry.drift)
+    segments = [first]
     if entry.drift != 0.0 and entry.max_offset_s is not None:
         bound_ns = round(entry.max_offset_s * 1e9)
         room_ns = max(0, bound_ns - offset_ns if entry.drift > 0.0 else bound_ns + offset_ns)
         held_ns = round(room_ns / abs(entry.drift))
-        segments.append(Segment(held_ns, begun.read(held_ns), 1.0))
+        segments.append(Segment(held_ns, first.read(held_ns), 1.0))
     return Clock(name, entry.domain, segments, simulated=entry.simulated)

@@ -118,7 +118,7 @@ def _things() -> Iterator[str]:
     yield "| area | what | comes | goes | breaks consumers where it goes |"
     yield "|---|---|---|---|---|"
     for thing in sorted(THINGS, key=_area):
-        yield f"| {thing.area} | {thing.noun} | {thing.came} | {thing.went} | {_yes(thing.breaking)} |"
+        yield f"| {thing.area} | {thing.noun} | {thing.added} | {thing.removed} | {_yes(thing.breaking)} |"
 
 
 def _area(of: Row | Thing) -> int:

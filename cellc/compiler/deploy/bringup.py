@@ -83,8 +83,8 @@ def bring_up(cell: Cell) -> BringUp:
 
 def phases(plan: BringUp, target: Target, host: str | None = None) -> tuple[BringUpPhase, ...]:
     """Return the phases that have a step on a target, and on a host where one is given."""
-    found = {step.phase for step in plan.steps(target) if host is None or step.host in ("", host)}
-    return tuple(phase for phase in BringUpPhase if phase in found)
+    phases = {step.phase for step in plan.steps(target) if host is None or step.host in ("", host)}
+    return tuple(phase for phase in BringUpPhase if phase in phases)
 
 
 def releases(plan: BringUp, phase: BringUpPhase) -> tuple[str, ...]:
@@ -308,10 +308,10 @@ def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device,
     """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
     telling = manager.by_kind()
     for device in components_of(cell, manager, "real"):
-        for told in () if device.hardware is None else device.hardware.heard_before_a_claim:
-            for controller in telling.get((told.controller_kind, device.name), ()):
-                topic = f"{controller.full_name}/{told.topic}"
-                proof = TopicProof(kind="topic", topic=topic, type=told.type, field=told.field, value=told.value)
+        for report in () if device.hardware is None else device.hardware.heard_before_a_claim:
+            for controller in telling.get((report.controller_kind, device.name), ()):
+                topic = f"{controller.full_name}/{report.topic}"
+                proof = TopicProof(kind="topic", topic=topic, type=report.type, field=report.field, value=report.value)
                 yield device, proof
 
 
@@ -337,12 +337,12 @@ def watches(cell: Cell) -> Iterator[Watch]:
     """Yield who loses a claim when a device follows no set points: of both targets, as only what is active loses it."""
     for manager in cell.managers:
         for device, proof in _listening(cell, manager):
-            own = {joint.name for joint in device.joints}
+            joints = {joint.name for joint in device.joints}
             claiming = tuple(
                 owner.name
                 for owner in manager.controllers
                 if is_claiming(cell, owner, ())
-                if own & set(owner.joints) or (owner.behavior is Behavior.OWN_MOTION and owner.device == device.name)
+                if joints & set(owner.joints) or (owner.behavior is Behavior.OWN_MOTION and owner.device == device.name)
             )
             yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
 
@@ -371,9 +371,9 @@ def _transforms(cell: Cell, target: Target, parent: str, child: str) -> Iterator
 
 
 def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:
-    own = {controller.full_name for controller in manager.controllers}
+    names = {controller.full_name for controller in manager.controllers}
     for interface in cell.interfaces:
-        published = any(end.full_name in own for end in interface.sources)
+        published = any(end.full_name in names for end in interface.sources)
         if interface.type == JOINT_STATE_TYPE and interface.sinks and published:
             yield TopicProof(kind="topic", topic=interface.name, type=interface.type)
 

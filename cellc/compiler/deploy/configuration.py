@@ -55,7 +55,7 @@ def configuration_inputs(cell: Cell) -> ConfigurationInputs:
     """Gather what the id is taken over; the same cell on another host gives the same."""
     urdf = render(robot_description(cell, "real"))
     return ConfigurationInputs(
-        calibrations={name: written.revision for name, written in cell.calibrations.items()},
+        calibrations={name: calibration.revision for name, calibration in cell.calibrations.items()},
         tf_publishers={frame.name: frame.authority for frame in cell.frames if frame.parent},
         urdf_sha256=hashlib.sha256(urdf.encode()).hexdigest(),
         cell_sha256=_digest(_settled(cell, _NOT_RESTED_ON)),
@@ -70,15 +70,16 @@ def _digest(settled: object) -> str:
 def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> object:
     """Return a linked value as plain data: without its places, what is at its default, and order that says nothing."""
     if is_dataclass(value) and not isinstance(value, type):
-        told = {field.name: getattr(value, field.name) for field in fields(value) if field.name not in left_out}
-        place = "path" if isinstance(told.get("path"), tuple) else None  # a stop has a path too, and that is a text
-        stated = {name: one for name, one in told.items() if name != place and one != _default(value, name)}
+        values = {field.name: getattr(value, field.name) for field in fields(value) if field.name not in left_out}
+        place = "path" if isinstance(values.get("path"), tuple) else None  # a stop has a path too, and that is a text
+        stated = {name: member for name, member in values.items() if name != place and member != _default(value, name)}
         settled = {
-            name: _settled(one) if name in _IN_ORDER else _unordered(_settled(one)) for name, one in stated.items()
+            name: _settled(member) if name in _IN_ORDER else _unordered(_settled(member))
+            for name, member in stated.items()
         }
         return _as_first_taken(settled) if isinstance(value, Device) else settled
     if isinstance(value, Mapping):
-        return {str(name): _settled(one) for name, one in value.items()}
+        return {str(name): _settled(member) for name, member in value.items()}
     if isinstance(value, frozenset):
         return _unordered([_settled(item) for item in value])
     if isinstance(value, tuple):

@@ -41,11 +41,11 @@ def guided(graph: CellGraph) -> Iterator[Values]:
 
 
 def _first_motion(graph: CellGraph, first: FirstMotion) -> Values:
-    written = (graph.cell.text("bringup", "first_motion", part) for part in ("max_delta", "velocity", "timeout"))
+    texts = (graph.cell.text("bringup", "first_motion", part) for part in ("max_delta", "velocity", "timeout"))
     figure = f"{shortest(round(first.max_delta.value, 4))} {'m' if first.max_delta.linear else 'rad'}"
     local = first.joint.partition("/")[2]
     name = next((joint.name for joint in _moved(graph, first).joints if joint.local_name == local), local)
-    return first.joint, first.direction, *written, name, figure
+    return first.joint, first.direction, *texts, name, figure
 
 
 def _moved(graph: CellGraph, first: FirstMotion) -> Device:
@@ -95,8 +95,8 @@ def real_actions(graph: CellGraph) -> Iterator[Values]:
 
 def unguarded(graph: CellGraph) -> Iterator[Values]:
     """Yield driver interfaces outside the cell that move a device past every controller, and what a call does."""
-    for device, one, does in past_controllers(graph.cell):
-        yield device.name, one.name, one.type, does, endpoint_command(graph.cell, one.kind, one.name)
+    for device, offer, does in past_controllers(graph.cell):
+        yield device.name, offer.name, offer.type, does, endpoint_command(graph.cell, offer.kind, offer.name)
 
 
 def endpoint_command(cell: Cell, kind: InterfaceKind, name: str) -> str:

@@ -206,8 +206,12 @@ def _figures(values: Iterable[float], digits: int) -> str:
 
 def _shows_center(graph: CellGraph, device: Device) -> str:
     """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
-    one = graph.once(_active_by_kind).get((device.robot.tcp_kind, device.name))
-    return "" if one is None else f"timeout 10 ros2 topic echo --once {one.full_name}/{device.robot.tcp_topic}"
+    broadcaster = graph.once(_active_by_kind).get((device.robot.tcp_kind, device.name))
+    return (
+        ""
+        if broadcaster is None
+        else f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.tcp_topic}"
+    )
 
 
 def _active_by_kind(graph: CellGraph) -> Mapping[tuple[str | None, str | None], Controller]:
@@ -258,10 +262,18 @@ def _nominal_devices(graph: CellGraph) -> Iterator[Values]:
 
 def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
-        one = None if device.kinematics is None else device.kinematics.calibration
-        if one is not None:
-            path = f"cells/{graph.cell.name}/{one.name}"
-            yield device.name, one.name, one.hash, one.measured, one.owner, one.sha256, path
+        calibration = None if device.kinematics is None else device.kinematics.calibration
+        if calibration is not None:
+            path = f"cells/{graph.cell.name}/{calibration.name}"
+            yield (
+                device.name,
+                calibration.name,
+                calibration.hash,
+                calibration.measured,
+                calibration.owner,
+                calibration.sha256,
+                path,
+            )
 
 
 def _cards(graph: CellGraph) -> Iterator[Values]:

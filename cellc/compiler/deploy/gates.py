@@ -142,7 +142,7 @@ def gate_texts() -> GateTexts:
     """
     read = read_model(FILE, FILE.name, GateTexts)
     if read.value is None:
-        raise ValueError("; ".join(f"{found.span}: {found.message}" for found in read.diagnostics))
+        raise ValueError("; ".join(f"{diagnostic.span}: {diagnostic.message}" for diagnostic in read.diagnostics))
     return read.value[0]
 
 

@@ -51,12 +51,12 @@ def interface_facts(interface: Interface) -> Iterator[str]:
 
 def unused(cell: Cell) -> tuple[tuple[Interface, ...], ...]:
     """Return interfaces without a reader or client in the cell, grouped by server and owner."""
-    found: dict[tuple[object, ...], list[Interface]] = {}
+    interfaces: dict[tuple[object, ...], list[Interface]] = {}
     for interface in cell.interfaces:
         if interface.sources and not interface.sinks:
             offered_by = frozenset(end.full_name for end in interface.sources)
-            found.setdefault((offered_by, interface.kind, interface.owner), []).append(interface)
-    return tuple(map(tuple, found.values()))
+            interfaces.setdefault((offered_by, interface.kind, interface.owner), []).append(interface)
+    return tuple(map(tuple, interfaces.values()))
 
 
 def unused_title(group: tuple[Interface, ...]) -> str:
@@ -188,13 +188,13 @@ def stop_facts(cell: Cell) -> Iterator[str]:
 def units(cell: Cell, controller: Controller) -> str:
     """Return the units of what a controller commands, each once."""
     types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
-    found = (
+    names = (
         _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
         for joint, _, kind in (name.rpartition("/") for name in controller.all_claims)
     )
     if controller.behavior in PASSIVE:
         return "per service type"
-    return "per device" if controller.behavior is Behavior.OWN_MOTION else ", ".join(dict.fromkeys(found))
+    return "per device" if controller.behavior is Behavior.OWN_MOTION else ", ".join(dict.fromkeys(names))
 
 
 def folded(names: Iterable[str]) -> Iterator[str]:

@@ -95,8 +95,8 @@ def is_shown_late(cell: Cell, parent: str, child: str, target: Target = "real") 
 
 def _unconfigured(cell: Cell, target: Target) -> tuple[str, ...]:
     """Return the names of the devices whose components start unconfigured, without their interfaces."""
-    found = (device for manager in cell.managers for device in components_of(cell, manager, target))
-    return tuple(device.name for device in found if device.startup_state == "unconfigured")
+    devices = (device for manager in cell.managers for device in components_of(cell, manager, target))
+    return tuple(device.name for device in devices if device.startup_state == "unconfigured")
 
 
 def silent_until_activation(cell: Cell) -> frozenset[str]:
@@ -119,12 +119,12 @@ def moved_with(cell: Cell, device: str | None) -> str:
     """Return the device that a person releases with another: the arm that carries it, or what all of it hangs on."""
     devices = {each.name: each for each in cell.devices}
     frames = {frame.name: frame for frame in cell.frames}
-    found = device or ""
-    while found in devices and devices[found].kind != "arm":
-        below = frames.get(devices[found].parent_frame)
+    holder = device or ""
+    while holder in devices and devices[holder].kind != "arm":
+        below = frames.get(devices[holder].parent_frame)
         while below is not None and below.device is None:
             below = frames.get(below.parent)
         if below is None or below.device is None:
             break
-        found = below.device
-    return found
+        holder = below.device
+    return holder

@@ -30,14 +30,14 @@ def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
 
 def recorded_topics(cell: Cell) -> dict[str, Qos]:
     """Return every recorded topic with a profile that each of its publishers satisfies; none of the mock alone."""
-    found = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
+    topics = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
     # Goals and results of actions are hidden services; feedback and status tell what became of them.
     for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION and "real" in i.targets):
-        found[f"{action.name}/_action/feedback"] = DEFAULT
-        found[f"{action.name}/_action/status"] = replace(DEFAULT, durability="transient_local", depth=1)
+        topics[f"{action.name}/_action/feedback"] = DEFAULT
+        topics[f"{action.name}/_action/status"] = replace(DEFAULT, durability="transient_local", depth=1)
     for name in ("/diagnostics", *cell.recording.topics):
-        found.setdefault(name, DEFAULT)
-    return found
+        topics.setdefault(name, DEFAULT)
+    return topics
 
 
 def _on_the_path(interface: Interface) -> bool:

@@ -65,19 +65,19 @@ class _Standing:
         frames = tuple(self._named(device))
         if not device:
             return Part(name, (0.0, 0.0, 0.0), frames=frames, parts=parts, solid=True)
-        own = self._cell.device(device)
-        poses = {link: self._place(link).pose for link, (holder, _) in self._links.items() if holder is own}
+        placed = self._cell.device(device)
+        poses = {link: self._place(link).pose for link, (holder, _) in self._links.items() if holder is placed}
         shapes = (
             (poses[link.name], collision)
-            for link in own.description.links
+            for link in placed.description.links
             for collision in link.collisions
             if link.name in poses
         )
-        joints = (joint for joint in own.description.joints if joint.parent in poses and joint.child in poses)
+        joints = (joint for joint in placed.description.joints if joint.parent in poses and joint.child in poses)
         return Part(
             name,
-            poses[own.root_link].position,
-            tuple((pose @ one.pose, one.geometry) for pose, one in shapes),
+            poses[placed.root_link].position,
+            tuple((pose @ shape.pose, shape.geometry) for pose, shape in shapes),
             tuple((poses[joint.parent].position, poses[joint.child].position) for joint in joints),
             frames,
             parts,

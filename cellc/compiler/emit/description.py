@@ -36,8 +36,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     for target in ("mock", "real"):
         yield Artifact(description_file(cell, target), render(robot_description(cell, target), plan.header.text))
         for manager in cell.managers if len(cell.managers) > 1 else ():
-            own = manager_description(cell, target, manager.devices)
-            yield Artifact(manager_description_file(cell, manager, target), render(own, plan.header.text))
+            robot = manager_description(cell, target, manager.devices)
+            yield Artifact(manager_description_file(cell, manager, target), render(robot, plan.header.text))
     if cell.groups:
         root = element("robot", {"name": cell.name}, _semantic(graph))
         yield Artifact(semantic_file(cell), render(root, plan.header.text))

@@ -215,11 +215,11 @@ def _controllers(cell: Cell, target: Target) -> Parameters:
         "moveit_controller_manager": f"{_MANAGER}/MoveItSimpleControllerManager",
         f"{_MANAGER}.controller_names": tuple(called),
     }
-    for name, one in called.items():
+    for name, declared in called.items():
         parameters |= {
-            f"{_MANAGER}.{name}.type": _short(one.type),
-            f"{_MANAGER}.{name}.action_ns": one.action.rpartition("/")[2],
-            f"{_MANAGER}.{name}.joints": one.joints,
+            f"{_MANAGER}.{name}.type": _short(declared.type),
+            f"{_MANAGER}.{name}.action_ns": declared.action.rpartition("/")[2],
+            f"{_MANAGER}.{name}.joints": declared.joints,
             f"{_MANAGER}.{name}.default": True,
         }
     return parameters
@@ -270,10 +270,10 @@ def _sensors(cell: Cell, octomap: Octomap) -> Parameters:
         "ns": "",
     }
     if types.get(octomap.source) == POINT_CLOUD:
-        plugin, own = "PointCloudOctomapUpdater", _of_cloud(octomap)
+        plugin, settings = "PointCloudOctomapUpdater", _of_cloud(octomap)
     else:
-        plugin, own = "DepthImageOctomapUpdater", _of_image(octomap)
-    sensor = {"sensor_plugin": f"occupancy_map_monitor/{plugin}", **own, **common}
+        plugin, settings = "DepthImageOctomapUpdater", _of_image(octomap)
+    sensor = {"sensor_plugin": f"occupancy_map_monitor/{plugin}", **settings, **common}
     parameters = {f"{_SENSOR}.{name}": value for name, value in sensor.items()}
     return {"octomap_resolution": octomap.resolution_m, "sensors": (_SENSOR,), **parameters}
 

@@ -53,13 +53,13 @@ class Exchange:
 
 def _exchanges(cell: Cell) -> tuple[Exchange, ...]:
     alone = {interface.name for group in unused(cell) for interface in group}
-    found: dict[tuple[InterfaceKind, tuple[str, ...], tuple[str, ...]], list[str]] = {}
+    interfaces: dict[tuple[InterfaceKind, tuple[str, ...], tuple[str, ...]], list[str]] = {}
     for interface in cell.interfaces:
         ends = [tuple(dict.fromkeys(end.node for end in side)) for side in (interface.sources, interface.sinks)]
         if interface.name not in alone and all(ends):
             starts, ends_ = ends if interface.kind is InterfaceKind.TOPIC else ends[::-1]
-            found.setdefault((interface.kind, starts, ends_), []).append(interface.name)
-    return tuple(Exchange(*key, tuple(names)) for key, names in found.items())
+            interfaces.setdefault((interface.kind, starts, ends_), []).append(interface.name)
+    return tuple(Exchange(*key, tuple(names)) for key, names in interfaces.items())
 
 
 def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
@@ -112,9 +112,9 @@ def _depth(name: str, asks: Mapping[str, set[str]], above: tuple[str, ...]) -> i
 
 def _arrows(cell: Cell, exchanges: Sequence[Exchange]) -> Iterator[tuple[Line, str]]:
     """Yield every line with what kind it is."""
-    for number, one in enumerate(exchanges, start=1):
-        for start in one.starts:
-            yield from ((Line(start, end, str(number)), "tells") for end in one.ends if end != start)
+    for number, exchange in enumerate(exchanges, start=1):
+        for start in exchange.starts:
+            yield from ((Line(start, end, str(number)), "tells") for end in exchange.ends if end != start)
     for controller in cell.controllers:
         if controller.device is not None and controller.command_interfaces:
             yield Line(controller.label, controller.device, "claims"), "claims"
@@ -262,7 +262,7 @@ def _legend(y: float) -> Iterator[Element]:
 def _list(exchanges: Sequence[Exchange], width: float, top: float) -> tuple[list[Element], float]:
     """Return the list of what each number carries in two columns, and where the sheet ends."""
     room = int((width / 2 - 2 * _MARGIN - 26) / 7.2)
-    entries = [(str(number), _said(one, room)) for number, one in enumerate(exchanges, start=1)]
+    entries = [(str(number), _said(exchange, room)) for number, exchange in enumerate(exchanges, start=1)]
     total = sum(len(lines) for _, lines in entries)
     drawn, row, column = [], 0, 0
     deepest = 0

@@ -47,9 +47,9 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     yield Artifact("package.xml", render(_package(graph.cell), plan.header.text))
     sources = unreleased(graph.cell)
     if sources:
-        told = {name: {"type": "git", "url": pin.url, "version": pin.ref} for name, pin in sources.items()}
+        repositories = {name: {"type": "git", "url": pin.url, "version": pin.ref} for name, pin in sources.items()}
         text = "# versions, devices: run `vcs import src < sources.repos` in the workspace of this package\n"
-        yield Artifact(SOURCES, plan.header.commented("#") + text + yaml({"repositories": told}))
+        yield Artifact(SOURCES, plan.header.commented("#") + text + yaml({"repositories": repositories}))
     yield Artifact("CMakeLists.txt", plan.header.commented("#") + "\n".join(_build_file(graph.cell)) + "\n")
 
 
@@ -90,9 +90,9 @@ def _pinned(cell: Cell) -> dict[str, str]:
 def _of_moveit(cell: Cell) -> set[str]:
     """Return the packages of planning that have the version of MoveIt; other solvers have their own."""
     solvers = {group.solver.package for group in cell.groups}
-    own = {name for name in solvers if name.startswith(_OF_MOVEIT)}
+    packages = {name for name in solvers if name.startswith(_OF_MOVEIT)}
     perception = () if cell.octomap is None else (_PERCEPTION,)
-    return {_EXECUTION, _MOVE_GROUP, *perception, *own, *(pipeline.package for pipeline in cell.pipelines)}
+    return {_EXECUTION, _MOVE_GROUP, *perception, *packages, *(pipeline.package for pipeline in cell.pipelines)}
 
 
 def _dependencies(cell: Cell) -> tuple[str, ...]:

@@ -107,8 +107,8 @@ def _unused(cell: Cell, group: tuple[Interface, ...]) -> Iterator[str]:
 
 
 def _qos(end: Endpoint) -> str:
-    kept = f"last {end.qos.depth}" if end.qos.history == "keep_last" else "all"
-    return f"{end.qos.reliability}, {end.qos.durability}, {kept}"
+    history = f"last {end.qos.depth}" if end.qos.history == "keep_last" else "all"
+    return f"{end.qos.reliability}, {end.qos.durability}, {history}"
 
 
 def _claims(cell: Cell) -> Iterator[str]:

@@ -171,27 +171,27 @@ def _views(
     question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], robot: RobotModel
 ) -> tuple[ViewAnswer, ...]:
     """Return where each detected object is for its camera; nothing where the arm cannot get to look."""
-    found = []
+    answers = []
     for view in question.views:
         positions = postures.get(view.posture)
         if positions is not None:
             camera = robot.link_pose(view.camera_frame, _movable(robot, positions), base_link=WORLD)
             place = (camera.inverse() @ view.place).position
-            found.append(ViewAnswer(view.name, view.camera_frame, view.posture, place))
-    return tuple(found)
+            answers.append(ViewAnswer(view.name, view.camera_frame, view.posture, place))
+    return tuple(answers)
 
 
 def _areas(
     question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], scene: CollisionScene
 ) -> tuple[AreaAnswer, ...]:
     """Return what is in each shared volume, posture by posture."""
-    found = []
+    answers = []
     for area in question.areas:
         box = Box(f"area {area.name}", area.link, area.size, area.pose)
         for name, positions in postures.items():
             links = scene.touching(box, scene.model.configuration(_movable(scene.model, positions)))
-            found.append(AreaAnswer(area.name, name, links))
-    return tuple(found)
+            answers.append(AreaAnswer(area.name, name, links))
+    return tuple(answers)
 
 
 def _holding(

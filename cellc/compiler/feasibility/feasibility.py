@@ -79,11 +79,11 @@ def _refused(graph: CellGraph) -> tuple[str, str] | None:
 
 
 def _touching(graph: CellGraph) -> tuple[DisabledLinks, ...]:
-    found = (
+    pairs = (
         DisabledLinks(min(first, second), max(first, second), reason.lower())
         for first, second, reason in touching_links(graph.cell)
     )
-    return tuple(sorted(found))
+    return tuple(sorted(pairs))
 
 
 def _sampled(urdf: str, roots: tuple[Path, ...]) -> DisabledAnswer:

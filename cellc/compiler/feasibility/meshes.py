@@ -71,8 +71,8 @@ def _faults(graph: CellGraph) -> tuple[MeshFault, ...]:
     placed = _meshes(graph)
     meshes = [mesh for mesh, _ in placed]
     files = identify_all(meshes, mesh_roots(graph.cell))
-    found = readable(files)
-    facts = {file: _facts(file, found, spec_of(graph)) for file in found}
+    mesh_files = readable(files)
+    facts = {file: _facts(file, mesh_files, spec_of(graph)) for file in mesh_files}
     owners = dict(reversed(placed))  # of each file and scale the first link
     return tuple(
         MeshFault(mesh.filename, why.code, why.message, why.help_text, mesh.span or owner.span, owner.path)

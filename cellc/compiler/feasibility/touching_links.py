@@ -13,12 +13,12 @@ NEVER = "Never"
 
 def touching_links(cell: Cell) -> tuple[tuple[str, str, str], ...]:
     """Return link, link and srdfdom's reason; a pair once, in the order of the frames."""
-    found: dict[frozenset[str], tuple[str, str, str]] = {}
+    pairs: dict[frozenset[str], tuple[str, str, str]] = {}
     for above, name in _adjacent(cell):
-        found[frozenset((above, name))] = (above, name, ADJACENT)
+        pairs[frozenset((above, name))] = (above, name, ADJACENT)
     for first, second in _rigid(cell):
-        found.setdefault(frozenset((first, second)), (first, second, NEVER))
-    return tuple(found.values())
+        pairs.setdefault(frozenset((first, second)), (first, second, NEVER))
+    return tuple(pairs.values())
 
 
 def _solid(cell: Cell) -> frozenset[str]:

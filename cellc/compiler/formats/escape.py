@@ -56,11 +56,11 @@ def markdown(text: str) -> str:
     line = one_line(text)
     pieces: list[str] = []
     end = 0
-    for found in _CODE.finditer(line):
+    for match in _CODE.finditer(line):
         # In a cell of a table no reader tells a backslash before a bar from the one that escapes the bar.
-        kept = found[0] if "\\|" not in found[0] else _prose(found[0].strip("`"))
-        pieces += [_prose(line[end : found.start()]), kept]
-        end = found.end()
+        code = match[0] if "\\|" not in match[0] else _prose(match[0].strip("`"))
+        pieces += [_prose(line[end : match.start()]), code]
+        end = match.end()
     shown = "".join([*pieces, _prose(line[end:])])
     block = _BLOCK.match(shown)
     if block is None:

@@ -69,20 +69,20 @@ def placed(labels: Iterable[Label], letter: float, bounds: _Box) -> tuple[Placed
         letter: height of letters.
         bounds: left, top, right, bottom.
     """
-    ordered = sorted(labels, key=lambda one: (one.at[1], one.at[0], one.key))
+    ordered = sorted(labels, key=lambda label: (label.at[1], label.at[0], label.key))
     taken = _Taken(letter * 20)
     for item in ordered:
         taken.add(_around(item.at, letter * 0.4))
-    found = []
+    placements = []
     for label in ordered:
         choices = (
-            (_cost(box, taken.near(box), bounds) + distance, number, one, box)
-            for number, (one, box, distance) in enumerate(_choices(label, letter))
+            (_cost(box, taken.near(box), bounds) + distance, number, position, box)
+            for number, (position, box, distance) in enumerate(_choices(label, letter))
         )
         _, _, best, box = min(choices, key=lambda choice: choice[:2])
         taken.add(box)
-        found.append(best)
-    return tuple(found)
+        placements.append(best)
+    return tuple(placements)
 
 
 def _choices(label: Label, letter: float) -> Iterator[tuple[Placed, _Box, float]]:

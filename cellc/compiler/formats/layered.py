@@ -70,9 +70,9 @@ class _Drawing:
         self._lines = lines
         self._chains = [tuple(self._chain(line)) for line in lines]
         self._near: dict[str, set[str]] = {}
-        for one, other in (pair for chain in self._chains for pair in pairwise(chain)):
-            self._near.setdefault(one, set()).add(other)
-            self._near.setdefault(other, set()).add(one)
+        for first, other in (pair for chain in self._chains for pair in pairwise(chain)):
+            self._near.setdefault(first, set()).add(other)
+            self._near.setdefault(other, set()).add(first)
         self._sides = self._ends()
         self._heights = {box.key: self._height(box) for box in boxes}
         self._order: list[list[str]] = [[] for _ in columns.lefts]
@@ -106,11 +106,11 @@ class _Drawing:
 
     def _ends(self) -> dict[tuple[str, int], dict[str, set[str]]]:
         """Return what ends at each side of each box, by group: the slots on the other end of the first piece."""
-        found: dict[tuple[str, int], dict[str, set[str]]] = {}
+        ends: dict[tuple[str, int], dict[str, set[str]]] = {}
         for line, chain in zip(self._lines, self._chains, strict=True):
             for key, other in ((chain[0], chain[1]), (chain[-1], chain[-2])):
-                found.setdefault((key, self._side(key, other)), {}).setdefault(line.group, set()).add(other)
-        return found
+                ends.setdefault((key, self._side(key, other)), {}).setdefault(line.group, set()).add(other)
+        return ends
 
     def _side(self, key: str, other: str) -> int:
         """Return the side of a slot that faces another one: 1 is right, also within one layer."""

@@ -52,15 +52,15 @@ def _section(section: NodeParameters) -> str:
 
 def qos_parameters(cell: Cell, node: Node) -> dict[str, ParameterValue]:
     """Return the overrides of a node for the topics that the spec writes; none for one that has no end there."""
-    found: dict[str, ParameterValue] = {}
+    parameters: dict[str, ParameterValue] = {}
     for end in cell.ends_of.get(node.full_name, ()):
         topic = end.interface
         if topic.kind is not InterfaceKind.TOPIC or topic.derived:
             continue
         side = "publisher" if end.serves else "subscription"
         prefix = f"qos_overrides.{topic.name}.{side}"
-        found |= {f"{prefix}.{policy}": value for policy, value in _policies(end.end.qos, side)}
-    return found
+        parameters |= {f"{prefix}.{policy}": value for policy, value in _policies(end.end.qos, side)}
+    return parameters
 
 
 def _policies(qos: Qos, side: str) -> Iterator[tuple[str, ParameterValue]]:

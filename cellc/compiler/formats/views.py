@@ -210,10 +210,10 @@ def _labels(view: _View, part: Part, named: bool) -> Iterator[Label]:
 
 def _together(view: _View, part: Part) -> list[tuple[Pose, list[str]]]:
     """Return the frames that stand in one place, with the pose of the first of them."""
-    found: dict[Point, tuple[Pose, list[str]]] = {}
+    groups: dict[Point, tuple[Pose, list[str]]] = {}
     for name, pose in part.frames:
-        found.setdefault(view.seen(pose.position, part.origin), (pose, []))[1].append(one_line(name))
-    return list(found.values())
+        groups.setdefault(view.seen(pose.position, part.origin), (pose, []))[1].append(one_line(name))
+    return list(groups.values())
 
 
 def _coarse(view: _View, point: Vector3) -> Point:

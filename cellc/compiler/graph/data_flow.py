@@ -128,8 +128,8 @@ def build_data_flow(cell: Cell) -> DataFlow:
         if controller.command_interfaces:
             commanders.setdefault(controller.label, []).append(controller)
     return DataFlow(
-        {name: tuple(found) for name, found in interfaces.items()},
-        {name: tuple(found) for name, found in commanders.items()},
+        {name: tuple(items) for name, items in interfaces.items()},
+        {name: tuple(items) for name, items in commanders.items()},
         _frame_edges(cell),
     )
 

@@ -29,8 +29,8 @@ class FrameTree:
 
     def get(self, name: str) -> Frame | None:
         """Find a frame, the first where a name occurs twice."""
-        found = self.edges.get(name)
-        return found[0] if found else None
+        edges = self.edges.get(name)
+        return edges[0] if edges else None
 
     def names(self) -> tuple[str, ...]:
         """Name every frame once, in the order of the cell."""

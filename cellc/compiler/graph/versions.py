@@ -201,8 +201,8 @@ def _known_answer(row: VersionRow, distro: str) -> tuple[Answer, str]:
     if row.ambiguous is not None:
         return Answer.UNKNOWN, f"{row.ambiguous}: {_origin(row)}"
     if row.built_from:
-        own = row.built_from[0]
-        built = f"{distro} does not release it; `sources.repos` builds it from {own.name} at {own.ref[:12]}"
+        pin = row.built_from[0]
+        built = f"{distro} does not release it; `sources.repos` builds it from {pin.name} at {pin.ref[:12]}"
         return Answer.UNKNOWN, f"{built}: {_origin(row)}"
     return Answer.OK, f"{distro} knows {', '.join(row.known)}: {_origin(row)}"
 

@@ -51,8 +51,8 @@ def _differences(artifacts: Sequence[Artifact], folder: Path) -> Iterator[Differ
         if content is None:
             yield Difference(artifact.path, "missing")
             continue
-        found = content.decode("utf-8", errors="replace")
-        line, expected, actual = _first_difference(artifact.content.decode(), found)
+        text = content.decode("utf-8", errors="replace")
+        line, expected, actual = _first_difference(artifact.content.decode(), text)
         is_edited = artifact.path in planned.edited and artifact.path != MANIFEST
         yield Difference(artifact.path, "edited" if is_edited else "outdated", line, expected, actual)
 

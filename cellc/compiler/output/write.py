@@ -132,8 +132,8 @@ class _Writing:
             swap.undo()
             return Outcome(None, refused)
         self._forget(stale, planned)
-        written = tuple(file.path for file in planned.write)
-        return Outcome(WriteReport(written, planned.remove, planned.unchanged))
+        paths = tuple(file.path for file in planned.write)
+        return Outcome(WriteReport(paths, planned.remove, planned.unchanged))
 
     def _forget(self, stale: Sequence[Path], planned: Plan) -> None:
         """Let go what killed builds left, now that nothing needs it to tell half-replaced files from edited ones."""

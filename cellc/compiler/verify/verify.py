@@ -33,5 +33,5 @@ def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic,
 
     place, question = graph.cell.locate("cell"), repr((tuple(artifacts), meant))
     kind = tuple[Disagreement, ...]
-    found = recall("verify", question, kind, ask, lambda found: not found, Path(place.file), _PARSERS)
-    return tuple(sorted((disagreement.at(place) for disagreement in found), key=Diagnostic.sort_key))
+    disagreements = recall("verify", question, kind, ask, lambda found: not found, Path(place.file), _PARSERS)
+    return tuple(sorted((disagreement.at(place) for disagreement in disagreements), key=Diagnostic.sort_key))

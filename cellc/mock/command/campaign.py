@@ -125,14 +125,14 @@ def conduct_all(cell: MockCell, options: CampaignOptions) -> Campaign:
 def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions | ReplayOptions) -> Campaign:
     if options.records is not None:
         refuse_foreign(Path(options.records))
-    begun = perf_counter()
+    start = perf_counter()
     plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
     runs = choose(plan)
     factory, who = executor(options.fan)
     with progress("campaign") as update:
 
         def report(done: int, total: int, failed: int) -> None:
-            update(pace(f"{done} of {total}", total, done, failed, perf_counter() - begun))
+            update(pace(f"{done} of {total}", total, done, failed, perf_counter() - start))
 
         try:
             campaign = conduct(cell, runs, baselines, seed=options.seed, factory=factory, progress=report)
@@ -141,7 +141,7 @@ def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions | ReplayOp
     if options.records is not None:
         attempts = (record for end in campaign.all_ends for record in end.result.attempts)
         write_records(Path(options.records), attempts)
-    remark(f"{len(runs)} runs in {perf_counter() - begun:.1f} s, {who}")
+    remark(f"{len(runs)} runs in {perf_counter() - start:.1f} s, {who}")
     return campaign
 
 

@@ -77,11 +77,11 @@ def rehearse_all(members: Sequence[Member], options: RehearsalOptions) -> Iterat
     Raises:
         ComputeError: no worker can execute one.
     """
-    begun = perf_counter()
+    start = perf_counter()
     spent_s = 0.0
     with progress("mock") as update, closing(_rehearsed(members, options)) as ended:
         for number, member in enumerate(members):
-            left = time_left(number, len(members), perf_counter() - begun)
+            left = time_left(number, len(members), perf_counter() - start)
             update(f"{number + 1} of {len(members)}, {member.name}{left}")
             if member.read is None:
                 yield Rehearsed((), problem=member.problem)

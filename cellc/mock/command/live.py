@@ -117,12 +117,12 @@ class LiveView:
             self._server.clear_session()  # time starts again
         latched = {channel.topic for channel in summary.channels.values() if _is_latched(channel.metadata)}
         lines = _log_lines(entry, result)
-        begun, first_ns = monotonic(), None
+        start, first_ns = monotonic(), None
         for _, channel, message in reader.iter_messages():
             first_ns = message.log_time if first_ns is None else first_ns
             while lines and lines[0][0] <= message.log_time:
                 self._say(*lines.pop(0))
-            sleep(max(0.0, begun + (message.log_time - first_ns) / 1e9 / self._speed - monotonic()))
+            sleep(max(0.0, start + (message.log_time - first_ns) / 1e9 / self._speed - monotonic()))
             if channel.topic in latched:
                 self._latched[channel.topic] = (message.data, message.log_time)
             self._channels[channel.topic].log(message.data, log_time=message.log_time)

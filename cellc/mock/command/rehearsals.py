@@ -121,9 +121,9 @@ def _timed(cell: MockCell, names: Sequence[str], run: Callable[[str], RehearsalR
     with progress("mock") as update:
         for number, name in enumerate(in_turn(cell, names), start=1):
             update(f"rehearsal {number} of {len(names)}, {name}")
-            begun = perf_counter()
+            start = perf_counter()
             result = run(name)
-            timed.append(TimedResult(result, perf_counter() - begun))
+            timed.append(TimedResult(result, perf_counter() - start))
     return timed
 
 

@@ -91,7 +91,7 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) ->
     Raises:
         MockError: a run cannot be executed, or no worker can be reached.
     """
-    begun, done = perf_counter(), 0
+    start, done = perf_counter(), 0
     failed = 0
     factory, who = executor(options.fan)
     with progress("sweep") as update, ExitStack() as stack:
@@ -106,14 +106,14 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) ->
             if journal is not None:
                 journal.keep(run)
             said = f"{done} of at most {options.runs}"
-            update(pace(said, options.runs, done, failed, perf_counter() - begun))
+            update(pace(said, options.runs, done, failed, perf_counter() - start))
 
         known = {} if journal is None else journal.runs
         try:
             result = sweep(cell, entry, seed=options.seed, most=options.runs, factory=factory, known=known, keep=keep)
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
-    remark(f"{done} runs in {perf_counter() - begun:.1f} s, {who}")
+    remark(f"{done} runs in {perf_counter() - start:.1f} s, {who}")
     return result
 
 

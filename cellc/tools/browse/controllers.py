@@ -32,9 +32,9 @@ def _kind(kind: ControllerKind) -> Iterator[str]:
     if facts:
         yield facts
     topics = ((code(topic.name), topic.type, _DIRECTIONS[topic.direction], _only(topic.only)) for topic in kind.topics)
-    told = table(("topic", "type", "it", "on"), topics)
+    topic_table = table(("topic", "type", "it", "on"), topics)
     if kind.topics:
-        yield told
+        yield topic_table
     parameters = (_parameter(name, facts) for name, facts in kind.parameters.items())
     yield table(("parameter", "type", "default", "allowed", "on"), parameters)
     yield "Sources: " + markdown("; ".join((*kind.sources, f"read on {kind.as_of}"))) + "."

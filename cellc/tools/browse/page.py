@@ -65,22 +65,22 @@ def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
 
 def _figures(entry: CatalogDevice) -> Iterator[str]:
     model = entry.model
-    told = []
+    sentences = []
     if model.limits.reach is not None:
-        told.append(f"reach {model.limits.reach.value.text} ({model.limits.reach.source})")
+        sentences.append(f"reach {model.limits.reach.value.text} ({model.limits.reach.source})")
     if model.limits.payload is not None:
-        told.append(f"payload {model.limits.payload.value.text} ({model.limits.payload.source})")
+        sentences.append(f"payload {model.limits.payload.value.text} ({model.limits.payload.source})")
     if model.limits.repeatability is not None:
-        told.append(f"repeatability {model.limits.repeatability.value.text} ({model.limits.repeatability.source})")
+        sentences.append(f"repeatability {model.limits.repeatability.value.text} ({model.limits.repeatability.source})")
     if model.tool_frame is not None:
         far = farthest(entry.description, model.tool_frame, _home(model))
-        told.append(f"{code(model.tool_frame)} gets {far * 1000:.0f} mm from the axis of the first joint")
+        sentences.append(f"{code(model.tool_frame)} gets {far * 1000:.0f} mm from the axis of the first joint")
     mass = sum(link.inertial.mass for link in entry.description.links if link.inertial is not None)
-    told += [f"its links weigh {mass:.2f} kg"] if mass else []
+    sentences += [f"its links weigh {mass:.2f} kg"] if mass else []
     released = distributions(model)
-    told += [f"driver for {', '.join(released)}"] if released else []
-    if told:
-        yield _list(told)
+    sentences += [f"driver for {', '.join(released)}"] if released else []
+    if sentences:
+        yield _list(sentences)
 
 
 def _home(model: DeviceModel) -> Mapping[str, float]:
@@ -188,7 +188,7 @@ def picture(entry: CatalogDevice) -> str:
         Part(
             entry.model.model,
             (0.0, 0.0, 0.0),
-            tuple((poses[link] @ one.pose, one.geometry) for link, one in shapes),
+            tuple((poses[link] @ shape.pose, shape.geometry) for link, shape in shapes),
             tuple((poses[joint.parent].position, poses[joint.child].position) for joint in joined),
             tuple(named.items()),
         )

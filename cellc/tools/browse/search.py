@@ -72,19 +72,19 @@ def distributions(model: DeviceModel) -> tuple[str, ...]:
 
 
 def meters(text: str) -> float:
-    """Read a length with its unit, as in a spec.
+    """Return a length in m from a text with its unit, as in a spec.
 
     Raises:
-        ValueError: it is none; the message says why.
+        ValueError: the text is not a length; the message says why.
     """
     return _read(_LENGTH, text)
 
 
 def kilograms(text: str) -> float:
-    """Read a mass with its unit, as in a spec.
+    """Return a mass in kg from a text with its unit, as in a spec.
 
     Raises:
-        ValueError: it is none; the message says why.
+        ValueError: the text is not a mass; the message says why.
     """
     return _read(_MASS, text)
 

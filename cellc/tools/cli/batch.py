@@ -65,10 +65,9 @@ class CellResult:
 def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
     """Return the specs that are meant: a folder means every ``cell.yaml`` below it, in alphabetical order.
 
-    A pattern such as ``cells/*/cell.yaml`` represents what it matches, where no shell has replaced it. Folders that
-    begin with a dot and virtual environments are left out, and no link to a folder is followed. A folder without a spec
-    that is the folder of a device represents its ``device.yaml``; any other stays what it is, so that it is told like
-    any other file that is none.
+    A pattern such as ``cells/*/cell.yaml`` is expanded where the shell has not done so. Folders that begin with a dot
+    and virtual environments are left out, and links to folders are not followed. A device folder without a spec stands
+    for its ``device.yaml``. Any other folder is kept as it is, and reported like any file that is not a spec.
     """
     below = ((path, files_below(path, SPEC_FILE) if os.path.isdir(path) else ()) for path in matched(paths))
     return tuple(dict.fromkeys(spec for path, specs in below for spec in specs or (_device_in(path),)))
@@ -84,11 +83,11 @@ def several_folders(paths: Sequence[str]) -> tuple[str, ...] | None:
     named = tuple(matched(paths))
     below = {path: files_below(path, "contract.json") for path in named if os.path.isdir(path)}
     inside = {path: tuple(map(os.path.dirname, files)) for path, files in below.items()}
-    found = tuple(dict.fromkeys(text for path in named for text in inside.get(path) or (path,)))
+    specs = tuple(dict.fromkeys(text for path in named for text in inside.get(path) or (path,)))
     return (
         None
-        if len(found) == 1 and len(named) == 1 and os.path.normpath(found[0]) == os.path.normpath(named[0])
-        else found
+        if len(specs) == 1 and len(named) == 1 and os.path.normpath(specs[0]) == os.path.normpath(named[0])
+        else specs
     )
 
 
@@ -101,13 +100,13 @@ def matched(paths: Iterable[str]) -> Iterator[str]:
 
 def files_below(folder: str, *patterns: str) -> tuple[str, ...]:
     """Return the files below a folder with names of some patterns, in alphabetical order, as `cell_files` looks."""
-    found: list[str] = []
+    paths: list[str] = []
     for place, folders, files in os.walk(folder):
-        kept = (name for name in folders if not name.startswith("."))
-        folders[:] = sorted(name for name in kept if not os.path.exists(os.path.join(place, name, "pyvenv.cfg")))
+        visible = (name for name in folders if not name.startswith("."))
+        folders[:] = sorted(name for name in visible if not os.path.exists(os.path.join(place, name, "pyvenv.cfg")))
         named = (file for file in sorted(files) if any(fnmatchcase(file, pattern) for pattern in patterns))
-        found += (os.path.normpath(os.path.join(place, file)) for file in named)
-    return tuple(found)
+        paths += (os.path.normpath(os.path.join(place, file)) for file in named)
+    return tuple(paths)
 
 
 State = tuple[int, int, int]
@@ -116,14 +115,14 @@ State = tuple[int, int, int]
 
 def states(places: Iterable[str], output: Path | None = None) -> dict[str, State]:
     """Return the state of every file below folders, but of what is hidden, generated, or a virtual environment."""
-    found: dict[str, State] = {}
+    states: dict[str, State] = {}
     left = list(places)
     generated = None if output is None else os.path.abspath(output)
     while left:
         try:
             entries = list(os.scandir(left.pop()))
         except OSError:
-            continue  # it has gone meanwhile, or nobody may look into it
+            continue  # removed meanwhile, or not readable
         if {"pyvenv.cfg", "manifest.json"} & {entry.name for entry in entries}:
             continue
         for entry in entries:
@@ -136,8 +135,8 @@ def states(places: Iterable[str], output: Path | None = None) -> dict[str, State
                 state = entry.stat()
             except OSError:
                 continue
-            found[entry.path] = (state.st_mtime_ns, state.st_size, state.st_ino)
-    return found
+            states[entry.path] = (state.st_mtime_ns, state.st_size, state.st_ino)
+    return states
 
 
 SPEC_FILE = "cell.yaml"
@@ -160,10 +159,10 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL, *, full: bool =
     computed = _computing(kind, left) if factory is None else in_workers(kind, left, factory, shared)
     earlier: dict[str, list[Presence]] = {}
     label = {"check": "checking", "compile": "building"}[kind]
-    begun, spent_s = monotonic(), 0.0
+    start, spent_s = monotonic(), 0.0
     with progress(label) as update:
         for number, task in enumerate(tasks):
-            update(f"{number + 1} of {len(tasks)}, {task.file}{time_left(number, len(tasks), monotonic() - begun)}")
+            update(f"{number + 1} of {len(tasks)}, {task.file}{time_left(number, len(tasks), monotonic() - start)}")
             if spent_s > limits().command_seconds:
                 from cellc.compiler.pipeline import out_of_time
 
@@ -186,8 +185,8 @@ def _recalled(tasks: Sequence[Task]) -> dict[int, CellResult]:
     """Return what tasks gave before that are not to be computed, by their number."""
     from cellc.tools.cli.kept_builds import recall_build
 
-    found = ((number, recall_build(task)) for number, task in enumerate(tasks))
-    return {number: result for number, result in found if result is not None}
+    recalled = ((number, recall_build(task)) for number, task in enumerate(tasks))
+    return {number: result for number, result in recalled if result is not None}
 
 
 def _computing(kind: Kind, tasks: Sequence[Task]) -> Generator[CellResult, None, None]:
@@ -196,13 +195,13 @@ def _computing(kind: Kind, tasks: Sequence[Task]) -> Generator[CellResult, None,
 
 def compute(kind: Kind, task: Task) -> CellResult:
     """Check a spec, or check and compile it, and tell how long that took."""
-    begun = _processor_seconds()
+    start = _processor_seconds()
     result = within(limits().command_seconds, partial(_computed, kind, task))
     if result is None:
         from cellc.compiler.pipeline import out_of_time
 
         result = CellResult(out_of_time(task.file, alone=True))
-    return replace(result, seconds=_processor_seconds() - begun)
+    return replace(result, seconds=_processor_seconds() - start)
 
 
 def _processor_seconds() -> float:
@@ -230,12 +229,12 @@ def _computed(kind: Kind, task: Task) -> CellResult:
         return result
     compiled = compile_cell(checked)
     artifacts = compiled.value if compiled.ok else None
-    made = replace(result, findings=checked.findings.with_more(compiled.diagnostics), artifacts=artifacts)
+    complete = replace(result, findings=checked.findings.with_more(compiled.diagnostics), artifacts=artifacts)
     if artifacts is not None:
         from cellc.tools.cli.kept_builds import keep_build
 
-        keep_build(task, made, checked.graph.cell.packages, started_ns, passing)
-    return made
+        keep_build(task, complete, checked.graph.cell.packages, started_ns, passing)
+    return complete
 
 
 @dataclass(frozen=True, slots=True)
@@ -312,7 +311,7 @@ def number_of_workers(kind: Kind, cells: int, cores: int | None = None) -> int:
 def in_workers(
     kind: Kind, tasks: Sequence[Task], factory: ExecutorFactory, shared: str = ""
 ) -> Generator[CellResult, None, None]:
-    """Yield results in the order of the tasks, whoever computes them; closing it ends them all.
+    """Yield results in the order of the tasks, from this process or from workers; closing the generator ends them all.
 
     Args:
         shared: folder that workers of other computers find the specs from; empty for processes of this one.

@@ -78,14 +78,14 @@ def build(
         folder = folder_of(task.versions)
         built.append(_built(_unless_shared(result, folder, places), output / folder, only_compare, force))
     shown = [selected_and_errors(item.result.findings, wanted) for item in built]
-    found = [(task, one.result.findings) for task, one in zip(tasks, built, strict=True)]
-    show_checked(fleet, found, shown, output_format, sum_blockers=True)
-    told = [line for item in built for line in item.told]
-    if output_format == "text" and told and not fleet.as_json:
-        show(*told)
+    by_task = [(task, outcome.result.findings) for task, outcome in zip(tasks, built, strict=True)]
+    show_checked(fleet, by_task, shown, output_format, sum_blockers=True)
+    messages = [line for item in built for line in item.messages]
+    if output_format == "text" and messages and not fleet.as_json:
+        show(*messages)
     rows = [
-        row_of(task, one.result, findings, fail_on, one.problem)
-        for task, one, findings in zip(tasks, built, shown, strict=True)
+        row_of(task, outcome.result, findings, fail_on, outcome.problem)
+        for task, outcome, findings in zip(tasks, built, shown, strict=True)
     ]
     finish_rows(fleet, rows, output_format)
 
@@ -95,7 +95,7 @@ class _Built:
     """What became of a cell, without its artifacts; ``problem`` says that its folder is not what it makes."""
 
     result: CellResult
-    told: tuple[Line, ...] = ()
+    messages: tuple[Line, ...] = ()
     problem: str = ""
 
 
@@ -110,8 +110,8 @@ def _built(result: CellResult, output: Path, only_compare: bool, force: bool) ->
         problem = f"`{folder.as_posix()}` is not what the cell makes" if differences else ""
         return _Built(replace(result, artifacts=None), tuple(_differences(differences, folder)), problem)
     findings, report = written(result.findings, result.artifacts, folder, force)
-    told = () if report is None else (told_of(report, folder),)
-    return _Built(replace(result, findings=findings, artifacts=None), told)
+    messages = () if report is None else (summary_of(report, folder),)
+    return _Built(replace(result, findings=findings, artifacts=None), messages)
 
 
 def _unless_shared(result: CellResult, folder: str, places: dict[tuple[str, str], Span]) -> CellResult:
@@ -133,7 +133,7 @@ def written(
     return findings.with_more(outcome.diagnostics), outcome.value
 
 
-def told_of(report: WriteReport, folder: Path) -> str:
+def summary_of(report: WriteReport, folder: Path) -> str:
     """Say how many files of a folder were written, removed and left."""
     parts = [(len(report.written), "written"), (len(report.removed), "removed"), (len(report.unchanged), "unchanged")]
     shown = ", ".join(f"{number} {word}" for number, word in parts if number)

@@ -46,8 +46,8 @@ def campaign(
     from cellc.mock.command.campaign import list_runs, run_campaign
     from cellc.mock.command.options import CampaignOptions
 
-    written = next((name for name, path in (("--evidence", evidence), ("--records", records)) if path is not None), "")
-    if list_only and written:
-        raise click.UsageError(f"{written} does not go with --list, which runs nothing.")
+    option = next((name for name, path in (("--evidence", evidence), ("--records", records)) if path is not None), "")
+    if list_only and option:
+        raise click.UsageError(f"{option} does not go with --list, which runs nothing.")
     options = CampaignOptions(folder, seed, edited, as_json, evidence, fan, pairs, records)
     raise click.exceptions.Exit(list_runs(options) if list_only else run_campaign(options))

@@ -71,10 +71,14 @@ def check(
     tasks = fleet.tasks(files)
     computed = list(results("check", tasks, fleet.fan))
     shown = [selected(result.findings, wanted) for result in computed]
-    show_checked(fleet, [(task, one.findings) for task, one in zip(tasks, computed, strict=True)], shown, output_format)
+    show_checked(
+        fleet, [(task, result.findings) for task, result in zip(tasks, computed, strict=True)], shown, output_format
+    )
     if sarif is not None:
         write_sarif(shown, sarif)
-    rows = [row_of(task, one, told, fail_on) for task, one, told in zip(tasks, computed, shown, strict=True)]
+    rows = [
+        row_of(task, result, findings, fail_on) for task, result, findings in zip(tasks, computed, shown, strict=True)
+    ]
     finish_rows(fleet, rows, output_format)
 
 
@@ -89,8 +93,8 @@ def fix_file(file: str) -> None:
         document = read(file)
         if document.value is None or not document.ok:
             return
-        found = judge(file).diagnostics
-        edits: list[Edit] = [*sure_edits(found)]
+        diagnostics = judge(file).diagnostics
+        edits: list[Edit] = [*sure_edits(diagnostics)]
         kind = "device" if is_device(document.value.data) else "cell"
         edits += missing_modeline(document.value.file, document.value.texts[document.value.file], kind)
         if not edits:

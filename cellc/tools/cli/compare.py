@@ -44,8 +44,8 @@ def compare(files: tuple[str, ...], output_format: str) -> None:
     names = [graph.cell.name for graph in graphs]
     # Two states of one cell have one name, and their files tell them apart.
     labels = names if len(set(names)) == len(names) else files
-    found = compared({label: graph.cell for label, graph in zip(labels, graphs, strict=True)})
+    comparison = compared({label: graph.cell for label, graph in zip(labels, graphs, strict=True)})
     if output_format == "markdown":
-        show_document(comparison_markdown(found))
+        show_document(comparison_markdown(comparison))
     else:
-        show(*render_comparison(found, columns()))
+        show(*render_comparison(comparison, columns()))

@@ -16,11 +16,11 @@ from cellc.tools.cli.limit_option import limit_option
 @click.argument("words", nargs=-1, metavar="[SYMPTOM]... [FILE]", type=click.Path(path_type=str))
 @limit_option
 def diagnose(words: tuple[str, ...]) -> None:
-    """Classify SYMPTOM, words or log lines, and tell which read-only observation rules each cause out.
+    """Classify SYMPTOM, words or log lines, and list the read-only observation that rules out each cause.
 
-    Without it, every symptom that is known is listed. With FILE behind it, a cell spec, the commands name its own
-    controllers, topics and frames. Nothing is executed, and nothing that is told bypasses a protection. Exit code 1
-    where no known symptom fits; the nearest are named.
+    Without SYMPTOM, list all known symptoms. With FILE, a cell spec, the commands use the controllers, topics and
+    frames of that cell. Nothing is executed, and no command bypasses a protection. Exit code 1 if no known symptom
+    fits; the nearest are listed.
 
     \b
     cellc diagnose arm sags when it is enabled

@@ -43,13 +43,13 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
 
     try:
         with packages(*asked(sides)) as ((before, _), (after, _)):
-            found = review(before, after, _outcomes(before, after) if rehearse else ())
+            result = review(before, after, _outcomes(before, after) if rehearse else ())
     except SideError as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
-    tell(found, output_format, render_markdown, render_review)
-    counted = [change for change in found.changes if change.breaking or not breaking]
-    if counted or (found.rehearsals_differ() and not breaking):
+    tell(result, output_format, render_markdown, render_review)
+    counted = [change for change in result.changes if change.breaking or not breaking]
+    if counted or (result.rehearsals_differ() and not breaking):
         raise click.exceptions.Exit(1)
 
 

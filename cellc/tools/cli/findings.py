@@ -56,8 +56,8 @@ def show_findings(
 
     Args:
         found: one for each cell.
-        hidden: findings that options left out; people are told how many.
-        sum_blockers: whether people are told the number of blockers only, where nothing is worse.
+        hidden: findings that options left out; their number is printed.
+        sum_blockers: print only the number of blockers, where nothing is worse.
     """
     if output_format != "text":
         _show_for_programs(_each_once(found), output_format)

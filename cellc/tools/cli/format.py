@@ -1,4 +1,4 @@
-"""``cellc format``: the canonical form of cells and devices, written into their files or told."""
+"""``cellc format``: the canonical form of cells and devices, written into their files or printed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The forms in which a comparison is told: for a terminal, for a comment of a pull request, for programs."""
+"""The output formats of a comparison: for a terminal, for a comment of a pull request, for programs."""
 
 from __future__ import annotations
 

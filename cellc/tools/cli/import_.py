@@ -78,42 +78,42 @@ def import_(
     if only_check:
         _tell_changes(Path(robot))
         return
-    begun = time.monotonic()
+    start = time.monotonic()
     stage("reading the robot")
-    found, role = _read(robot, dict(map(_argument, arguments)), kind, output)
+    robot_read, role = _read(robot, dict(map(_argument, arguments)), kind, output)
     from cellc.tools.importing.beside import controllers_near, read_controllers, semantic_file
     from cellc.tools.importing.cell_text import FirstCell
     from cellc.tools.importing.device_text import DESCRIPTION, model_name
     from cellc.tools.importing.folder import write_folder
     from cellc.tools.importing.source import packages_elsewhere
 
-    folder = output or Path(model_name(found))
-    if (folder / DESCRIPTION).exists() and (folder / DESCRIPTION).samefile(found.file):
+    folder = output or Path(model_name(robot_read))
+    if (folder / DESCRIPTION).exists() and (folder / DESCRIPTION).samefile(robot_read.file):
         raise click.UsageError(
-            f"`{found.file.as_posix()}` would be replaced by what is made of it: name another folder"
+            f"`{robot_read.file.as_posix()}` would be replaced by what is made of it: name another folder"
         )
-    semantic = srdf or semantic_file(found.file, found.description.name)
+    semantic = srdf or semantic_file(robot_read.file, robot_read.description.name)
     joints = [joint.name for joint in role.chain.joints]
-    moved = controllers_near(found.file, joints) if controllers is None else read_controllers(controllers, joints)
+    moved = controllers_near(robot_read.file, joints) if controllers is None else read_controllers(controllers, joints)
     if moved is None:
         raise click.UsageError(f"`{controllers}` has no controller of {', '.join(joints)}.")
     stage("copying meshes")
-    disabled = _disabled(semantic, found)
-    outcome = write_folder(folder, found, role, disabled, date.today().isoformat(), force=force)
+    disabled = _disabled(semantic, robot_read)
+    outcome = write_folder(folder, robot_read, role, disabled, date.today().isoformat(), force=force)
     if outcome.value is None:
         show_findings((Findings(folder.as_posix(), {}, outcome.diagnostics),), "text")
         raise click.exceptions.Exit(1)
-    written = outcome.value
-    took = f"{time.monotonic() - begun:.1f} s"
-    show(f"wrote {folder.as_posix()}: {written.files} files, {written.size / 1e6:.1f} MB, in {took}")
+    import_report = outcome.value
+    took = f"{time.monotonic() - start:.1f} s"
+    show(f"wrote {folder.as_posix()}: {import_report.files} files, {import_report.size / 1e6:.1f} MB, in {took}")
     show(*(f"read {file.as_posix()}" for file in (semantic, moved.file) if file is not None))
     show(*role.lines())
-    _tell_kept(folder, written)
-    _stop_at_errors(written.checked)
+    _tell_kept(folder, import_report)
+    _stop_at_errors(import_report.checked)
     show(f"open questions stand at the head of {folder.as_posix()}/device.yaml")
     if with_cell:
-        beside = packages_elsewhere(found, folder)
-        _write_cell(folder, FirstCell(role, written.away, moved, ros, beside))
+        beside = packages_elsewhere(robot_read, folder)
+        _write_cell(folder, FirstCell(role, import_report.away, moved, ros, beside))
 
 
 def _stop_at_errors(found: Findings) -> None:

@@ -98,7 +98,7 @@ def _named(devices: tuple[str, ...], beside: Path) -> dict[str, NamedDevice]:
 
 def _add_signals(entries: dict[str, NamedDevice]) -> None:
     """Add the I/O devices that the outputs of switched devices need, and tell of each."""
-    while unwired := without_signal({name: one.model for name, one in entries.items()}):
+    while unwired := without_signal({name: named.model for name, named in entries.items()}):
         name, model = _free_name(_SIGNALS, entries), _first_of_kind(_SIGNALS)
         entries[name] = _of_catalog(model)
         show(f"added {name}: {model}, for the outputs of {', '.join(unwired)}")

@@ -54,9 +54,9 @@ def recall_build(task: Task) -> CellResult | None:
     if content is None:
         return None
     try:
-        kept = json.loads(content)
-        if kept["digest"] == _digest(_Inputs(tuple(kept["folders"]), tuple(kept["files"])), task):
-            return _result(kept["result"])
+        data = json.loads(content)
+        if data["digest"] == _digest(_Inputs(tuple(data["folders"]), tuple(data["files"])), task):
+            return _result(data["result"])
     except (OSError, ValueError, KeyError, TypeError, _NotKeptError):
         pass
     return None
@@ -78,8 +78,8 @@ def keep_build(task: Task, result: CellResult, packages: tuple[str, ...], starte
         digest = _digest(inputs, task, started_ns - _SETTLED_NS)
     except (OSError, _NotKeptError):
         return
-    kept = {**asdict(inputs), "digest": digest, "result": _as_data(result)}
-    write_entry(name, json.dumps(kept).encode(), Path(task.file))
+    content = {**asdict(inputs), "digest": digest, "result": _as_data(result)}
+    write_entry(name, json.dumps(content).encode(), Path(task.file))
 
 
 def _entry_name(task: Task) -> str | None:
@@ -164,11 +164,11 @@ def _below(folder: str, but: tuple[str, ...]) -> Iterator[os.DirEntry[str]]:
 
 
 def _as_data(result: CellResult) -> dict[str, Any]:
-    found, cell = result.findings, result.cell
+    findings, cell = result.findings, result.cell
     return {
-        "file": found.file,
-        "texts": dict(found.texts),
-        "diagnostics": [astuple(each) for each in found.diagnostics],
+        "file": findings.file,
+        "texts": dict(findings.texts),
+        "diagnostics": [astuple(each) for each in findings.diagnostics],
         "cell": None if cell is None else {**asdict(cell), "servers": sorted(cell.servers)},
         "artifacts": [astuple(each) for each in result.artifacts or ()],
         "distro": result.distro,

@@ -108,6 +108,6 @@ def _show_usage(problem: click.ClickException) -> None:
     if context is not None:
         hint = f"Try '{context.command_path} {context.help_option_names[0]}' for help."
         show(*context.get_usage().split("\n"), hint, "", to=Stream.ERR)
-    told = f"Error: {problem.format_message()}"
+    error = f"Error: {problem.format_message()}"
     # Click lists the choices of a parameter that is missing, one a line.
-    show(*(told.split("\n") if isinstance(problem, click.MissingParameter) else [told]), to=Stream.ERR)
+    show(*(error.split("\n") if isinstance(problem, click.MissingParameter) else [error]), to=Stream.ERR)

@@ -88,7 +88,7 @@ def _tell_cells(paths: Sequence[str], fleet: FleetOptions, execute: Execute) -> 
             write(result.artifacts, folder)
             members.append(member_of(name, folder, edited=False, spec=Path(task.file).absolute().parent))
         ended = _executed(members, execute)
-        rows = [_row(member, one, row) for member, one, row in zip(members, ended, rows, strict=True)]
+        rows = [_row(member, rehearsed, row) for member, rehearsed, row in zip(members, ended, rows, strict=True)]
     finish_rows(fleet, rows, alone=True)
 
 

@@ -1,4 +1,4 @@
-"""One table of what came of many cells: its rows, its findings, and the exit code."""
+"""The table of results of many cells: its rows, its findings, and the exit code."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def row_of(task: Task, result: CellResult, shown: Findings, fail_on: str, problem: str = "") -> FleetRow:
-    """Return what is told of a cell with a tuple.
+    """Return the row of one cell.
 
     Args:
         shown: the findings that were asked for.
@@ -30,7 +30,7 @@ def row_of(task: Task, result: CellResult, shown: Findings, fail_on: str, proble
     from cellc.contract.review import ReviewFinding
 
     problem = problem or result.problem
-    told = (
+    findings = (
         ReviewFinding(
             code=diagnostic.code,
             severity=diagnostic.severity.value,
@@ -45,7 +45,7 @@ def row_of(task: Task, result: CellResult, shown: Findings, fail_on: str, proble
         versions={**({"ros": result.distro} if result.distro else {}), **task.versions},
         passed=not problem and not fails(shown, fail_on),
         problem=problem,
-        findings=tuple(told),
+        findings=tuple(findings),
     )
 
 
@@ -82,7 +82,7 @@ def finish_rows(
     """Write the table where there are several rows, and leave with a code where one did not pass.
 
     Args:
-        alone: the table is all that is told, so that one row is shown too.
+        alone: the table is the only output, so that a single row is shown too.
     """
     passed = all(row.passed for row in rows)
     if fleet.as_json:

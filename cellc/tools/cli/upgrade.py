@@ -46,7 +46,7 @@ def upgrade(spec: str, target: str, write: bool, output_format: str) -> None:
     except (SideError, UpgradeError) as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
-    found = planned.upgrade
-    tell(found, output_format, upgrade_markdown, render_upgrade)
-    if found.asks():
+    plan = planned.upgrade
+    tell(plan, output_format, upgrade_markdown, render_upgrade)
+    if plan.asks():
         raise click.exceptions.Exit(1)

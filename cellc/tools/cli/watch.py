@@ -14,7 +14,7 @@ import click
 from cellc.compiler.link.reads import Reads, is_below, reads_of
 from cellc.contract.printing import Stream, clear, show
 from cellc.tools.cli.batch import SPEC_FILE, State, cell_files, matched, states
-from cellc.tools.cli.build import OUTPUT, told_of, written
+from cellc.tools.cli.build import OUTPUT, summary_of, written
 from cellc.tools.cli.findings import IGNORE, SELECT, read_selection, selected, show_findings
 from cellc.tools.cli.limit_option import limit_option
 from cellc.tools.report.selection import Selection
@@ -91,7 +91,7 @@ def _build(checked: Checked, folder: Path) -> None:
     if findings.diagnostics:
         show_findings([findings], "text")
     if report is not None:
-        show(told_of(report, folder))
+        show(summary_of(report, folder))
 
 
 class Watched:
@@ -156,5 +156,5 @@ class Watched:
 
 
 def different(before: Mapping[str, State], after: Mapping[str, State]) -> set[str]:
-    """Return the files that are not as they were, that have gone, or that came."""
+    """Return the files that were changed, removed or added."""
     return {file for file in before.keys() | after.keys() if before.get(file) != after.get(file)}

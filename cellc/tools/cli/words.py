@@ -35,8 +35,8 @@ def _complete(known: Callable[[click.Context], Iterable[tuple[str, str]]], apart
     """Return a completion of words with a help for each; what is before the last ``apart`` is kept as it is."""
 
     def complete(context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        before, mark, begun = incomplete.rpartition(apart) if apart else ("", "", incomplete)
-        words = (pair for pair in known(context) if pair[0].startswith(begun))
+        before, mark, typed = incomplete.rpartition(apart) if apart else ("", "", incomplete)
+        words = (pair for pair in known(context) if pair[0].startswith(typed))
         return _items((f"{before}{mark}{word}", said) for word, said in words)
 
     return complete
@@ -87,8 +87,8 @@ def complete_run(context: click.Context, _parameter: click.Parameter, incomplete
     """
     names = [f"{entry.name}/" for entry in _entries(context) if entry.is_plain]
     meant = [name for name in names if name.startswith(incomplete) or incomplete.startswith(name)]
-    found = meant if len(meant) > 1 else _campaign_runs(context, meant[0].rstrip("/")) if meant else ()
-    known = (*found, *_swept_runs(context.params.get("journal")))
+    runs = meant if len(meant) > 1 else _campaign_runs(context, meant[0].rstrip("/")) if meant else ()
+    known = (*runs, *_swept_runs(context.params.get("journal")))
     return _items((run, "") for run in known if run.startswith(incomplete))
 
 

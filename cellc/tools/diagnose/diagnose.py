@@ -116,14 +116,14 @@ def _words_of(known: Sequence[Match]) -> Words:
 def _logged(known: Sequence[Match], text: str) -> list[Match]:
     """Return what logs a line of the text, the longest text of a source first."""
     pasted = plain(text)
-    found: list[tuple[int, Match]] = []
+    matches: list[tuple[int, Match]] = []
     for match in known:
         lines = [(template, found_in(template, pasted)) for template in match.symptom.logged]
         names = [(length(template), named) for template, named in lines if named is not None]
         if names:
             named = tuple(dict.fromkeys(pair for _, pairs in names for pair in pairs))
-            found.append((max(letters for letters, _ in names), Match(match.layer, match.symptom, named)))
-    return [match for _, match in sorted(found, key=lambda entry: -entry[0])]
+            matches.append((max(letters for letters, _ in names), Match(match.layer, match.symptom, named)))
+    return [match for _, match in sorted(matches, key=lambda entry: -entry[0])]
 
 
 _SHOWN_SUBJECTS = 3

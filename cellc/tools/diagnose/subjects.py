@@ -59,8 +59,8 @@ def _topic(topic: Interface) -> tuple[str, ...]:
 
 
 def _qos(way: str, end: Endpoint) -> str:
-    kept = f"last {end.qos.depth}" if end.qos.history == "keep_last" else "all"
-    return f"{way} {end.node} {end.qos.reliability}, {end.qos.durability}, {kept}"
+    history = f"last {end.qos.depth}" if end.qos.history == "keep_last" else "all"
+    return f"{way} {end.node} {end.qos.reliability}, {end.qos.durability}, {history}"
 
 
 def _actions(cell: Cell) -> Rows:

@@ -146,5 +146,5 @@ def _read(file: str, model: type[_ModelT]) -> _ModelT:
 
     read = read_model(CATALOG / file, file, model)
     if read.value is None:
-        raise ValueError("; ".join(f"{found.span}: {found.message}" for found in read.diagnostics))
+        raise ValueError("; ".join(f"{diagnostic.span}: {diagnostic.message}" for diagnostic in read.diagnostics))
     return read.value[0]

@@ -47,16 +47,16 @@ class Words:
     def fitting(self, text: str) -> Iterator[int]:
         """Yield the numbers of the symptoms that fit, the best first."""
         said, explained = self._meanings(text), _NOTHING
-        phrases = {number: self._best_of(one, said) for number, one in enumerate(self._phrases)}
+        phrases = {number: self._best_of(phrase, said) for number, phrase in enumerate(self._phrases)}
         left = {number: phrase for number, phrase in phrases.items() if phrase}
         while left:
             best = max(
                 left,
-                key=lambda one: (
-                    self._weight(left[one]),
-                    self._weight(left[one] - explained),
-                    self._weight(self._all[one] & said),
-                    -one,
+                key=lambda phrase: (
+                    self._weight(left[phrase]),
+                    self._weight(left[phrase] - explained),
+                    self._weight(self._all[phrase] & said),
+                    -phrase,
                 ),
             )
             explained |= left.pop(best)

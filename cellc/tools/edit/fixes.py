@@ -16,11 +16,11 @@ from cellc.tools.edit.rewrite import Edit
 
 def sure_edits(diagnostics: Iterable[Diagnostic]) -> Iterator[Edit]:
     """Yield the edits of findings that can mean only one thing, and whose line belongs to one place alone."""
-    found = tuple(diagnostics)
+    findings = tuple(diagnostics)
     # An alias brings one line into several places, where it may mean different things.
-    times = Counter((each.code, each.span) for each in found)
+    times = Counter((each.code, each.span) for each in findings)
     taken = set()
-    for each in found:
+    for each in findings:
         if each.fix is None or not each.fix.sure or times[each.code, each.span] > 1:
             continue
         place = (each.code, each.yaml_path[:-1], each.fix.text if each.code == "unknown-key" else each.yaml_path[-1:])

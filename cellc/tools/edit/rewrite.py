@@ -57,8 +57,8 @@ def rewrite(file: Path, edits: Sequence[Edit], expected: str) -> bool:
     if content is None:
         return False
     broken = _line_break(content)
-    own = [Edit(e.file, e.line, e.column, e.end_column, e.text.replace("\n", broken), e.message) for e in edits]
-    replace_content(file, apply_edits(content, own).encode())
+    replaced = [Edit(e.file, e.line, e.column, e.end_column, e.text.replace("\n", broken), e.message) for e in edits]
+    replace_content(file, apply_edits(content, replaced).encode())
     return True
 
 

@@ -1,4 +1,4 @@
-"""A robot as its vendor ships it becomes a device folder, and a first cell around it.
+"""Creates a device folder, and a first cell around it, from a robot description as its vendor ships it.
 
-Nothing is guessed in silence: what the files do not say is written as UNKNOWN with its question, and told.
+Nothing is guessed silently: a fact that the files do not state is written as UNKNOWN with its question, and reported.
 """

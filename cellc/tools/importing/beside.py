@@ -31,9 +31,9 @@ class ControllerFacts:
 
 def semantic_file(description: Path, robot: str) -> Path | None:
     """Return the one SRDF of a robot near its description; of several that which has the name of the description."""
-    own = [file for file in _near(description, ".srdf") if _robot_of(file) == robot]
-    alike = [file for file in own if file.stem == description.name.partition(".")[0]]
-    return own[0] if len(own) == 1 else alike[0] if len(alike) == 1 else None
+    matching = [file for file in _near(description, ".srdf") if _robot_of(file) == robot]
+    alike = [file for file in matching if file.stem == description.name.partition(".")[0]]
+    return matching[0] if len(matching) == 1 else alike[0] if len(alike) == 1 else None
 
 
 def _robot_of(file: Path) -> str | None:
@@ -43,8 +43,10 @@ def _robot_of(file: Path) -> str | None:
 
 def controllers_near(description: Path, joints: Sequence[str]) -> ControllerFacts:
     """Return what the one file near a description says that has a trajectory controller of all of some joints."""
-    found = [facts for file in _near(description, ".yaml") if (facts := read_controllers(file, joints)) is not None]
-    return found[0] if len(found) == 1 else ControllerFacts()
+    controllers = [
+        facts for file in _near(description, ".yaml") if (facts := read_controllers(file, joints)) is not None
+    ]
+    return controllers[0] if len(controllers) == 1 else ControllerFacts()
 
 
 def read_controllers(file: Path, joints: Sequence[str]) -> ControllerFacts | None:
@@ -57,10 +59,12 @@ def read_controllers(file: Path, joints: Sequence[str]) -> ControllerFacts | Non
     except (yaml.YAMLError, ValueError, RecursionError):
         return None
     moving = (node for node in nodes.values() if set(joints) <= set(_listed(node.get("joints"))))
-    found = next((mapping for mapping in moving if "constraints" in mapping or "command_interfaces" in mapping), None)
-    if found is None:
+    parameters = next(
+        (mapping for mapping in moving if "constraints" in mapping or "command_interfaces" in mapping), None
+    )
+    if parameters is None:
         return None
-    constraints = found.get("constraints")
+    constraints = parameters.get("constraints")
     goal_time = constraints.get("goal_time") if isinstance(constraints, dict) else None
     rate = nodes.get("controller_manager", {}).get("update_rate")
     return ControllerFacts(_positive(rate, _DEFAULT_HZ), _positive(goal_time, _DEFAULT_S), file)

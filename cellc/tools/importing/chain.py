@@ -109,11 +109,11 @@ def _ends(joint: Joint) -> tuple[float, float]:
 
 def _above(link: str, parents: Mapping[str, Joint]) -> tuple[Joint, ...]:
     """Return the joints from the root to a link; as far as a cycle where there is one."""
-    found: list[Joint] = []
-    while link in parents and parents[link] not in found:
-        found.append(parents[link])
+    joints: list[Joint] = []
+    while link in parents and parents[link] not in joints:
+        joints.append(parents[link])
         link = parents[link].parent
-    return tuple(reversed(found))
+    return tuple(reversed(joints))
 
 
 def _runs(chain: tuple[Joint, ...]) -> list[Chain]:
@@ -158,12 +158,12 @@ def _without_fingers(chain: Chain, description: Description) -> Chain:
 def _moves(joint: Joint, below: Mapping[str, list[Joint]]) -> bool:
     waiting, seen = [joint], set[str]()
     while waiting:
-        one = waiting.pop()
-        if one.movable:
+        checked = waiting.pop()
+        if checked.movable:
             return True
-        if one.child not in seen:
-            seen.add(one.child)
-            waiting += below.get(one.child, [])
+        if checked.child not in seen:
+            seen.add(checked.child)
+            waiting += below.get(checked.child, [])
     return False
 
 
@@ -190,17 +190,17 @@ def tip_at(link: str, description: Description) -> Tip:
 def _named(link: str, description: Description) -> str:
     """Return the link with the name of a tool frame that a link is or carries; empty if no link has one."""
     carried = _carried(link, description)
-    found = ([name for name in carried if pattern.search(name)] for pattern in _TIP_NAMES)
-    return next((names[0] for names in found if names), "")
+    named = ([name for name in carried if pattern.search(name)] for pattern in _TIP_NAMES)
+    return next((names[0] for names in named if names), "")
 
 
 def _carried(link: str, description: Description) -> dict[str, list[str]]:
     """Return the links that fixed joints join below a link, itself too, nearest first, each with those on it."""
-    found: dict[str, list[str]] = {link: []}
+    carried: dict[str, list[str]] = {link: []}
     for parent in (waiting := [link]):
         for joint in description.joints:
-            if joint.type == "fixed" and joint.parent == parent and joint.child not in found:
-                found[parent].append(joint.child)
-                found[joint.child] = []
+            if joint.type == "fixed" and joint.parent == parent and joint.child not in carried:
+                carried[parent].append(joint.child)
+                carried[joint.child] = []
                 waiting.append(joint.child)
-    return found
+    return carried

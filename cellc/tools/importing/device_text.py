@@ -155,10 +155,10 @@ def _drivers(description: Description) -> tuple[HardwareComponent, ...]:
         for component in real
         if any(part.command_interfaces for part in (*component.joints, *component.gpios))
     ]
-    found: dict[tuple[object, ...], HardwareComponent] = {}
+    drivers: dict[tuple[object, ...], HardwareComponent] = {}
     for component in commanding or real:
-        found.setdefault((component.type, component.plugin, *sorted(component.parameters.items())), component)
-    return tuple(found.values())
+        drivers.setdefault((component.type, component.plugin, *sorted(component.parameters.items())), component)
+    return tuple(drivers.values())
 
 
 def _of_hardware(description: Description) -> Iterator[str]:
@@ -201,10 +201,10 @@ def disabled_by_srdf(file: Path, links: set[str]) -> Outcome[Pairs]:
     read = Outcome(None, text.diagnostics) if text.value is None else read_xml(text.value, file.as_posix())
     if read.value is None:
         return Outcome(None, read.diagnostics)
-    found: dict[tuple[str, str], str] = {}
+    pairs: dict[tuple[str, str], str] = {}
     for element in read.value.all("disable_collisions"):
         first, second = (element.attributes.get(key, "") for key in ("link1", "link2"))
         if first != second and {first, second} <= links:
             reason = element.attributes.get("reason", "") or "no reason"
-            found[min(first, second), max(first, second)] = f"{file.name} says {reason}"
-    return Outcome(found)
+            pairs[min(first, second), max(first, second)] = f"{file.name} says {reason}"
+    return Outcome(pairs)

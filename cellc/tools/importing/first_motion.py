@@ -36,7 +36,7 @@ def first_goal(graph: CellGraph | None, group: str, chain: Chain) -> Configurati
 
 
 def _free_way(graph: CellGraph, group: str, chain: Chain) -> Callable[[Configuration], bool] | None:
-    """Return what tells whether the straight way from home to a configuration is free; None where nobody can."""
+    """Return a check whether the straight path from home to a configuration is free; None where it is not possible."""
     if motion_answer(graph).refused:
         return None
     from cellc.compiler.feasibility.compute import planner_of  # loads the robot library

@@ -101,9 +101,9 @@ def write_folder(
     }
     text = json.dumps(lock, indent=2) + "\n"
     whole = (*files, _File(_DEVICE, device.content), _File(LOCK, text.encode()))
-    written = write(whole, folder, force=force, index=LOCK, known=device.known)
-    if written.value is None:
-        return Outcome(None, written.diagnostics)
+    report = write(whole, folder, force=force, index=LOCK, known=device.known)
+    if report.value is None:
+        return Outcome(None, report.diagnostics)
     size = sum(len(file.content) for file in files)
     return Outcome(Written(len(whole), size, device.kept, device.changed, device.lost, checked, away))
 
@@ -191,11 +191,11 @@ class _Device:
         self.imported = facts = device_facts(self._robot, role, judged, day)
         if not self.kept:
             self.text = device_text(self._robot, role, judged, facts)
-        elif self._person is not None and self._before:  # of one that was not imported nobody knows what is whose
-            found = merged(self._before, facts, self._person)
-            keys = dict.fromkeys((*self._person, *found))
-            self.changed = tuple(key for key in keys if self._person.get(key) != found.get(key))
-            self.text = rewritten(self._former, self._person, found)
+        elif self._person is not None and self._before:  # without an import record, no line has a known author
+            merged_facts = merged(self._before, facts, self._person)
+            keys = dict.fromkeys((*self._person, *merged_facts))
+            self.changed = tuple(key for key in keys if self._person.get(key) != merged_facts.get(key))
+            self.text = rewritten(self._former, self._person, merged_facts)
 
 
 def _imported_before(folder: Path) -> Facts | None:
@@ -207,8 +207,8 @@ def _imported_before(folder: Path) -> Facts | None:
         lock = json.loads(held)
     except (ValueError, RecursionError):
         return None
-    found = lock.get("device", {}) if isinstance(lock, dict) else None  # an older one has none
-    return found if isinstance(found, dict) else None
+    digests = lock.get("device", {}) if isinstance(lock, dict) else None  # an older one has none
+    return digests if isinstance(digests, dict) else None
 
 
 def kept_kind(folder: Path) -> str | None:

@@ -23,14 +23,14 @@ _FIGURES = {
 
 def assumed_limits(description: Description) -> Facts:
     """Return the entries of `limits` that fill the gaps: key, joint, figures with what the description states."""
-    found: Facts = {}
+    limits: Facts = {}
     moving = [joint for joint in description.joints if joint.movable and joint.mimic is None]
     driven = [joint for joint in moving if joint.limit is not None or joint.type != "continuous" or not is_wheel(joint)]
     for joint in driven or moving:  # a caster needs no limits, unless nothing else moves
         for key, stated in _gaps(joint):
             source = f"{UNKNOWN}, assumed by cellc import: the description states {stated}"
-            found.setdefault(key, {})[joint.name] = {**_FIGURES[key][joint.slides], "source": source}
-    return found
+            limits.setdefault(key, {})[joint.name] = {**_FIGURES[key][joint.slides], "source": source}
+    return limits
 
 
 def with_limits(description: Description, limits: Facts) -> Description:

@@ -52,7 +52,7 @@ class Shape:
 def kind_of(description: Description) -> Kind:
     """Return what a robot is by the first sign that holds."""
     shape = shape_of(description)
-    return next(found for sign in _SIGNS if (found := sign(shape)) is not None)
+    return next(kind for sign in _SIGNS if (kind := sign(shape)) is not None)
 
 
 def _base(shape: Shape) -> Kind | None:
@@ -169,10 +169,10 @@ class _Tree:
 
     def under(self, joint: Joint) -> list[Joint]:
         """Return a joint that moves and all that move below it."""
-        found = [joint]
-        for above in found:
-            found += self.below.get(above.child, ())
-        return found
+        joints = [joint]
+        for above in joints:
+            joints += self.below.get(above.child, ())
+        return joints
 
     def paths(self) -> list[list[Joint]]:
         """Return the joints that move from the root to each body on which none moves."""
@@ -190,7 +190,7 @@ class _Tree:
 def _wheels(tree: _Tree) -> tuple[Joint, ...]:
     """Return the last joints of chains that are wheels: by name, or continuous about a level axis of the root."""
     poses = posture(tree.description, {})
-    found = []
+    wheels = []
     for path in tree.paths():
         last = path[-1]
         x, y, z = last.axis
@@ -199,8 +199,8 @@ def _wheels(tree: _Tree) -> tuple[Joint, ...]:
         named = is_wheel(last)
         rolls = last.type == "continuous" and len(path) == 1 and level and not _is_finger(last)
         if rolls or (named and not last.slides):
-            found.append(last)
-    return tuple(found) if len(found) > 1 else ()
+            wheels.append(last)
+    return tuple(wheels) if len(wheels) > 1 else ()
 
 
 def is_wheel(joint: Joint) -> bool:

@@ -34,10 +34,10 @@ _Loader.yaml_implicit_resolvers = {
 def facts_in(text: str) -> Facts | None:
     """Return what a ``device.yaml`` holds; None where it cannot be read, which a check tells with its place."""
     try:
-        found = load_values(text, _Loader, "spec-values")
+        facts = load_values(text, _Loader, "spec-values")
     except (yaml.YAMLError, ValueError, RecursionError):
         return None
-    return found if isinstance(found, dict) else None
+    return facts if isinstance(facts, dict) else None
 
 
 def dumped(facts: Mapping[str, object]) -> str:
@@ -47,12 +47,12 @@ def dumped(facts: Mapping[str, object]) -> str:
 
 def merged(before: Facts, now: Facts, person: Facts) -> Facts:
     """Return what a person has, with what the vendor changed since: a value that both changed is the person's."""
-    found: Facts = {}
+    facts: Facts = {}
     for key in (*person, *(key for key in now if key not in person)):
         value = _one(before.get(key, _ABSENT), now.get(key, _ABSENT), person.get(key, _ABSENT))
         if value is not _ABSENT:
-            found[key] = value
-    return found
+            facts[key] = value
+    return facts
 
 
 def _one(before: Any, now: Any, person: Any) -> Any:
@@ -76,11 +76,11 @@ def _by_pair(pairs: list[Facts]) -> Facts:
 
 
 def rewritten(text: str, person: Facts, facts: Facts) -> str:
-    """Return a file that holds ``person`` with the blocks written again that are otherwise in ``facts``."""
-    written = dict(_blocks(dumped(facts)))
-    anew = {key: written[key] for key in facts if key not in person or person[key] != facts[key]}
-    kept = (anew.pop(key, block) for key, block in _blocks(text) if not key or key in facts)
-    return "".join((*kept, *anew.values()))
+    """Return the text of a file that holds ``person``, with the blocks replaced that differ in ``facts``."""
+    blocks = dict(_blocks(dumped(facts)))
+    changed = {key: blocks[key] for key in facts if key not in person or person[key] != facts[key]}
+    kept = [changed.pop(key, block) for key, block in _blocks(text) if not key or key in facts]
+    return "".join((*kept, *changed.values()))
 
 
 def _blocks(text: str) -> Iterator[tuple[str, str]]:

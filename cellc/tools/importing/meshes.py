@@ -35,7 +35,7 @@ def located(meshes: Iterable[Mesh], file: Path, root: Path) -> Mapping[str, Path
     Raises:
         MeshError: a file is too large, is not a mesh, or has a name that no folder can hold.
     """
-    found, together, most = dict[str, Path](), 0, limits().mesh_bytes_together
+    located, together, most = dict[str, Path](), 0, limits().mesh_bytes_together
     for number, name in enumerate(dict.fromkeys(mesh.filename for mesh in meshes)):
         if number == limits().mesh_shapes:
             raise too_large(f"must be one of at most {number} meshes, got more", "mesh-shapes").about(name)
@@ -48,8 +48,8 @@ def located(meshes: Iterable[Mesh], file: Path, root: Path) -> Mapping[str, Path
         if together > most:
             message = f"must have at most {most / MIB:g} MiB with the meshes before it, got more"
             raise too_large(message, "mesh-bytes-together").about(name)
-        found[name] = Path(mesh.path)
-    return found
+        located[name] = Path(mesh.path)
+    return located
 
 
 def _file_of(name: str, file: Path, root: Path) -> MeshFile | None:
@@ -68,8 +68,8 @@ def _file_of(name: str, file: Path, root: Path) -> MeshFile | None:
     around += [here, here.parent, here / "meshes"]
     places = [folder for folder in packages if lies_under((folder / rest).as_posix(), folder.as_posix())]
     places += [folder for folder in around if (folder / rest).resolve() == folder.resolve() / rest]
-    found = (_identified(f"file://{folder.absolute() / rest}", (folder,)) for folder in places)
-    return next((mesh for mesh in found if mesh is not None), None)
+    files = (_identified(f"file://{folder.absolute() / rest}", (folder,)) for folder in places)
+    return next((mesh for mesh in files if mesh is not None), None)
 
 
 def _identified(name: str, roots: Sequence[Path]) -> MeshFile | None:

@@ -59,7 +59,7 @@ def the_description(named: str) -> Path:
     """Return the one description that a file, a folder or an installed package holds.
 
     Raises:
-        ImportRefusedError: there is none, or there are several.
+        ImportRefusedError: it holds no description, or several.
     """
     files = _candidates(named)
     if len(files) > 1:
@@ -78,17 +78,17 @@ def _candidates(named: str) -> tuple[Path, ...]:
         return (place,)
     if not place.is_dir():
         raise ImportRefusedError(f"`{named}` is not a file, a folder or an installed package")
-    found = descriptions_in(place)
-    if not found:
+    files = descriptions_in(place)
+    if not files:
         raise ImportRefusedError(f"`{named}` holds no URDF or xacro file")
-    return found
+    return files
 
 
 def descriptions_in(folder: Path) -> tuple[Path, ...]:
     """Return the files below a folder that are descriptions by their names, without parts where there are others."""
-    found = sorted(file for file in folder.rglob("*") if file.name.endswith(_SUFFIXES) and file.is_file())
-    tops = [file for file in found if not re.search(r"macro|inc|materials|gazebo|transmission", file.name)]
-    return tuple(tops or found)
+    files = sorted(file for file in folder.rglob("*") if file.name.endswith(_SUFFIXES) and file.is_file())
+    tops = [file for file in files if not re.search(r"macro|inc|materials|gazebo|transmission", file.name)]
+    return tuple(tops or files)
 
 
 def read_robot(file: Path, arguments: Mapping[str, str]) -> Outcome[Robot]:
@@ -112,13 +112,13 @@ def read_robot(file: Path, arguments: Mapping[str, str]) -> Outcome[Robot]:
     _refuse(read.value)
     meshes = tuple(mesh for link in read.value.links for mesh in link.collision_meshes())
     try:
-        found = located(meshes, file, root)
+        files = located(meshes, file, root)
     except MeshError as fault:
         raise ImportRefusedError(f"{fault}; {fault.help_text}") from None
-    missing = tuple(name for name in dict.fromkeys(mesh.filename for mesh in meshes) if name not in found)
+    missing = tuple(name for name in dict.fromkeys(mesh.filename for mesh in meshes) if name not in files)
     assumed = assumed_limits(read.value)
     robot = with_limits(read.value, assumed)
-    return Outcome(Robot(file, text, robot, found, missing, _license(file), assumed))
+    return Outcome(Robot(file, text, robot, files, missing, _license(file), assumed))
 
 
 def _text(file: Path, arguments: Mapping[str, str], root: Path) -> Outcome[str]:
@@ -152,8 +152,8 @@ def packages_elsewhere(robot: Robot, folder: Path) -> tuple[str, ...]:
     shapes = [shape.geometry for link in links for shape in link.visuals]
     shapes += [shape.geometry for link in links for shape in link.collisions]
     named = {shape.filename for shape in shapes if isinstance(shape, Mesh)}
-    own = (name for name in map(package_of, named) if name and not (folder / name).is_dir())
-    return folders_elsewhere(own, folder.parent.as_posix(), (root_of(robot.file).as_posix(),))
+    packages = (name for name in map(package_of, named) if name and not (folder / name).is_dir())
+    return folders_elsewhere(packages, folder.parent.as_posix(), (root_of(robot.file).as_posix(),))
 
 
 def _license(file: Path) -> str:
@@ -166,8 +166,8 @@ def _license(file: Path) -> str:
     except OSError:
         return ""
     package = read_xml(text, manifest.as_posix()).value
-    found = None if package is None else package.first("license")
-    return "" if found is None else " ".join(found.text.split())[:_LONGEST_LICENSE]
+    tag = None if package is None else package.first("license")
+    return "" if tag is None else " ".join(tag.text.split())[:_LONGEST_LICENSE]
 
 
 def _refuse(description: Description) -> None:

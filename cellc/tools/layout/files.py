@@ -39,7 +39,7 @@ def take_file(file: str) -> Taken:
 
 
 def take_content(content: bytes, name: str) -> Taken:
-    """Bring what came in the place of a file into form."""
+    """Format a content that was passed instead of a file."""
     text = text_of(content, name)
     return _taken(name, text.value, text.diagnostics)
 
@@ -57,5 +57,5 @@ def _taken(name: str, text: str | None, findings: tuple[Diagnostic, ...]) -> Tak
     other = not_a_mapping(name, root) if root is not None and root.data is not None else None
     if other is not None:  # a text of any kind is YAML of one value
         return Taken(name, text, findings=(other,))
-    made = formatted(name, text)
-    return Taken(name, text, made.value or "", made.diagnostics)
+    text_in_form = formatted(name, text)
+    return Taken(name, text, text_in_form.value or "", text_in_form.diagnostics)

@@ -30,21 +30,25 @@ def formatted(name: str, text: str) -> Outcome[str]:
     if composed.diagnostics or composed.value is None:
         return Outcome(None if composed.diagnostics else text, composed.diagnostics)
     try:
-        written = read_written(text)
+        tree = read_written(text)
     except UnusualError:
         return Outcome(text)
-    put_in_order(written.root, composed.value.data)
-    made = write_written(written)
-    return Outcome(made if made == text or says_the_same(composed.value.data, text, made) else text)
+    put_in_order(tree.root, composed.value.data)
+    result = write_written(tree)
+    return Outcome(result if result == text or says_the_same(composed.value.data, text, result) else text)
 
 
 def says_the_same(data: Plain, text: str, made: str) -> bool:
     """Whether every comment is there, and every value but for the spaces of quantities."""
     after = compose("", made).value
-    return after is not None and _unspaced(data) == _unspaced(after.data) and _told(text) == _told(made)
+    return (
+        after is not None
+        and _unspaced(data) == _unspaced(after.data)
+        and _comment_counts(text) == _comment_counts(made)
+    )
 
 
-def _told(text: str) -> Counter[str]:
+def _comment_counts(text: str) -> Counter[str]:
     lines = dict[int, str]()
     for comment in comments(text, _COMMENT):
         lines.setdefault(comment.line, comment.text)

@@ -43,8 +43,8 @@ class _Reader:
         ]
         self._at = 0
         # The first of a line that no scalar holds: whatever follows is part of it.
-        found = reversed(comments(text, _COMMENT))
-        self._comments = {comment.line - 1: Comment(comment.column - 1, comment.text) for comment in found}
+        newest_first = reversed(comments(text, _COMMENT))
+        self._comments = {comment.line - 1: Comment(comment.column - 1, comment.text) for comment in newest_first}
         self._last = -1
         """The line up to which comments have their place."""
 
@@ -58,7 +58,7 @@ class _Reader:
         if any(text.startswith("...") for text in self._lines):
             raise UnusualError("the end of the document is marked")
         root = self._value(-1)
-        written = Written(_squeezed(head), root, self._beside())
+        tree = Written(_squeezed(head), root, self._beside())
         rest = self._own_lines(len(self._lines))
         if isinstance(root, Collection) and not root.flow:
             root.below += rest
@@ -66,7 +66,7 @@ class _Reader:
             raise UnusualError("comments follow a value in braces")
         if self._comments:
             raise UnusualError("a comment is where it cannot be")
-        return written
+        return tree
 
     def _head(self, start: yaml.DocumentStartEvent, line: int) -> list[str]:
         """Return what is before the line of the first value."""
@@ -121,15 +121,15 @@ class _Reader:
 
     def _block(self, start: yaml.CollectionStartEvent, anchor: str, parent: int) -> Collection:
         column = _start(self._events[self._at])[1] if isinstance(start, yaml.MappingStartEvent) else _start(start)[1]
-        made = Collection(isinstance(start, yaml.MappingStartEvent), anchor)
-        if not made.is_mapping and anchor:
+        collection = Collection(isinstance(start, yaml.MappingStartEvent), anchor)
+        if not collection.is_mapping and anchor:
             column = len(self._lines[_start(self._events[self._at])[0]].split("-", 1)[0])
         while not isinstance(self._events[self._at], yaml.CollectionEndEvent):
-            self._entry(made, column)
+            self._entry(collection, column)
         self._next()
         # A list may stand as deep as the key above it: what is no deeper may belong to the next key.
-        self._take_below(made, max(column, parent + 1))
-        return made
+        self._take_below(collection, max(column, parent + 1))
+        return collection
 
     def _entry(self, made: Collection, column: int) -> None:
         event = self._events[self._at]
@@ -172,17 +172,17 @@ class _Reader:
     def _flow(self, start: yaml.CollectionStartEvent, anchor: str) -> Collection:
         line, column = _start(start)
         is_mapping = isinstance(start, yaml.MappingStartEvent)
-        made = Collection(is_mapping, anchor, flow=True)
-        made.bare = is_mapping and self._lines[line][column : column + 1] not in ("{", "&")
+        collection = Collection(is_mapping, anchor, flow=True)
+        collection.bare = is_mapping and self._lines[line][column : column + 1] not in ("{", "&")
         self._last = max(line, self._last)
         while not isinstance(self._events[self._at], yaml.CollectionEndEvent):
-            self._flow_entry(made)
+            self._flow_entry(collection)
         end = _end(self._next())[0]
-        if not made.bare:
-            rest = self._comments_before(made, end)
-            made.below += rest
+        if not collection.bare:
+            rest = self._comments_before(collection, end)
+            collection.below += rest
             self._last = end
-        return made
+        return collection
 
     def _flow_entry(self, made: Collection) -> None:
         line, last = _start(self._events[self._at])[0], self._last
@@ -246,7 +246,7 @@ class _Reader:
 
 def _squeezed(lines: list[str]) -> list[str]:
     """Leave one of several empty lines."""
-    return [one for number, one in enumerate(lines) if one or number == 0 or lines[number - 1]]
+    return [line for number, line in enumerate(lines) if line or number == 0 or lines[number - 1]]
 
 
 def _is_block(event: yaml.Event) -> bool:

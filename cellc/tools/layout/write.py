@@ -130,9 +130,9 @@ def _value_lines(value: Value, column: int, tail: int, depth: int, *, keep: bool
     whole = _inline(value)
     if whole is not None and _fits(whole, column, tail):
         return [whole]
-    kept = _Lines(value, column, tail, keep=keep is not False).made()
-    too_long = any(len(line) + (0 if number else column) > WIDTH for number, line in enumerate(kept))
-    return _Lines(value, column, tail, keep=False).made() if keep is None and too_long else kept
+    lines = _Lines(value, column, tail, keep=keep is not False).made()
+    too_long = any(len(line) + (0 if number else column) > WIDTH for number, line in enumerate(lines))
+    return _Lines(value, column, tail, keep=False).made() if keep is None and too_long else lines
 
 
 class _Lines:

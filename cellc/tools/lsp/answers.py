@@ -1,4 +1,4 @@
-"""What is told of a place in a cell: what it is, where it is written, what may stand there, how to fix it."""
+"""Answers about a position in a cell: what it is, where it is declared, which completions fit, how to fix it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Severity, Span, YamlPath
 from cellc.tools.edit.fixes import edit_of
 from cellc.tools.edit.rewrite import Edit
-from cellc.tools.lsp.cursor import Begun, begun, here
+from cellc.tools.lsp.cursor import Typed, here, typed_at
 from cellc.tools.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
 from cellc.tools.lsp.names import Names, kinds_at, names_of
 from cellc.tools.lsp.parts import place_of_part
@@ -67,16 +67,16 @@ class Symbol:
 def hover(text: str, line: int, column: int, known: Known) -> tuple[str, Span] | None:
     """Return what is known of the key or value at a place, as Markdown: meaning, SI value, what cellc uses and why."""
     root = compose("", text).value
-    found = here(root, line, column) if root is not None else None
-    if root is None or found is None:
+    place = here(root, line, column) if root is not None else None
+    if root is None or place is None:
         return None
-    parts = [f"**{code(str(found.path[-1]))}**", meaning_of(root.data, _field(found.path))]
-    if not found.is_key:
-        si = in_si(annotation_at(root.data, found.path), found.text)
-        parts += [f"{code(found.text)} is `{si}` in SI units and radians."] if si else []
+    parts = [f"**{code(str(place.path[-1]))}**", meaning_of(root.data, _field(place.path))]
+    if not place.is_key:
+        si = in_si(annotation_at(root.data, place.path), place.text)
+        parts += [f"{code(place.text)} is `{si}` in SI units and radians."] if si else []
     if root_model(root.data) is CellSpec and known.cell is not None:
-        parts.append(_uses(known.cell, found.path))
-    return "\n\n".join(part for part in parts if part), found.span
+        parts.append(_uses(known.cell, place.path))
+    return "\n\n".join(part for part in parts if part), place.span
 
 
 def _uses(cell: Cell, path: YamlPath) -> str:
@@ -90,20 +90,20 @@ def _uses(cell: Cell, path: YamlPath) -> str:
 def definition(text: str, line: int, column: int, known: Known, file: Path) -> Span | None:
     """Return where what is named at a place is written: in the spec, an included file, a device, its description."""
     root = compose("", text).value
-    found = here(root, line, column) if root is not None else None
-    if found is None:
+    target = here(root, line, column) if root is not None else None
+    if target is None:
         return None
-    if found.path[0] == INCLUDE:
-        return _top(file.parent / found.text)
-    if found.path[-1] == "model" and not found.is_key:
-        return _device(found.text, file)
-    if found.is_key and not kinds_at(found.path[:-1]):
+    if target.path[0] == INCLUDE:
+        return _top(file.parent / target.text)
+    if target.path[-1] == "model" and not target.is_key:
+        return _device(target.text, file)
+    if target.is_key and not kinds_at(target.path[:-1]):
         return None
-    kinds, owner = kinds_at(_field(found.path)), found.text.partition("/")[0]
-    place = known.names.place_of(found.text, kinds)
-    if place is None and owner != found.text:
-        at_part = column - found.span.column > len(owner)
-        part = place_of_part(known.cell, found.text, kinds) if at_part and known.cell is not None else None
+    kinds, owner = kinds_at(_field(target.path)), target.text.partition("/")[0]
+    place = known.names.place_of(target.text, kinds)
+    if place is None and owner != target.text:
+        at_part = column - target.span.column > len(owner)
+        part = place_of_part(known.cell, target.text, kinds) if at_part and known.cell is not None else None
         if part is not None:
             return part
         place = known.names.place_of(owner, ("device",))
@@ -126,30 +126,30 @@ def _top(file: Path) -> Span | None:
 
 
 def completions(text: str, line: int, column: int, known: Known) -> list[Proposal]:
-    """Return what may stand at a place, in the order of the reference or of the spec."""
-    told = (_keys(item, known) if item.is_key else _values(item, known) for item in begun(text, line, column))
-    return list(dict.fromkeys(proposal for each in told for proposal in each))
+    """Return the proposals that fit a position, in the order of the reference or of the spec."""
+    proposals = (_keys(item, known) if item.is_key else _values(item, known) for item in typed_at(text, line, column))
+    return list(dict.fromkeys(proposal for each in proposals for proposal in each))
 
 
-def _keys(found: Begun, known: Known) -> Iterator[Proposal]:
-    for key in keys_at(found.data, found.path):
-        told = f"{key.meaning}\n\nExample: `{key.example}`" if key.example else key.meaning
-        yield Proposal(key.name, "required key" if key.required else "key", told)
+def _keys(typed: Typed, known: Known) -> Iterator[Proposal]:
+    for key in keys_at(typed.data, typed.path):
+        meaning = f"{key.meaning}\n\nExample: `{key.example}`" if key.example else key.meaning
+        yield Proposal(key.name, "required key" if key.required else "key", meaning)
     # The keys of a mapping such as `to: {task: …}` are names themselves.
-    if found.path and not isinstance(found.path[-1], int):
-        yield from (Proposal(name, kind) for name, kind in known.names.of(kinds_at(found.path)))
+    if typed.path and not isinstance(typed.path[-1], int):
+        yield from (Proposal(name, kind) for name, kind in known.names.of(kinds_at(typed.path)))
 
 
-def _values(found: Begun, known: Known) -> Iterator[Proposal]:
-    annotation = annotation_at(found.data, found.path)
+def _values(typed: Typed, known: Known) -> Iterator[Proposal]:
+    annotation = annotation_at(typed.data, typed.path)
     for word in words_of(annotation):
         yield Proposal(word, "word")
-    key = next((part for part in reversed(found.path) if isinstance(part, str)), "")
-    if key == "model" and found.path[0] == "devices":
+    key = next((part for part in reversed(typed.path) if isinstance(part, str)), "")
+    if key == "model" and typed.path[0] == "devices":
         yield from _models()
-    elif key == "type" and "controllers" in found.path:
+    elif key == "type" and "controllers" in typed.path:
         yield from _controller_types(known)
-    kinds = ("frame",) if takes_a_frame(annotation) else kinds_at(found.path)
+    kinds = ("frame",) if takes_a_frame(annotation) else kinds_at(typed.path)
     yield from (Proposal(name, kind) for name, kind in known.names.of(kinds))
 
 
@@ -167,12 +167,12 @@ def _controller_types(known: Known) -> Iterator[Proposal]:
         yield from (Proposal(kind, f"controller of {device.name}") for kind in device.controller_kinds)
 
 
-def fixes(found: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tuple[Diagnostic, Edit]]:
+def fixes(diagnostics: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tuple[Diagnostic, Edit]]:
     """Yield the fix of each finding, and the comment that excuses one which may be excused.
 
     The comment has no reason, and no effect, until its author writes one.
     """
-    for item in found:
+    for item in diagnostics:
         if item.fix is not None:
             yield item, edit_of(item.fix)
         comment = _excuse(item, document)
@@ -180,17 +180,28 @@ def fixes(found: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tup
             yield item, comment
 
 
-def _excuse(found: Diagnostic, document: SourceDocument) -> Edit | None:
+def _excuse(diagnostic: Diagnostic, document: SourceDocument) -> Edit | None:
     from cellc.compiler.rules.ignores import may_be_ignored
 
-    lines = document.texts.get(found.span.file, "").split("\n")
-    if found.severity is Severity.ERROR or not may_be_ignored(found.code) or found.span.line > len(lines):
+    lines = document.texts.get(diagnostic.span.file, "").split("\n")
+    if (
+        diagnostic.severity is Severity.ERROR
+        or not may_be_ignored(diagnostic.code)
+        or diagnostic.span.line > len(lines)
+    ):
         return None
-    line = lines[found.span.line - 1]
+    line = lines[diagnostic.span.line - 1]
     if "#" in line:
         return None
-    end, text = len(line.rstrip()) + 1, f"  # cellc: ignore {found.code} "
-    return Edit(found.span.file, found.span.line, end, end, text, f"Ignore `{found.code}`: say why behind the comment")
+    end, text = len(line.rstrip()) + 1, f"  # cellc: ignore {diagnostic.code} "
+    return Edit(
+        diagnostic.span.file,
+        diagnostic.span.line,
+        end,
+        end,
+        text,
+        f"Ignore `{diagnostic.code}`: say why behind the comment",
+    )
 
 
 def symbols(text: str) -> list[Symbol]:
@@ -207,10 +218,10 @@ def _symbols(node: Node, depth: int) -> Iterator[Symbol]:
             yield Symbol(str(name), detail, child.key_span, inner)
 
 
-def by_file(found: Iterable[Diagnostic]) -> dict[str, list[Diagnostic]]:
+def by_file(diagnostics: Iterable[Diagnostic]) -> dict[str, list[Diagnostic]]:
     """Return findings by the file that they point into."""
     files: dict[str, list[Diagnostic]] = {}
-    for item in found:
+    for item in diagnostics:
         files.setdefault(item.span.file, []).append(item)
     return files
 

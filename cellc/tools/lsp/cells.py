@@ -45,19 +45,19 @@ class Cells:
             candidates = ((folder / _SPEC).as_posix() for folder in above if (folder / _SPEC).is_file())
             includes = (candidate for candidate in candidates if file in _texts(read(candidate, opened).value))
             spec = next(includes, file)
-        if spec != file:  # what nobody includes yet may be included soon
+        if spec != file:  # a file that is not included yet may be included soon
             self._spec_of[file] = spec
         return spec
 
     def check(self, spec: str, opened: Mapping[str, str]) -> tuple[tuple[Diagnostic, ...], set[str]]:
         """Check a spec with the texts that are open; return what is found, and the files of which that is all gone."""
         text = opened.get(spec)
-        found: tuple[Diagnostic, ...] = ()
+        diagnostics: tuple[Diagnostic, ...] = ()
         if os.path.basename(spec) == DEVICE_FILE:
-            found = _device_findings(spec, text) if text is not None else ()
+            diagnostics = _device_findings(spec, text) if text is not None else ()
         elif os.path.basename(spec) == _SPEC or (text is not None and _OF_A_CELL.search(text)):
             checked = check(spec, opened)
-            found = checked.diagnostics
+            diagnostics = checked.diagnostics
             document = read(spec, opened)
             if document.value is not None:
                 self._documents[spec] = document.value
@@ -66,8 +66,8 @@ class Cells:
             cell = None if checked.graph is None else checked.graph.cell
             self._known[spec] = self._known.get(spec, Known()).with_more(whole, cell)
         before = {diagnostic.span.file for diagnostic in self._found.get(spec, ())}
-        self._found[spec] = found
-        return found, before - {diagnostic.span.file for diagnostic in found} | {spec}
+        self._found[spec] = diagnostics
+        return diagnostics, before - {diagnostic.span.file for diagnostic in diagnostics} | {spec}
 
     def known(self, file: str) -> Known:
         """Return what is known of the cell of a file."""
@@ -93,9 +93,9 @@ def _texts(document: SourceDocument | None) -> Mapping[str, str]:
 
 def _device_findings(file: str, text: str) -> tuple[Diagnostic, ...]:
     """Return what is wrong with the file of a device by itself."""
-    written = as_yaml(text, file)
-    if written.diagnostics:
-        return written.diagnostics
+    device_yaml = as_yaml(text, file)
+    if device_yaml.diagnostics:
+        return device_yaml.diagnostics
     composed = compose(file, text)
     root = composed.value
     if root is None or composed.diagnostics:

@@ -58,8 +58,8 @@ def _within(span: Span, line: int, column: int) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Begun:
-    """What is being written at a place.
+class Typed:
+    """The key or value that is being typed at a position.
 
     Args:
         path: of the mapping for a key, of the value for a value.
@@ -74,24 +74,24 @@ class Begun:
     data: Plain
 
 
-def begun(text: str, line: int, column: int) -> list[Begun]:
-    """Return what may be being written at a place, counted from 1; nothing where the text around it cannot be read."""
+def typed_at(text: str, line: int, column: int) -> list[Typed]:
+    """Return what may be being typed at a position, counted from 1; empty where the text around it cannot be parsed."""
     lines = text.split("\n")
     if not 1 <= line <= len(lines):
         return []
     before, after = lines[line - 1][: column - 1], lines[line - 1][column - 1 :]
     match = _WORD.search(before)
     word = match[0] if match is not None else ""
-    kept = before[: len(before) - len(word)]
+    head = before[: len(before) - len(word)]
     rest = _REST.sub("", after, count=1)
-    found: dict[tuple[YamlPath, bool], Begun] = {}
-    for written in _guesses(kept, rest):
-        composed = compose("", "\n".join((*lines[: line - 1], written, *lines[line:])))
+    typed: dict[tuple[YamlPath, bool], Typed] = {}
+    for guess in _guesses(head, rest):
+        composed = compose("", "\n".join((*lines[: line - 1], guess, *lines[line:])))
         if composed.value is not None and not composed.diagnostics:
             marked = _marked(composed.value)
             if marked is not None:
-                found.setdefault(marked, Begun(*marked, word, composed.value.data))
-    return list(found.values())
+                typed.setdefault(marked, Typed(*marked, word, composed.value.data))
+    return list(typed.values())
 
 
 def _guesses(kept: str, rest: str) -> Iterator[str]:

@@ -60,13 +60,13 @@ def annotation_at(data: Plain, path: YamlPath) -> object:
 def keys_at(data: Plain, path: YamlPath) -> list[Key]:
     """Return the keys that the mapping at a path may still have, in their order."""
     present = value_at(data, path)
-    written = set(present) if isinstance(present, dict) else set()
-    found: dict[str, Key] = {}
+    present_keys = set(present) if isinstance(present, dict) else set()
+    keys: dict[str, Key] = {}
     for model in _models(annotation_at(data, path), present):
         for name in keys_in_order(model):
-            if name not in written:
-                found.setdefault(name, _key(model, name))
-    return list(found.values())
+            if name not in present_keys:
+                keys.setdefault(name, _key(model, name))
+    return list(keys.values())
 
 
 def meaning_of(data: Plain, path: YamlPath) -> str:
@@ -76,11 +76,11 @@ def meaning_of(data: Plain, path: YamlPath) -> str:
     holder = chosen(annotation_at(data, path[:-1]), value_at(data, path[:-1]))
     model = model_of(holder)
     if model is not None and str(path[-1]) in fields_by_key(model):
-        told = _key(model, str(path[-1])).meaning
-        if told:
-            return told
-    own = model_of(chosen(annotation_at(data, path), value_at(data, path)))
-    return summary_of(own) if own is not None else ""
+        meaning = _key(model, str(path[-1])).meaning
+        if meaning:
+            return meaning
+    inner = model_of(chosen(annotation_at(data, path), value_at(data, path)))
+    return summary_of(inner) if inner is not None else ""
 
 
 def words_of(annotation: object) -> list[str]:
@@ -128,11 +128,11 @@ def _key(model: type[BaseModel], name: str) -> Key:
     quantity = _quantity_type(inner(model, name))
     units = f" Units: {', '.join(quantity.units())}." if quantity is not None else ""
     example = re.sub(r"'", "", str(field.examples[0])) if field.examples else ""
-    told = field.description or _told_of(model, name)
-    return Key(name, f"{told}{units}".strip(), field.is_required(), example)
+    meaning = field.description or _documented(model, name)
+    return Key(name, f"{meaning}{units}".strip(), field.is_required(), example)
 
 
-def _told_of(model: type[BaseModel], name: str) -> str:
+def _documented(model: type[BaseModel], name: str) -> str:
     """Return what the docstring of a model says of a key, and that of the model which reads its value."""
     value = next(_models(inner(model, name), None), None) or next(_models(inner(inner(model, name), 0), None), None)
     kind = summary_of(value) if value is not None else ""
@@ -141,9 +141,9 @@ def _told_of(model: type[BaseModel], name: str) -> str:
 
 def _models(annotation: object, data: Plain) -> Iterator[type[BaseModel]]:
     """Yield the model of a mapping, or all of them where nothing tells which is meant yet."""
-    told = model_of(chosen(annotation, data))
-    if told is not None:
-        yield told
+    model = model_of(chosen(annotation, data))
+    if model is not None:
+        yield model
         return
     annotation = required(annotation)
     several = bare(annotation)

@@ -72,20 +72,20 @@ class Names:
 
 def names_of(document: SourceDocument, cell: Cell | None) -> Names:
     """Return the names of a spec, and what follows from its devices where they could be linked."""
-    written = {kind: _below(document.data, section) for kind, section in _SECTIONS.items()}
-    for manager in written["manager"].values():
-        written["controller"] |= _below(document.data, (*manager, "controllers"))
-    written["nic"] = {}
-    for host in written["host"].values():
-        written["nic"] |= _below(document.data, (*host, "nics"))
-    derived = {"frame": ("world", *written["thing"])}
+    by_kind = {kind: _below(document.data, section) for kind, section in _SECTIONS.items()}
+    for manager in by_kind["manager"].values():
+        by_kind["controller"] |= _below(document.data, (*manager, "controllers"))
+    by_kind["nic"] = {}
+    for host in by_kind["host"].values():
+        by_kind["nic"] |= _below(document.data, (*host, "nics"))
+    derived = {"frame": ("world", *by_kind["thing"])}
     if cell is not None:
         links = (f"{device.name}/{link}" for device in cell.devices for link in device.frames)
         derived["frame"] = (*derived["frame"], *links)
         derived["joint"] = tuple(
             f"{device.name}/{joint.local_name}" for device in cell.devices for joint in device.joints
         )
-    return Names(written, derived)
+    return Names(by_kind, derived)
 
 
 def kinds_at(path: YamlPath) -> tuple[str, ...]:
@@ -95,5 +95,5 @@ def kinds_at(path: YamlPath) -> tuple[str, ...]:
 
 
 def _below(data: Plain, section: YamlPath) -> dict[str, YamlPath]:
-    found = value_at(data, section)
-    return {name: (*section, name) for name in found} if isinstance(found, dict) else {}
+    section_value = value_at(data, section)
+    return {name: (*section, name) for name in section_value} if isinstance(section_value, dict) else {}

@@ -28,10 +28,10 @@ def place_of_part(cell: Cell, name: str, kinds: tuple[str, ...]) -> Span | None:
     named = list(_parts(device, part))
     if "joint" in kinds:
         named.reverse()
-    for own, span in named:
+    for local_name, span in named:
         lines = _lines(span.file)
         if span.line <= len(lines):
-            return span if own in lines[span.line - 1] else _called(device, own) or span
+            return span if local_name in lines[span.line - 1] else _called(device, local_name) or span
     return None
 
 

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
 _QUIET_S = 0.15
-"""How long nobody types before a cell is checked."""
+"""Seconds without a keystroke before a cell is checked."""
 
 _LONGEST_HEADER = 1024
 _NOTHING = b'{"jsonrpc": "2.0", "method": "$/dropped"}'
@@ -57,10 +57,10 @@ _KINDS = {
 
 
 class _Protocol(LanguageServerProtocol):
-    """The protocol of pygls, which itself leaves a request without an answer where its parameters are none."""
+    """The protocol of pygls, with an answer also to requests whose parameters are malformed."""
 
     def structure_message(self, data: dict[str, Any]) -> Any:
-        """Return a message that came as a type; what is wrong with a request is answered too."""
+        """Return a received message as its type; a malformed request gets an error response."""
         try:
             return super().structure_message(data)
         except JsonRpcException as problem:
@@ -105,10 +105,10 @@ class CellServer(LanguageServer):
             file = file_of(uri)
             return read_text(Path(file), file, Span(file, 1, 1, 1, 1)).value
         source = self.workspace.get_text_document(uri).source
-        return None if len(source) > limits().spec_bytes else normalised(source)
+        return None if len(source) > limits().spec_bytes else normalized(source)
 
     def soon(self, uri: str) -> None:
-        """Check the cell of a document once nobody types; a later change begins the wait again."""
+        """Check the cell of a document after a pause in typing; a later change restarts the wait."""
         spec = self.cells.spec_of(file_of(uri), self._opened())
         before = self._waiting.pop(spec, None)
         if before is not None:
@@ -120,22 +120,22 @@ class CellServer(LanguageServer):
         self._waiting.pop(spec, None)  # from here on a change begins another check, which comes after this one
         async with self._checking:
             opened = self._opened()
-            found, gone = await asyncio.to_thread(self.cells.check, spec, opened)
-        told = by_file(found)
-        for file in dict.fromkeys((*told, *gone)):
-            self._publish(file, told.get(file, ()), opened)
+            diagnostics, gone = await asyncio.to_thread(self.cells.check, spec, opened)
+        by_path = by_file(diagnostics)
+        for file in dict.fromkeys((*by_path, *gone)):
+            self._publish(file, by_path.get(file, ()), opened)
 
     def _publish(self, file: str, found: Sequence[Diagnostic], opened: dict[str, str]) -> None:
         path = Path(file)
         if not path.is_absolute():
-            return  # the data of the package, which nobody edits here
+            return  # data of the package, which is not edited here
         text = opened.get(file) or self.cells.shown(file)
         ranges = Ranges(self.workspace.position_codec, text)
-        told = [self._told(diagnostic, ranges) for diagnostic in found]
+        converted = [self._converted(diagnostic, ranges) for diagnostic in found]
         uri = from_fs_path(file) or ""
-        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, told))
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, converted))
 
-    def _told(self, found: Diagnostic, ranges: Ranges) -> lsp.Diagnostic:
+    def _converted(self, found: Diagnostic, ranges: Ranges) -> lsp.Diagnostic:
         related = [
             lsp.DiagnosticRelatedInformation(self.location(related.span), related.message)
             for related in found.related
@@ -160,7 +160,7 @@ class CellServer(LanguageServer):
     def _opened(self) -> dict[str, str]:
         documents: dict[str, TextDocument] = dict(self.workspace.text_documents)
         most = limits().spec_bytes + 1  # of a larger one so much that it is refused as a file is
-        return {file_of(uri): normalised(one.source[:most]) for uri, one in documents.items()}
+        return {file_of(uri): normalized(document.source[:most]) for uri, document in documents.items()}
 
 
 class _Messages(io.BufferedReader):
@@ -242,7 +242,7 @@ def file_of(uri: str) -> str:
     return Path((to_fs_path(uri) or uri).replace("\0", "\ufffd")).as_posix()
 
 
-def normalised(text: str) -> str:
+def normalized(text: str) -> str:
     """Return a text as a reader of files gives it."""
     return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
 
@@ -277,10 +277,10 @@ for _event in (
 @server.feature(lsp.TEXT_DOCUMENT_HOVER)
 def _hover(of: CellServer, params: lsp.HoverParams) -> lsp.Hover | None:
     text, ranges = _text(of, params.text_document.uri)
-    told = hover(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
-    if told is None:
+    answer = hover(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
+    if answer is None:
         return None
-    return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, told[0]), ranges.of(told[1]))
+    return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, answer[0]), ranges.of(answer[1]))
 
 
 @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
@@ -296,17 +296,17 @@ def _completion(of: CellServer, params: lsp.CompletionParams) -> list[lsp.Comple
     if of.known_text(params.text_document.uri) is None:
         return []
     text, ranges = _text(of, params.text_document.uri)
-    found = completions(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
+    proposals = completions(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
     return [
         lsp.CompletionItem(
-            label=one.word,
-            kind=_KINDS.get(one.kind, lsp.CompletionItemKind.Reference),
-            detail=one.kind,
-            documentation=lsp.MarkupContent(lsp.MarkupKind.Markdown, one.meaning) if one.meaning else None,
+            label=proposal.word,
+            kind=_KINDS.get(proposal.kind, lsp.CompletionItemKind.Reference),
+            detail=proposal.kind,
+            documentation=lsp.MarkupContent(lsp.MarkupKind.Markdown, proposal.meaning) if proposal.meaning else None,
             sort_text=f"{number:04}",
-            insert_text=f"{one.word}: " if one.kind.endswith("key") else one.word,
+            insert_text=f"{proposal.word}: " if proposal.kind.endswith("key") else proposal.word,
         )
-        for number, one in enumerate(found)
+        for number, proposal in enumerate(proposals)
     ]
 
 
@@ -317,7 +317,7 @@ def _actions(of: CellServer, params: lsp.CodeActionParams) -> list[lsp.CodeActio
     if document is None or document.texts.get(file) != of.text_of(uri):
         return []  # the places are those of another text: the next check will tell
     lines = range(params.range.start.line + 1, params.range.end.line + 2)
-    found = [
+    diagnostics = [
         diagnostic
         for diagnostic in of.cells.found(file)
         if diagnostic.span.file == file and diagnostic.span.line in lines
@@ -330,7 +330,7 @@ def _actions(of: CellServer, params: lsp.CodeActionParams) -> list[lsp.CodeActio
             diagnostics=[diagnostic for diagnostic in params.context.diagnostics if diagnostic.code == about.code],
             edit=lsp.WorkspaceEdit(changes={uri: [lsp.TextEdit(ranges.of(_span(edit)), edit.text)]}),
         )
-        for about, edit in fixes(found, document)
+        for about, edit in fixes(diagnostics, document)
     ]
 
 
@@ -343,8 +343,8 @@ def _symbols(of: CellServer, params: lsp.DocumentSymbolParams) -> list[lsp.Docum
 @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
 def _formatting(of: CellServer, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
     text, ranges = _text(of, params.text_document.uri)
-    made = formatted("", text).value
-    return [] if made is None or made == text else [lsp.TextEdit(ranges.whole(), made)]
+    result = formatted("", text).value
+    return [] if result is None or result == text else [lsp.TextEdit(ranges.whole(), result)]
 
 
 def _text(of: CellServer, uri: str) -> tuple[str, Ranges]:

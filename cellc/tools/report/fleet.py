@@ -22,14 +22,14 @@ def fleet_lines(rows: Sequence[FleetRow]) -> Iterator[Line]:
     names = [row.cell if row.cell and labels.count(_label(row)) == 1 else row.source for row in rows]
     table = [("cell", *parts, *_COUNTED.values(), "rehearsals", "sweep")]
     table += [(name, *_columns(row, parts)) for name, row in zip(names, rows, strict=True)]
-    kept = [place for place in range(len(table[0])) if any(row[place] != _NONE for row in table[1:])]
-    widths = {place: max(len(row[place]) for row in table) for place in kept}
+    shown = [place for place in range(len(table[0])) if any(row[place] != _NONE for row in table[1:])]
+    widths = {place: max(len(row[place]) for row in table) for place in shown}
     verdicts = ["", *("passed" if row.passed else "FAILED" for row in rows)]
     if all(row.rehearsals is None and row.sweeps is None for row in rows):
         yield ""  # findings stand above
     for verdict, texts in zip(verdicts, table, strict=True):
         style = {"passed": Style.GREEN, "FAILED": Style.RED}.get(verdict, Style.BOLD)
-        columns = "  ".join(texts[place].ljust(widths[place]) for place in kept)
+        columns = "  ".join(texts[place].ljust(widths[place]) for place in shown)
         yield (Styled(verdict.ljust(6), style), f"  {columns}".rstrip())
     for row in rows:
         failed = [

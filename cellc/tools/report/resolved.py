@@ -110,7 +110,7 @@ def resolved_tree(cell: Cell) -> dict[str, Tree]:
         "groups": _entities(cell, cell.groups),
         "poses": {f"{pose.name}.{pose.group}": _entity(cell, pose) for pose in cell.poses},
         "goals": _entities(cell, cell.goals),
-        **{key: _section(cell, one, ("motion", key)) for key in ("octomap", "servo") if (one := getattr(cell, key))},
+        **{key: _section(cell, part, ("motion", key)) for key in ("octomap", "servo") if (part := getattr(cell, key))},
     }
     tree["rehearsals"] = _entities(cell, cell.rehearsals)
     sections = ("owners", "safety", "bringup", "kpis", "recording", "targets", "mock_plugins", "mock_programs")
@@ -264,10 +264,10 @@ def _number(value: float) -> str:
 
 def resolved_at(tree: Tree, path: YamlPath) -> list[tuple[Tree, str]]:
     """Return what becomes of a path of the spec, with its dotted names: one key may become several values, or none."""
-    found = [(tree, "")]
+    trees = [(tree, "")]
     for part in ("managers", *path) if path[:1] == ("control",) else path:
-        found = [pair for inner, name in found for pair in _step(inner, name, str(part))]
-    return found
+        trees = [pair for inner, name in trees for pair in _step(inner, name, str(part))]
+    return trees
 
 
 def _step(tree: Tree, name: str, part: str) -> Iterator[tuple[Tree, str]]:

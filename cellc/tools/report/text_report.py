@@ -79,8 +79,8 @@ def _gutter(diagnostic: Diagnostic) -> int:
 
 def counts(diagnostics: Iterable[Diagnostic]) -> dict[str, int]:
     """Return the number of findings of every severity, the worst first, zeros included."""
-    found = Counter(diagnostic.severity for diagnostic in diagnostics)
-    return {severity.value: found[severity] for severity in Severity}
+    counter = Counter(diagnostic.severity for diagnostic in diagnostics)
+    return {severity.value: counter[severity] for severity in Severity}
 
 
 def summary(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Line:
@@ -89,20 +89,20 @@ def summary(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Line:
     Args:
         files: the specs that were checked, as the user named them.
     """
-    found = counts(diagnostics)
-    parts = [_part(severity, found[severity.value]) for severity in Severity if found[severity.value]]
+    by_severity = counts(diagnostics)
+    parts = [_part(severity, by_severity[severity.value]) for severity in Severity if by_severity[severity.value]]
     place = files[0] if len(files) == 1 else f"{len(files)} files"
-    told = parts or [Styled("no findings", Style.GREEN)]
-    listed = (piece for part in told for piece in (", ", part))
+    pieces = parts or [Styled("no findings", Style.GREEN)]
+    listed = (piece for part in pieces for piece in (", ", part))
     return (*tuple(listed)[1:], f" in {place}")
 
 
 def summed_blockers(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
     """Return in two lines how many blockers of which code keep the real target closed, and who shows each of them."""
-    found = Counter(diagnostic.code for diagnostic in diagnostics if diagnostic.severity is Severity.BLOCKER)
-    if not found:
+    by_code = Counter(diagnostic.code for diagnostic in diagnostics if diagnostic.severity is Severity.BLOCKER)
+    if not by_code:
         return []
-    codes = ", ".join(f"{number} {code}" for code, number in sorted(found.items(), key=lambda one: (-one[1], one[0])))
+    codes = ", ".join(f"{number} {code}" for code, number in sorted(by_code.items(), key=lambda one: (-one[1], one[0])))
     command = shlex.quote(file)
     return [
         f"the real target stays closed: {codes}",
@@ -118,9 +118,9 @@ def summed_errors(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
     if not errors:
         return []
     first = errors[0]
-    told = "" if len(errors) == 1 else ", the first"
+    which = "" if len(errors) == 1 else ", the first"
     return [
-        (_part(Severity.ERROR, len(errors)), f"{told} at {first.span}: {first.message}"),
+        (_part(Severity.ERROR, len(errors)), f"{which} at {first.span}: {first.message}"),
         f"`cellc check {shlex.quote(file)}` shows {'it' if len(errors) == 1 else 'each'}",
     ]
 

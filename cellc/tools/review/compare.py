@@ -1,4 +1,4 @@
-"""Two packages into changes: facts compared by the table, and what no fact explains told as lines of its file."""
+"""Two packages into changes: facts compared by the table; lines of files where no fact explains a difference."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _SHOWS = ("graph/", "README.md")
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A change before those that are alike are told together.
+    """A change, before similar ones are merged.
 
     Attributes:
         words: words and figures that it explains in other files.
@@ -54,10 +54,10 @@ class Change:
 
 def changes_between(before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
     """Return every change, the worst first, those that are alike as one."""
-    told = _told(before, after)
+    reported = _reported(before, after)
     owners = _approvers(before, after)
     merged: dict[Change, list[str]] = {}
-    for change in told:
+    for change in reported:
         merged.setdefault(replace(change, subject=""), []).append(change.subject)
     found = [
         _reviewed(change, tuple(subjects), owners.get(APPROVAL[change.area], "")) for change, subjects in merged.items()
@@ -95,29 +95,29 @@ def _reviewed(change: Change, subjects: Sequence[str], owner: str) -> ReviewChan
     )
 
 
-def _told(before: Facts, after: Facts) -> list[Change]:
+def _reported(before: Facts, after: Facts) -> list[Change]:
     # What only specs say is compared where both sides were made of one.
     both = before.cell is not None and after.cell is not None
     one_sided = (*(() if both else OF_SPEC), *(() if before.has_gates and after.has_gates else OF_GATES))
     deltas = [
         difference for difference in differences(before.leaves, after.leaves) if difference.path[0] not in one_sided
     ]
-    came_or_went, rest = _things(deltas, before, after)
+    whole_things, rest = _things(deltas, before, after)
     primary = [delta for delta in rest if not _follows(delta.path)]
-    told = [*came_or_went, *_effects(before, after)]
-    told += [change for delta in primary if (change := _of_value(delta, before, after)) is not None]
+    reported = [*whole_things, *_effects(before, after)]
+    reported += [change for delta in primary if (change := _of_value(delta, before, after)) is not None]
     ids = _ids(before) | _ids(after)
-    known = _known(told, ids)
+    known = _known(reported, ids)
     for delta in rest:
         if _follows(delta.path) and not known.explains_leaf(delta):
             change = _of_value(delta, before, after)
-            told += [] if change is None else [change]
-    known = _known(told, ids)
+            reported += [] if change is None else [change]
+    known = _known(reported, ids)
     edited = before.edited | after.edited
     renamed = before.contract.cell != after.contract.cell
     left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
-    told += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
-    return told or list(_unexplained(before, after))
+    reported += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
+    return reported or list(_unexplained(before, after))
 
 
 def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
@@ -160,8 +160,8 @@ def _ids(facts: Facts) -> frozenset[str]:
     return frozenset((*ids, *files, *(f"spawner_{name}" for name in names)))
 
 
-def _known(told: Iterable[Change], ids: frozenset[str]) -> Known:
-    changes = list(told)
+def _known(reported: Iterable[Change], ids: frozenset[str]) -> Known:
+    changes = list(reported)
     return Known(
         frozenset().union(ids, *(change.words for change in changes)),
         frozenset().union(*(_spelled(change.names) for change in changes)),
@@ -194,14 +194,14 @@ def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[
         else:
             folded.setdefault(place, []).append(delta)
     things = [(thing, _of_thing(path, thing, inner)) for (path, thing), inner in folded.items()]
-    told = [one for thing, one in things if not thing.follows]
-    return told + [one for thing, one in things if thing.follows and not _told_by(one, told)], rest
+    reported = [change for thing, change in things if not thing.follows]
+    return reported + [change for thing, change in things if thing.follows and not _is_covered(change, reported)], rest
 
 
-def _told_by(following: Change, told: Sequence[Change]) -> bool:
-    """Tell whether something that was added or removed says of another that it did too, and no less gravely."""
+def _is_covered(following: Change, reported: Sequence[Change]) -> bool:
+    """Return whether a reported addition or removal of the same name, of at least the same grade, implies this one."""
     grades = tuple(Grade)
-    worst = [grades.index(change.grade) for change in told if _spelled(change.names) & _spelled(following.names)]
+    worst = [grades.index(change.grade) for change in reported if _spelled(change.names) & _spelled(following.names)]
     return max(worst, default=-1) >= grades.index(following.grade)
 
 
@@ -213,20 +213,20 @@ def _folds(path: Path, old: frozenset[Path], new: frozenset[Path]) -> Iterator[t
 
 
 def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta]) -> Change:
-    came = inner[0].before is None
+    added = inner[0].before is None
     fit = fits(thing.parts, path)
     names = () if fit is None else fit.subject
     shown_leaf = next((delta for delta in inner if delta.path == (*path, thing.shown)), None)
-    value = "present" if shown_leaf is None else shown(shown_leaf.after if came else shown_leaf.before, "")
+    value = "present" if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
     return Change(
         thing.area,
         " ".join(names),
-        f"{thing.noun} {'added' if came else 'removed'}",
-        None if came else value,
-        value if came else None,
-        thing.came if came else thing.went,
-        breaking=thing.breaking and not came,
-        why=thing.why if (thing.came if came else thing.went) is Grade.DANGEROUS else "",
+        f"{thing.noun} {'added' if added else 'removed'}",
+        None if added else value,
+        value if added else None,
+        thing.added if added else thing.removed,
+        breaking=thing.breaking and not added,
+        why=thing.why if (thing.added if added else thing.removed) is Grade.DANGEROUS else "",
         words=frozenset(word for delta in inner for word in (*words(delta.before), *words(delta.after), *delta.path)),
         names=frozenset(names[-1:]),
     )
@@ -319,13 +319,13 @@ def _effects(before: Facts, after: Facts) -> Iterator[Change]:
 def _of_lines(left: LinesLeft) -> Change:
     area = area_of_file(left.file)
     number = max(len(left.before), len(left.after))
-    told = f"{number} line{'s' if number != 1 else ''}"
+    count = f"{number} line{'s' if number != 1 else ''}"
     return Change(
         area,
         left.file,
-        f"file {left.whole}" if left.whole else f"{told} (not classified)",
-        told if left.whole == "removed" else _some(left.before),
-        told if left.whole == "added" else _some(left.after),
+        f"file {left.whole}" if left.whole else f"{count} (not classified)",
+        count if left.whole == "removed" else _some(left.before),
+        count if left.whole == "added" else _some(left.after),
         Grade.REVIEW,
     )
 

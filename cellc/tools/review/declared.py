@@ -14,7 +14,7 @@ from cellc.contract.upgrade import UpgradeParameter
 from cellc.contract.vocabulary import Distro
 from cellc.tools.review.leaves import Leaf
 
-Told: TypeAlias = Mapping[str, Mapping[str, Leaf]]
+NodeParameters: TypeAlias = Mapping[str, Mapping[str, Leaf]]
 """Parameters by full name of the node, dots for nesting."""
 _BESIDE_DEFAULT = {
     "required": "required",
@@ -35,7 +35,9 @@ class Declaration:
     written: frozenset[str]
 
 
-def parameter_changes(cell: Cell, target: Distro, was: Told, now: Told) -> tuple[UpgradeParameter, ...]:
+def parameter_changes(
+    cell: Cell, target: Distro, was: NodeParameters, now: NodeParameters
+) -> tuple[UpgradeParameter, ...]:
     """Return every parameter of a cell that one of two distributions lacks, or declares otherwise.
 
     Args:
@@ -47,7 +49,7 @@ def parameter_changes(cell: Cell, target: Distro, was: Told, now: Told) -> tuple
     )
 
 
-def _declarations(cell: Cell, was: Told, now: Told) -> Iterator[Declaration]:
+def _declarations(cell: Cell, was: NodeParameters, now: NodeParameters) -> Iterator[Declaration]:
     facts = load_controller_manager().value
     assert facts is not None  # package data, held valid by the catalog's tests
     for manager in cell.managers:
@@ -68,8 +70,8 @@ def _declarations(cell: Cell, was: Told, now: Told) -> Iterator[Declaration]:
 def _of_nodes(
     names: Sequence[str],
     parameters: Mapping[str, ParameterFacts],
-    was: Told,
-    now: Told,
+    was: NodeParameters,
+    now: NodeParameters,
     written: Mapping[str, frozenset[str]],
 ) -> Declaration:
     given = [{key: value for name in names for key, value in side.get(name, {}).items()} for side in (was, now)]
@@ -84,7 +86,7 @@ def _changes(one: Declaration, before: Distro, after: Distro) -> Iterator[Upgrad
         if now is None and was is not None:
             yield _vanished(one, name, was, after)
         elif now is not None and was is None:
-            yield _told(one, name, "appears", "", None, _shown(now.default), _missing(one, name, now, after))
+            yield _change(one, name, "appears", "", None, _shown(now.default), _missing(one, name, now, after))
         elif now is not None and was is not None:
             yield from _differing(one, name, was, now, after)
 
@@ -94,7 +96,7 @@ def _vanished(one: Declaration, name: str, was: ParameterFacts, after: Distro) -
     question = (
         f"`{name}` of {_names(one)}: {after} ignores it without a word, and the spec writes it" if by_hand else ""
     )
-    return _told(one, name, "vanishes", "", _shown(was.default), None, question)
+    return _change(one, name, "vanishes", "", _shown(was.default), None, question)
 
 
 def _differing(
@@ -102,13 +104,15 @@ def _differing(
 ) -> Iterator[UpgradeParameter]:
     if was.default != now.default:
         sides = _shown(was.default), _shown(now.default)
-        told = f"`{name}` of {_names(one)}: its default goes from {sides[0]} to {sides[1]}, and the cell states none"
-        yield _told(one, name, "changes", "default", *sides, told if _counts(one, name) else "")
+        question = (
+            f"`{name}` of {_names(one)}: its default goes from {sides[0]} to {sides[1]}, and the cell states none"
+        )
+        yield _change(one, name, "changes", "default", *sides, question if _counts(one, name) else "")
     for key, what in _BESIDE_DEFAULT.items():
         old, new = getattr(was, key), getattr(now, key)
         if old != new:
             question = _missing(one, name, now, after) if key != "one_of" else _not_among(one, name, now, after)
-            yield _told(one, name, "changes", what, _shown(old), _shown(new), question)
+            yield _change(one, name, "changes", what, _shown(old), _shown(new), question)
 
 
 def _missing(one: Declaration, name: str, now: ParameterFacts, after: Distro) -> str:
@@ -130,11 +134,11 @@ def _counts(one: Declaration, name: str) -> bool:
     return beside and not _given(one.after, name)
 
 
-def _given(told: Mapping[str, Leaf], name: str) -> bool:
-    return any(is_named(name, given) for given in told)
+def _given(parameters: Mapping[str, Leaf], name: str) -> bool:
+    return any(is_named(name, given) for given in parameters)
 
 
-def _told(
+def _change(
     one: Declaration,
     name: str,
     change: Literal["appears", "vanishes", "changes"],

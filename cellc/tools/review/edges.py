@@ -51,5 +51,5 @@ def _edges(contract: Contract) -> Iterator[tuple[str, str]]:
 def _of_interface(name: str, interface: ContractInterface) -> Iterator[tuple[str, str]]:
     for source in interface.sources:
         for sink in interface.sinks:
-            found = incompatibilities(source.qos, sink.qos)
-            yield f"{name}: {source.node} to {sink.node}", "; ".join(map(str, found)) or _CONNECTED
+            mismatches = incompatibilities(source.qos, sink.qos)
+            yield f"{name}: {source.node} to {sink.node}", "; ".join(map(str, mismatches)) or _CONNECTED

@@ -85,7 +85,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
     real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
     read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up}
     leaves: dict[Path, Leaf] = {}
-    for found in (
+    for facts in (
         _of_contract(contract),
         _of_manifest(manifest),
         _of_claims(contract),
@@ -100,15 +100,16 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         () if cell is None else _of_spec(cell),
         _of_excuses(excused),
     ):
-        leaves.update(found)
+        leaves.update(facts)
     of_manager = {path: ("parameters", of) for of, path in named.parameters.items()}
     for path in sorted(files.keys() - read):
         if path.endswith((".yaml", ".json")):
             read.add(path)
             leaves.update(flatten(_loaded(path, files[path]), of_manager.get(path, ("file", path))))
-    own = {named.urdf_real: "urdf/real", named.urdf_mock: "urdf/mock", named.srdf: "config/moveit/srdf"}
+    known_files = {named.urdf_real: "urdf/real", named.urdf_mock: "urdf/mock", named.srdf: "config/moveit/srdf"}
     lines = {
-        own.get(path, path): _lines(files[path], is_srdf=path == named.srdf) for path in sorted(files.keys() - read)
+        known_files.get(path, path): _lines(files[path], is_srdf=path == named.srdf)
+        for path in sorted(files.keys() - read)
     }
     joints = {joint.child: joint for joint in real.joints}
     edited = {path for path, known in manifest.files.items() if path in files and _sha256(files[path]) != known}
@@ -180,11 +181,11 @@ def _of_contract(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
     data = _dumped(contract)
     interfaces = data.pop("interfaces")
     for name, interface in contract.interfaces.items():
-        told = interfaces[name] if isinstance(interfaces, dict) else None
-        assert isinstance(told, dict)
+        facts = interfaces[name] if isinstance(interfaces, dict) else None
+        assert isinstance(facts, dict)
         sources, sinks = _ends(interface)
-        told[sources], told[sinks] = told.pop("sources"), told.pop("sinks")
-        yield from flatten(told, ("interface", name))
+        facts[sources], facts[sinks] = facts.pop("sources"), facts.pop("sinks")
+        yield from flatten(facts, ("interface", name))
     for of, manager in contract.managers.items():
         for name, controller in manager.controllers.items():
             yield from flatten(_dumped(controller), ("controller", name))
@@ -237,14 +238,14 @@ def _shape(collision: Collision) -> str:
     """Return a shape with its size and place as people read them."""
     geometry = collision.geometry
     if isinstance(geometry, Box):
-        told = f"box {shown(geometry.size, 'm')}"
+        text = f"box {shown(geometry.size, 'm')}"
     elif isinstance(geometry, Cylinder):
-        told = f"cylinder of radius {shown(geometry.radius, 'm')}, length {shown(geometry.length, 'm')}"
+        text = f"cylinder of radius {shown(geometry.radius, 'm')}, length {shown(geometry.length, 'm')}"
     elif isinstance(geometry, Sphere):
-        told = f"sphere of radius {shown(geometry.radius, 'm')}"
+        text = f"sphere of radius {shown(geometry.radius, 'm')}"
     else:
-        told = f"mesh {geometry.filename} by {shown(geometry.scale, '')}"
-    return told if collision.pose == identity() else f"{told} at {shown(collision.pose, '')}"
+        text = f"mesh {geometry.filename} by {shown(geometry.scale, '')}"
+    return text if collision.pose == identity() else f"{text} at {shown(collision.pose, '')}"
 
 
 def _of_bring_up(plan: BringUp) -> Iterator[tuple[Path, Leaf]]:

@@ -16,7 +16,7 @@ _NOTICED_M, _NOTICED_RAD = 1e-6, 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Moved:
-    """A tip in a named pose, or a goal, that is elsewhere in the root frame though nobody wrote so there."""
+    """A tip in a named pose, or a goal, that moved in the root frame without an edit of its own keys."""
 
     subject: str
     quantity: str
@@ -43,25 +43,25 @@ def _same_frame(goal: str, before: Facts, after: Facts) -> bool:
 
 def tips(facts: Facts) -> dict[str, Pose]:
     """Return where the tip of each group is in each named pose, in the root frame."""
-    found = {}
+    poses = {}
     for name, targets in facts.contract.poses.items():
         positions = _positions(facts, name)
         for target in targets:
             group = facts.contract.groups.get(target.group)
             pose = None if group is None else place(facts, group.tip_frame, positions)
             if pose is not None:
-                found[f"{target.group} in {name}"] = pose
-    return found
+                poses[f"{target.group} in {name}"] = pose
+    return poses
 
 
 def goals(facts: Facts) -> dict[str, Pose]:
     """Return where each goal puts its tip in the root frame, with joints at zero and dynamic frames as on the mock."""
-    found = {}
+    poses = {}
     for name, goal in facts.contract.goals.items():
         frame = place(facts, goal.frame, {})
         if frame is not None:
-            found[name] = frame @ goal.pose.pose
-    return found
+            poses[name] = frame @ goal.pose.pose
+    return poses
 
 
 def _positions(facts: Facts, name: str) -> Mapping[str, float]:

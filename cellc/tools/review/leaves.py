@@ -144,9 +144,9 @@ class Delta:
 
 def differences(before: Leaves, after: Leaves) -> tuple[Delta, ...]:
     """Return the leaves that differ, in the order of paths."""
-    found = (Delta(path, before.get(path), after.get(path)) for path in sorted({*before, *after}))
+    deltas = (Delta(path, before.get(path), after.get(path)) for path in sorted({*before, *after}))
     return tuple(
-        delta for delta in found if delta.before is None or delta.after is None or not same(delta.before, delta.after)
+        delta for delta in deltas if delta.before is None or delta.after is None or not same(delta.before, delta.after)
     )
 
 

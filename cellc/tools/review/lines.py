@@ -19,7 +19,7 @@ _Words = tuple[str, ...]
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """What the changes that are told explain elsewhere.
+    """What the reported changes explain in other files.
 
     Attributes:
         words: words and figures of values before and after.
@@ -71,8 +71,8 @@ def lines_left(
     before: Mapping[str, Sequence[str]], after: Mapping[str, Sequence[str]], known: Known
 ) -> list[LinesLeft]:
     """Return what is left of each file; the order of lines and of words in them says nothing."""
-    found = (_left(file, before.get(file, ()), after.get(file, ()), known) for file in sorted({*before, *after}))
-    return [left for left in found if left.before or left.after]
+    remaining = (_left(file, before.get(file, ()), after.get(file, ()), known) for file in sorted({*before, *after}))
+    return [left for left in remaining if left.before or left.after]
 
 
 def _left(file: str, before: Sequence[str], after: Sequence[str], known: Known) -> LinesLeft:
@@ -87,18 +87,18 @@ def _left(file: str, before: Sequence[str], after: Sequence[str], known: Known) 
     gone, come = _more(old, new), _more(new, old)
     left_before, left_after = [], []
     common = frozenset(word for line in old for word in line) & frozenset(word for line in new for word in line)
-    for one, other in _paired(gone, come):
-        if not known.explains(one, other, common):
-            left_before += [old[one][0]] if one else []
+    for before_words, other in _paired(gone, come):
+        if not known.explains(before_words, other, common):
+            left_before += [old[before_words][0]] if before_words else []
             left_after += [new[other][0]] if other else []
     return LinesLeft(file, tuple(left_before), tuple(left_after))
 
 
 def _by_words(lines: Sequence[str]) -> dict[_Words, list[str]]:
-    found: dict[_Words, list[str]] = {}
+    by_words: dict[_Words, list[str]] = {}
     for line in lines:
-        found.setdefault(tokens(line), []).append(line)
-    return found
+        by_words.setdefault(tokens(line), []).append(line)
+    return by_words
 
 
 def _more(one: Mapping[_Words, list[str]], other: Mapping[_Words, list[str]]) -> list[_Words]:
@@ -106,7 +106,7 @@ def _more(one: Mapping[_Words, list[str]], other: Mapping[_Words, list[str]]) ->
 
 
 def _paired(gone: list[_Words], come: list[_Words]) -> list[tuple[_Words, _Words]]:
-    """Pair each line that went with the nearest that came; what has no partner is beside nothing."""
+    """Pair each removed line with the nearest added line; a line without a partner gets an empty one."""
     if len(gone) * len(come) > _MOST_PAIRS:
         return [*((pair, ()) for pair in gone), *(((), pair) for pair in come)]
     waiting = [Counter(pair) for pair in come]

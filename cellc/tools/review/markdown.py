@@ -92,14 +92,14 @@ _MOST = 40
 
 def folded(title: str, items: Iterable[str], *, is_open: bool = False) -> Iterator[str]:
     """Yield a list that folds up under its title and its length; nothing where it is empty."""
-    told = list(items)
-    if not told:
+    lines = list(items)
+    if not lines:
         return
-    yield f"<details{' open' if is_open else ''}><summary>{title}: {len(told)}</summary>"
+    yield f"<details{' open' if is_open else ''}><summary>{title}: {len(lines)}</summary>"
     yield ""
-    yield from (f"- {item}" for item in told[:_MOST])
-    if len(told) > _MOST:
-        yield f"- and {len(told) - _MOST} more"
+    yield from (f"- {item}" for item in lines[:_MOST])
+    if len(lines) > _MOST:
+        yield f"- and {len(lines) - _MOST} more"
     yield ""
     yield "</details>"
     yield ""

@@ -117,12 +117,12 @@ def edited_check(
 def _edits(cell: Cell, pins: Sequence[tuple[Pin, str]], texts: Mapping[str, str]) -> Iterator[Edit]:
     """Yield the edit of each text that pins become another by; an alias becomes what its anchor does by itself."""
     taken: dict[_Place, str] = {}
-    written = {pin: cell.locate(*pin.path) for pin, _ in pins if cell.states(*pin.path)}
-    becomes = {_place(written[pin]): text for pin, text in pins if pin in written}
+    spans = {pin: cell.locate(*pin.path) for pin, _ in pins if cell.states(*pin.path)}
+    becomes = {_place(spans[pin]): text for pin, text in pins if pin in spans}
     for pin, text in pins:
-        if pin not in written:
+        if pin not in spans:
             continue
-        span = written[pin]
+        span = spans[pin]
         place = _place(span)
         anchor = _anchor(span, texts[span.file].split("\n"))
         if text == (pin.text if anchor is None else becomes.get(anchor, pin.text)) or taken.get(place) == text:
@@ -145,15 +145,15 @@ def _written(span: Span, lines: Sequence[str]) -> str:
 
 def _anchor(span: Span, lines: Sequence[str]) -> _Place | None:
     """Return where the anchor of an alias is written; None for what is no alias."""
-    written = _written(span, lines)
-    if not written.startswith("*"):
+    text = _written(span, lines)
+    if not text.startswith("*"):
         return None
     before = (*lines[: span.line - 1], lines[span.line - 1][: span.column - 1])
-    named = re.compile(rf"&{re.escape(written[1:])}(?=[\s,\]}}]|$)")
+    named = re.compile(rf"&{re.escape(text[1:])}(?=[\s,\]}}]|$)")
     for number in range(len(before), 0, -1):
-        found = [match.start() + 1 for match in named.finditer(before[number - 1])]
-        if found:
-            return span.file, number, found[-1]
+        columns = [match.start() + 1 for match in named.finditer(before[number - 1])]
+        if columns:
+            return span.file, number, columns[-1]
     return None
 
 

@@ -82,15 +82,17 @@ class Objects:
     def entry(self, commit: str, path: str) -> Entry | None:
         """Return what a commit has at a path, from the top, with forward slashes; None where it has nothing."""
         head, _, _ = self._read([commit], "commit")[0].partition(b"\n")
-        found = Entry(_TREE, head.removeprefix(b"tree ").decode(), "")
+        current = Entry(_TREE, head.removeprefix(b"tree ").decode(), "")
         for part in path.split("/") if path not in ("", ".") else ():
-            if found.mode != _TREE:
+            if current.mode != _TREE:
                 return None
-            listed = {entry.name: entry for entry in _listed(self._read([found.identity], "tree")[0], found.identity)}
+            listed = {
+                entry.name: entry for entry in _listed(self._read([current.identity], "tree")[0], current.identity)
+            }
             if part not in listed:
                 return None
-            found = listed[part]
-        return found
+            current = listed[part]
+        return current
 
     def files(self, tree: Entry) -> tuple[Entry, ...]:
         """Return everything below a tree that is no tree.
@@ -98,7 +100,7 @@ class Objects:
         Raises:
             RevisionError: there are more entries than are read.
         """
-        found: list[Entry] = []
+        entries: list[Entry] = []
         open_ = [tree] if tree.mode == _TREE else []
         while open_:
             if open_[0].name.count("/") >= _DEEPEST:
@@ -108,13 +110,13 @@ class Objects:
                 start = f"{above.name}/" if above is not tree else ""
                 for entry in _listed(content, above.identity):
                     listed = Entry(entry.mode, entry.identity, start + entry.name)
-                    (below if entry.mode == _TREE else found).append(listed)
-                if len(found) + len(below) > limits().folder_entries:
+                    (below if entry.mode == _TREE else entries).append(listed)
+                if len(entries) + len(below) > limits().folder_entries:
                     raise RevisionError(
                         f"a revision holds more than {limits().folder_entries} files; {option('folder-entries')}"
                     )
             open_ = below
-        return tuple(found)
+        return tuple(entries)
 
     def contents(self, entries: Sequence[Entry]) -> list[bytes]:
         """Return what files hold.
@@ -133,12 +135,12 @@ class Objects:
         if sum(self._sizes(identities)) > limits().folder_total_bytes:
             text = f"a revision holds more than {limits().folder_total_bytes} bytes"
             raise RevisionError(f"{text}; {option('folder-total-bytes')}")
-        found = self.ask("cat-file", "--batch", given=_lines(identities)) or b""
+        answer = self.ask("cat-file", "--batch", given=_lines(identities)) or b""
         read, at = list[bytes](), 0
         for identity in identities:
-            start = found.find(b"\n", at) + 1
-            _, _, size = found[at : max(start - 1, at)].rpartition(b" ")
-            content = found[start : start + int(size)] if start and size.isdigit() else b""
+            start = answer.find(b"\n", at) + 1
+            _, _, size = answer[at : max(start - 1, at)].rpartition(b" ")
+            content = answer[start : start + int(size)] if start and size.isdigit() else b""
             if _identity(kind, content, identity) != identity:
                 raise RevisionError(f"the repository does not hold {kind} {identity} as its id says")
             read.append(content)
@@ -147,8 +149,8 @@ class Objects:
 
     def _sizes(self, identities: Sequence[str]) -> list[int]:
         """Return the bytes of objects; 0 for one that is not there."""
-        found = (self.ask("cat-file", "--batch-check", given=_lines(identities)) or b"").splitlines()
-        sizes = [line.rpartition(b" ")[2] for line in found]
+        answers = (self.ask("cat-file", "--batch-check", given=_lines(identities)) or b"").splitlines()
+        sizes = [line.rpartition(b" ")[2] for line in answers]
         return [int(size) if size.isdigit() else 0 for size in sizes]
 
 
@@ -166,13 +168,13 @@ def objects_of(folder: Path) -> Objects:
         folder = folder.parent
     tops = [place for place in (folder, *folder.parents) if _begins_repository(place / ".git")]
     for outer in reversed(tops[1:]):
-        found = _opened(outer)
-        if found is not None and _has_files(found, tops[0]):
-            return found
-    found = _opened(tops[0]) if tops else None
-    if found is None:
+        objects = _opened(outer)
+        if objects is not None and _has_files(objects, tops[0]):
+            return objects
+    objects = _opened(tops[0]) if tops else None
+    if objects is None:
         raise RevisionError(f"`{shown}` is in no git repository that may be read")
-    return found
+    return objects
 
 
 def _begins_repository(place: Path) -> bool:
@@ -186,15 +188,15 @@ def _begins_repository(place: Path) -> bool:
 
 def _opened(top: Path) -> Objects | None:
     """Return the repository of a work tree; None where git finds none there, or trusts not who owns it."""
-    found = _asked(top, "rev-parse", "--absolute-git-dir", ceiling=top.parent)
-    place = os.fsdecode((found or b"").removesuffix(b"\n"))
+    folder = _asked(top, "rev-parse", "--absolute-git-dir", ceiling=top.parent)
+    place = os.fsdecode((folder or b"").removesuffix(b"\n"))
     return Objects(top, place) if place and Path(place) != top else None
 
 
 def _has_files(repository: Objects, folder: Path) -> bool:
     inside = folder.relative_to(repository.top).as_posix()
-    found = repository.ask("ls-files", "--stage", "-z", "--", f":(literal){inside}") or b""
-    return any(not line.startswith(_SUBMODULE) for line in found.split(b"\0")[:-1])
+    listing = repository.ask("ls-files", "--stage", "-z", "--", f":(literal){inside}") or b""
+    return any(not line.startswith(_SUBMODULE) for line in listing.split(b"\0")[:-1])
 
 
 def _listed(tree: bytes, identity: str) -> Iterator[Entry]:
@@ -220,13 +222,13 @@ def _lines(identities: Sequence[str]) -> bytes:
 
 
 def _asked(folder: Path, *arguments: str, given: bytes = b"", ceiling: Path | None = None) -> bytes | None:
-    kept = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
     bounded = {} if ceiling is None else {"GIT_CEILING_DIRECTORIES": str(ceiling)}
     try:
         done = subprocess.run(
             [*_GIT, *arguments],
             cwd=folder,
-            env={**kept, **_ENVIRONMENT, **bounded},
+            env={**environment, **_ENVIRONMENT, **bounded},
             input=given,
             capture_output=True,
             check=False,

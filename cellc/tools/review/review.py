@@ -39,13 +39,13 @@ def _side(package: Package) -> ReviewSide:
 
 def _more(one: Sequence[ReviewFinding], other: Sequence[ReviewFinding]) -> tuple[ReviewFinding, ...]:
     """Return the findings of one side that the other has not, wherever in the file they stand."""
-    known = [(found.code, found.message) for found in other]
+    known = [(finding.code, finding.message) for finding in other]
     more = []
-    for found in one:
-        if (found.code, found.message) in known:
-            known.remove((found.code, found.message))
+    for finding in one:
+        if (finding.code, finding.message) in known:
+            known.remove((finding.code, finding.message))
         else:
-            more.append(found)
+            more.append(finding)
     return tuple(more)
 
 
@@ -56,9 +56,9 @@ def gates_again(areas: Sequence[ReviewArea]) -> tuple[ReviewGate, ...]:
 
 
 def _again(texts: Sequence[GateText], areas: Sequence[ReviewArea]) -> Iterator[ReviewGate]:
-    begun = False
+    repeat = False
     for text in texts:
         because = tuple(area for area in areas if text.code in REPEATED[area])
-        begun = begun or bool(because)
-        if begun:
+        repeat = repeat or bool(because)
+        if repeat:
             yield ReviewGate(code=text.code, title=text.title, evidence=text.evidence, because=because)

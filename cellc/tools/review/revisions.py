@@ -35,25 +35,25 @@ class Repository:
         """Return the id of a commit.
 
         Raises:
-            RevisionError: there is none of that name.
+            RevisionError: no commit has that name.
         """
         if not revision or revision.startswith("-"):
             raise RevisionError(f"`{revision}` is no revision")
-        found = self.objects.ask("rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
-        if found is None:
+        identity = self.objects.ask("rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
+        if identity is None:
             raise RevisionError(f"there is no revision `{revision}`")
-        return found.decode().split()[-1]
+        return identity.decode().split()[-1]
 
     def merge_base(self, one: str, other: str) -> str:
         """Return the commit that two revisions have in common.
 
         Raises:
-            RevisionError: there is none.
+            RevisionError: they have no commit in common.
         """
-        found = self.objects.ask("merge-base", self.commit(one), self.commit(other))
-        if found is None:
+        identity = self.objects.ask("merge-base", self.commit(one), self.commit(other))
+        if identity is None:
             raise RevisionError(f"`{one}` and `{other}` have no commit in common")
-        return found.decode().split()[0]
+        return identity.decode().split()[0]
 
     @contextmanager
     def taken(self, revision: str, path: str) -> Iterator[Taken]:
@@ -98,8 +98,8 @@ class Repository:
         return entries
 
     def _files(self, entries: Sequence[Entry]) -> dict[str, bytes]:
-        kept = [entry for entry in entries if entry.mode in _FILES]
-        return {entry.name: content for entry, content in zip(kept, self.objects.contents(kept), strict=True)}
+        regular = [entry for entry in entries if entry.mode in _FILES]
+        return {entry.name: content for entry, content in zip(regular, self.objects.contents(regular), strict=True)}
 
 
 @dataclass(frozen=True, slots=True)

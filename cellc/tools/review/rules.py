@@ -41,8 +41,8 @@ class Row:
     """One kind of value.
 
     Args:
-        pattern: path with braces for names, parts apart by a blank; `{what}` is no name but
-            the part that changed, and `{_}` any part that nobody needs.
+        pattern: path with braces for names, parts separated by a blank; `{what}` is the part that changed, `{_}` any
+            part.
         unit: SI unit of the value, for people: `m` is shown in mm, `rad` in degrees; `joint` is either.
         breaking: a consumer outside of the cell breaks.
         ordered: whether the order of a list says something.
@@ -66,18 +66,18 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Thing:
-    """A kind of thing that comes or goes as a whole; its values are then not told one by one.
+    """A kind of thing that is added or removed as a whole; its values are then not reported one by one.
 
     Args:
-        shown: the value that is told of it.
+        shown: the value that is reported with it.
         follows: it is reported only where nothing else of its name was added or removed.
     """
 
     pattern: str
     area: ReviewArea
     noun: str
-    came: Grade
-    went: Grade
+    added: Grade
+    removed: Grade
     breaking: bool = False
     shown: str = ""
     why: str = ""

@@ -162,14 +162,14 @@ def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
         revision = repository.merge_base(revision, side.merged_into)
     path = PurePosixPath(side.path).as_posix()
     taken = stack.enter_context(repository.taken(revision, path))
-    found = _read(side.name, taken.path, taken.path.as_posix())
+    package = _read(side.name, taken.path, taken.path.as_posix())
     shown = f"{side.revision}:{PurePosixPath(path).parent.as_posix()}/"
     named = {f"{taken.folder.as_posix()}/": shown, f"{taken.top.as_posix()}/": f"{side.revision}:"}
     findings, excused = (
-        tuple(_shown_from(finding, named) for finding in each) for each in (found.findings, found.excused)
+        tuple(_shown_from(finding, named) for finding in each) for each in (package.findings, package.excused)
     )
     links = (f"{side.name}: {taken.links} links or submodules were left out",) if taken.links else ()
-    return replace(found, findings=findings, excused=excused, notes=(*found.notes, *links)), taken.path
+    return replace(package, findings=findings, excused=excused, notes=(*package.notes, *links)), taken.path
 
 
 def _shown_from(found: ReviewFinding, named: Mapping[str, str]) -> ReviewFinding:
@@ -206,15 +206,15 @@ def package_of(name: str, checked: Checked) -> Package:
 
     emitted = emit_cell(checked)
     if emitted.value is None or checked.graph is None:
-        found = (*checked.diagnostics, *emitted.diagnostics)
-        errors = [diagnostic for diagnostic in found if diagnostic.severity is Severity.ERROR]
+        diagnostics = (*checked.diagnostics, *emitted.diagnostics)
+        errors = [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
         more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""
         first = errors[0]
         raise SideError(f"{name}:{first.span.line}:{first.span.column}: {first.message}{more}; see `cellc check`")
     files = {artifact.path: artifact.text for artifact in emitted.value}
-    told = tuple(as_review_finding(diagnostic) for diagnostic in checked.diagnostics)
+    findings = tuple(as_review_finding(diagnostic) for diagnostic in checked.diagnostics)
     excused = tuple(as_review_finding(diagnostic) for diagnostic in checked.excused)
-    return Package(name, files, facts_of(files, checked.graph.cell, checked.excused), told, excused, is_spec=True)
+    return Package(name, files, facts_of(files, checked.graph.cell, checked.excused), findings, excused, is_spec=True)
 
 
 def as_review_finding(found: Diagnostic) -> ReviewFinding:

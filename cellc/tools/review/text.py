@@ -25,8 +25,8 @@ def render_review(review: Review) -> Iterator[Line]:
         yield (Styled(grade.value, _STYLE[grade]),)
         for change in changes:
             yield from _change(change)
-    yield from findings_told("new findings", review.new_findings)
-    yield from findings_told("resolved findings", review.gone_findings)
+    yield from finding_lines("new findings", review.new_findings)
+    yield from finding_lines("resolved findings", review.gone_findings)
     if review.rehearsals:
         yield ""
         yield "rehearsals"
@@ -44,11 +44,11 @@ def summed_up(review: Review) -> str:
         text = f"; {differing} files differ only in order or spelling" if differing else ""
         return f"{review.after.name}: no change{text}"
     counts = ((sum(change.grade is grade for change in review.changes), grade) for grade in reversed(Grade))
-    told = ", ".join(f"{number} {grade}" for number, grade in counts if number)
+    listed = ", ".join(f"{number} {grade}" for number, grade in counts if number)
     breaking = sum(change.breaking for change in review.changes)
     more = f"; {breaking} break{'s' if breaking == 1 else ''} consumers outside the cell" if breaking else ""
     number = len(review.changes)
-    return f"{review.after.name}: {number} change{'s' if number != 1 else ''} ({told}){more}"
+    return f"{review.after.name}: {number} change{'s' if number != 1 else ''} ({listed}){more}"
 
 
 def subjects_of(change: ReviewChange) -> str:
@@ -91,9 +91,11 @@ def _change(change: ReviewChange) -> Iterator[Line]:
         yield ("      ", Styled(said, Style.DIM))
 
 
-def findings_told(title: str, findings: tuple[ReviewFinding, ...]) -> Iterator[Line]:
+def finding_lines(title: str, findings: tuple[ReviewFinding, ...]) -> Iterator[Line]:
     """Yield findings of the check under a title, if any."""
     if findings:
         yield ""
         yield title
-        yield from (f"  {found.severity}[{found.code}]: {found.message} ({found.place})" for found in findings)
+        yield from (
+            f"  {finding.severity}[{finding.code}]: {finding.message} ({finding.place})" for finding in findings
+        )

@@ -25,7 +25,7 @@ _IGNORED = frozenset(";|`'\"()[]{}<>=*")
 
 def tokens(line: str) -> tuple[str, ...]:
     """Return the words of a line, sorted, with quantities in SI and without punctuation."""
-    found: list[str] = []
+    result: list[str] = []
     waiting: list[float] = []  # figures, until the unit behind the last of them is seen
     for match in _TOKEN.finditer(line):
         if match["number"]:
@@ -34,12 +34,12 @@ def tokens(line: str) -> tuple[str, ...]:
         if word == "," or word is None:
             continue
         factor = _FACTORS.get(word) if waiting else None
-        found += (_figure(value * (1.0 if factor is None else factor)) for value in waiting)
+        result += (_figure(value * (1.0 if factor is None else factor)) for value in waiting)
         waiting.clear()
         if factor is None and word not in _IGNORED:
-            found.append(word)
-    found += map(_figure, waiting)
-    return tuple(sorted(found))
+            result.append(word)
+    result += map(_figure, waiting)
+    return tuple(sorted(result))
 
 
 def _figure(value: float) -> str:

@@ -38,8 +38,8 @@ def moved_pins(cell: Cell, target: Distro, facts: DistroFacts) -> tuple[PinMove,
     texts = {pin.path: _of_cell(pin, facts, target) for pin in cell_pins(cell)}
     devices = {device.name: device for device in cell.devices}
     texts |= {pin.path: _of_device(pin, devices[pin.holder], facts, target) for pin in device_pins(cell)}
-    kept = texts.get(("versions", "os")) == cell.versions.os
-    if not kept and cell.versions.kernel != UNKNOWN:
+    same_os = texts.get(("versions", "os")) == cell.versions.os
+    if not same_os and cell.versions.kernel != UNKNOWN:
         texts["versions", "kernel"] = UNKNOWN
     before = {judged.pin.path: judged for judged in compatibility(cell)}
     after = {judged.pin.path: judged for judged in compatibility(_with_pins(cell, target, texts))}
@@ -51,8 +51,8 @@ def moved_pins(cell: Cell, target: Distro, facts: DistroFacts) -> tuple[PinMove,
 
 def _with_pins(cell: Cell, target: Distro, texts: Mapping[tuple[str | int, ...], str]) -> Cell:
     """Return a cell with other pins, for the matrix alone: nothing else of it is linked again."""
-    own = {pin.part: texts[pin.path] for pin in cell_pins(cell)}
-    versions = Versions(**{"ros": target.value, **own}, rollback=cell.versions.rollback)
+    pins = {pin.part: texts[pin.path] for pin in cell_pins(cell)}
+    versions = Versions(**{"ros": target.value, **pins}, rollback=cell.versions.rollback)
     of_device: dict[str, dict[str, str]] = {}
     for pin in device_pins(cell):
         of_device.setdefault(pin.holder, {})[pin.part] = texts[pin.path]
@@ -68,8 +68,8 @@ def _of_cell(pin: Pin, facts: DistroFacts, target: Distro) -> str:
     if not pin.known or pin.part == "kernel":
         return pin.text
     if pin.part == "os":
-        written = pin.text.lower()
-        return pin.text if any(written == due or written.startswith(f"{due}.") for due in facts.os) else facts.os[0]
+        text = pin.text.lower()
+        return pin.text if any(text == due or text.startswith(f"{due}.") for due in facts.os) else facts.os[0]
     if pin.part == "rmw":
         name = pin.text.split()[0]
         offered = name in (*facts.rmw, *facts.rmw_unverified)

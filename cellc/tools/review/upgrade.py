@@ -15,7 +15,7 @@ from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN, Distro, ReviewArea
 from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.tools.edit.rewrite import Edit, rewrite
-from cellc.tools.review.declared import Told, parameter_changes
+from cellc.tools.review.declared import NodeParameters, parameter_changes
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Leaf
 from cellc.tools.review.moved_spec import UpgradeError, edited_check, facts_of_distro
@@ -43,11 +43,11 @@ class Planned:
         """
         for file, edits in groupby(sorted(self.edits, key=lambda one: one.file), key=lambda one: one.file):
             try:
-                written = rewrite(Path(file), tuple(edits), self.texts[file])
+                changed = rewrite(Path(file), tuple(edits), self.texts[file])
             except OSError as error:
                 reason = (error.strerror or "unknown reason").lower()
                 raise UpgradeError(f"`{file}` cannot be written: {reason}") from None
-            if not written:
+            if not changed:
                 raise UpgradeError(f"`{file}` changed while it was read; nothing of it was written")
         return self.edits
 
@@ -133,7 +133,7 @@ def _rollback(cell: Cell, moves: Sequence[PinMove]) -> str:
     return "`rollback`: which image and configuration does the cell go back to? Those of now are named nowhere"
 
 
-def _given(facts: Facts) -> Told:
+def _given(facts: Facts) -> NodeParameters:
     """Return the parameters of each node of a package, by its full name."""
     given: dict[str, dict[str, Leaf]] = {}
     for path, leaf in facts.leaves.items():
@@ -158,12 +158,12 @@ def _granted(policy: str) -> Mapping[str, frozenset[tuple[str, str]]]:
     """Return what each node of a policy may do, by its full name."""
     root = read_xml(policy, _POLICY).value
     assert root is not None  # our own emitter wrote it
-    found: dict[str, frozenset[tuple[str, str]]] = {}
+    granted: dict[str, frozenset[tuple[str, str]]] = {}
     for enclave in _below(root, "enclaves", "enclave"):
         for profile in _below(enclave, "profiles", "profile"):
             node = f"{profile.attributes['ns'].rstrip('/')}/{profile.attributes['node']}"
-            found[node] = found.get(node, frozenset()) | frozenset(_rights(profile))
-    return found
+            granted[node] = granted.get(node, frozenset()) | frozenset(_rights(profile))
+    return granted
 
 
 def _below(element: XmlElement, group: str, tag: str) -> Iterator[XmlElement]:

@@ -8,7 +8,7 @@ from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradeParameter, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN
 from cellc.tools.review.markdown import LONGEST, as_code, folded, render_markdown
-from cellc.tools.review.text import findings_told, gate_line, render_review
+from cellc.tools.review.text import finding_lines, gate_line, render_review
 
 _FEW = 6
 _STYLE = {"OK": Style.GREEN, UNKNOWN: Style.YELLOW, "INCOMPATIBLE": Style.RED}
@@ -19,14 +19,14 @@ def render_upgrade(upgrade: Upgrade) -> Iterator[Line]:
     yield summed_up(upgrade)
     yield from (f"{upgrade.after}  {fact}" for fact in upgrade.facts)
     yield from _section("to decide", upgrade.questions, Style.YELLOW)
-    yield from findings_told("errors of the check on it, so that no package is compared", upgrade.errors)
+    yield from finding_lines("errors of the check on it, so that no package is compared", upgrade.errors)
     yield ""
     yield "version tuple"
     for pin in upgrade.pins:
         yield f"  {_moved(pin)}"
         yield ("      ", Styled(pin.answer, _STYLE[pin.answer]), Styled(f": {pin.evidence}", Style.DIM))
-    yield from _section("declared parameters", map(parameters_told, _alike(upgrade.parameters)))
-    yield from _section("names at the ROS graph", map(interface_told, upgrade.interfaces))
+    yield from _section("declared parameters", map(parameter_line, _alike(upgrade.parameters)))
+    yield from _section("names at the ROS graph", map(interface_line, upgrade.interfaces))
     if upgrade.review is not None:
         yield ""
         yield from render_review(upgrade.review)
@@ -42,32 +42,32 @@ def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
     """
     head = [f"### {as_code(summed_up(upgrade))}", "", *(f"- {as_code(fact)}" for fact in upgrade.facts), ""]
     head += folded("To decide", map(as_code, upgrade.questions), is_open=True)
-    errors = (f"{as_code(found.code)}: {as_code(found.message)}" for found in upgrade.errors)
+    errors = (f"{as_code(finding.code)}: {as_code(finding.message)}" for finding in upgrade.errors)
     head += folded("Errors of the check on it", errors, is_open=True)
     pins = (f"{as_code(_moved(pin))} {pin.answer}: {as_code(pin.evidence)}" for pin in upgrade.pins)
     head += folded("Version tuple", pins, is_open=True)
-    head += folded("Declared parameters", (as_code(parameters_told(row)) for row in _alike(upgrade.parameters)))
-    head += folded("Names at the ROS graph", (as_code(interface_told(interface)) for interface in upgrade.interfaces))
+    head += folded("Declared parameters", (as_code(parameter_line(row)) for row in _alike(upgrade.parameters)))
+    head += folded("Names at the ROS graph", (as_code(interface_line(interface)) for interface in upgrade.interfaces))
     if upgrade.review is None:
         return "\n".join((*head, *folded("Gates to repeat", (as_code(gate_line(gate)) for gate in upgrade.gates))))
-    own = "\n".join(head) + "\n"
-    return own + render_markdown(upgrade.review, longest - len(own))
+    text = "\n".join(head) + "\n"
+    return text + render_markdown(upgrade.review, longest - len(text))
 
 
 def summed_up(upgrade: Upgrade) -> str:
     """Return one line: how many pins change, and how much is asked."""
     pins = sum(pin.before != pin.after for pin in upgrade.pins)
     asked = len(upgrade.questions)
-    told = f"{pins} pin{'s' if pins != 1 else ''} change{'s' if pins == 1 else ''}"
-    return f"{upgrade.cell}: {upgrade.before} to {upgrade.after}: {told}, {asked} question{'s' if asked != 1 else ''}"
+    text = f"{pins} pin{'s' if pins != 1 else ''} change{'s' if pins == 1 else ''}"
+    return f"{upgrade.cell}: {upgrade.before} to {upgrade.after}: {text}, {asked} question{'s' if asked != 1 else ''}"
 
 
 def _moved(pin: UpgradePin) -> str:
-    kept = f"stays {pin.before}" if pin.before == pin.after else f"{pin.before} -> {pin.after}"
-    return f"{pin.holder} {pin.part}: {kept}"
+    text = f"stays {pin.before}" if pin.before == pin.after else f"{pin.before} -> {pin.after}"
+    return f"{pin.holder} {pin.part}: {text}"
 
 
-def parameters_told(alike: Sequence[UpgradeParameter]) -> str:
+def parameter_line(alike: Sequence[UpgradeParameter]) -> str:
     """Return what becomes of parameters that the same nodes declare and of which the same becomes."""
     first = alike[0]
     what = f" {first.what}" if first.what else ""
@@ -90,7 +90,7 @@ def _alike(parameters: Iterable[UpgradeParameter]) -> Iterator[Sequence[UpgradeP
     yield from groups.values()
 
 
-def interface_told(one: UpgradeInterface) -> str:
+def interface_line(one: UpgradeInterface) -> str:
     """Return a name that nodes gain or lose."""
     return f"{one.change}: {one.right} {one.name} of {_nodes(one.nodes)}"
 
@@ -101,8 +101,8 @@ def _nodes(names: Sequence[str]) -> str:
 
 
 def _section(title: str, lines: Iterable[str], style: Style | None = None) -> Iterator[Line]:
-    told = list(lines)
-    if told:
+    items = list(lines)
+    if items:
         yield ""
         yield title if style is None else (Styled(title, style),)
-        yield from (f"  {line}" for line in told)
+        yield from (f"  {line}" for line in items)

@@ -109,10 +109,10 @@ def _not_drawn(subject: Subject, shown: Container[YamlPath]) -> Iterator[tuple[s
     for path, error in subject.wanted.items():
         if path not in shown:
             # What links and is still not drawn may stand in a circle, which a rule tells.
-            told = error or next(
+            reason = error or next(
                 (diagnostic for diagnostic in errors if diagnostic.yaml_path[: len(path)] == path), None
             )
-            yield format_path(path), _unplaced(subject) if told is None else f"{told.message} ({told.span})"
+            yield format_path(path), _unplaced(subject) if reason is None else f"{reason.message} ({reason.span})"
 
 
 def _unplaced(subject: Subject) -> str:

@@ -54,8 +54,8 @@ def meshes_at_hand(links: Sequence[Link], roots: Sequence[Path]) -> Meshes:
         roots: folders of the specs that bring the descriptions, beside the package path.
     """
     there = identify_all((mesh for link in links for mesh in meshes_of(link.visuals)), roots)
-    found = {name for name, file in there.items() if isinstance(file, MeshFile)}
-    wanted = tuple(dict.fromkeys(mesh for link in links for mesh in _chosen(link, found)))
+    named = {name for name, file in there.items() if isinstance(file, MeshFile)}
+    wanted = tuple(dict.fromkeys(mesh for link in links for mesh in _chosen(link, named)))
     if not wanted:
         return Meshes()
     files = identify_all(wanted, roots)
@@ -64,10 +64,14 @@ def meshes_at_hand(links: Sequence[Link], roots: Sequence[Path]) -> Meshes:
     facts = {file: facts_of(numbers) for file, numbers in read.items()}
     faults = {mesh: fault.message for mesh, fault in unusable(wanted, files, facts)}
     whole = {mesh: read.get(file) for mesh in wanted if isinstance(file := files.get(mesh.filename), MeshFile)}
-    usable = {mesh: one for mesh, one in whole.items() if isinstance(one, MeshNumbers) and mesh not in faults}
+    usable = {
+        mesh: mesh_numbers
+        for mesh, mesh_numbers in whole.items()
+        if isinstance(mesh_numbers, MeshNumbers) and mesh not in faults
+    }
     share = min(_LARGEST_SHARE, max(_LEAST_SHARE, _MOST_TRIANGLES // max(1, len(usable))))
     return Meshes(
-        tuple(_drawn(one, mesh, share) for mesh, one in usable.items()),
+        tuple(_drawn(mesh_numbers, mesh, share) for mesh, mesh_numbers in usable.items()),
         {mesh: number for number, mesh in enumerate(usable)},
         {mesh: faults.get(mesh, _UNREAD.format(mesh.filename)) for mesh in wanted if mesh not in usable},
     )
@@ -118,8 +122,8 @@ def coarsened(
         merged = np.unique(merged[(a != b) & (b != c) & (c != a)], axis=0)
         if len(merged) <= most or cells < 2.0:
             means = np.stack([np.bincount(owner, vertices[:, axis]) for axis in range(3)], axis=1) / count[:, None]
-            kept, numbered = np.unique(merged, return_inverse=True)
-            return means[kept], numbered.reshape(-1, 3)
+            points, numbered = np.unique(merged, return_inverse=True)
+            return means[points], numbered.reshape(-1, 3)
         cells *= max(0.4, min(0.9, (most / len(merged)) ** 0.5))
 
 

@@ -77,8 +77,8 @@ def three_js() -> str | None:
     `scene_to_html`: https://github.com/mikedh/trimesh/tree/5.2.0/trimesh/resources/templates. The library alone is
     taken from there, with its license at the head, and trimesh is not imported, which would load numerics for a text.
     """
-    found = find_spec("trimesh")
-    for folder in (found.submodule_search_locations or ()) if found is not None else ():
+    spec = find_spec("trimesh")
+    for folder in (spec.submodule_search_locations or ()) if spec is not None else ():
         try:
             content = BytesIO(own_bytes(Path(folder) / _ARCHIVE))
             with zipfile.ZipFile(content) as archive, archive.open(_TEMPLATE) as template:
@@ -113,12 +113,12 @@ def _json(content: Content) -> str:
     scene, before = content.scene, None if content.before is None else content.before.scene
     if scene is not None and before is not None and before.meshes == scene.meshes:
         before = replace(before, meshes=())  # those of the scene are taken
-    told = {
+    data = {
         "scene": None if scene is None else asdict(scene),
         "before": None if before is None else asdict(before),
         "runs": [asdict(run) for run in content.runs],
     }
-    return json.dumps(told, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    return json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _policy(style: str, scripts: Sequence[str]) -> str:
@@ -196,7 +196,7 @@ def _places(content: Content) -> Iterator[tuple[str, str]]:
 def _pictures(pictures: Mapping[str, str]) -> Iterator[Element]:
     for file, text in pictures.items():
         id_, title, words = _CAPTIONS[file]
-        # As a picture, nothing in it runs, whoever wrote it.
+        # As a picture, nothing in it runs, even in an untrusted file.
         source = f"data:image/svg+xml;base64,{base64.b64encode(text.encode()).decode()}"
         yield section(id_, title, tag("figure", tag("div", tag("img", src=source, alt=words), class_="wide")))
 

@@ -43,7 +43,7 @@ def cell_as_far(path: Path) -> tuple[Cell | None, Wanted]:
     if source.value is None or not source.ok:
         return None, {}
     document, cell = source.value, None
-    written = frozenset(_keys(document.root))
+    paths = frozenset(_keys(document.root))
     wanted: dict[YamlPath, Diagnostic | None] = dict.fromkeys(_named(document))
     for _ in range(_ROUNDS):
         cell, errors = _linked(document)
@@ -51,7 +51,7 @@ def cell_as_far(path: Path) -> tuple[Cell | None, Wanted]:
         wanted |= {
             place: error
             for place, error in places.items()
-            if place in wanted and not (document is not source.value and _follows(error, written))
+            if place in wanted and not (document is not source.value and _follows(error, paths))
         }
         smaller = _without(document, (pair for pair in places if pair))
         if smaller is document:
@@ -85,7 +85,7 @@ def _linked(document: SourceDocument) -> tuple[Cell | None, tuple[Diagnostic, ..
     spec = parse(document)
     if spec.value is None:
         return None, spec.diagnostics
-    devices = {name: one for name, one in spec.value.devices.items() if name != _NOBODY}
+    devices = {name: device for name, device in spec.value.devices.items() if name != _NOBODY}
     cell = link(spec.value.model_copy(update={"devices": devices}), document)
     return cell.value, tuple(diagnostic for diagnostic in cell.diagnostics if diagnostic.severity is Severity.ERROR)
 
@@ -100,7 +100,7 @@ def _without(document: SourceDocument, places: Iterable[YamlPath]) -> SourceDocu
 
 
 def _place(document: SourceDocument, error: Diagnostic) -> YamlPath:
-    """Return what goes with an error: the value, or whoever would stand elsewhere without it."""
+    """Return what an error takes along: the value, or every entity whose pose depends on it."""
     path = error.yaml_path or _device_of(document, error.span.file)
     for section in (*_NAMED, ("areas",)):
         length = len(section) + 1

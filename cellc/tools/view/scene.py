@@ -110,7 +110,7 @@ def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Ske
     return Scene(
         groups=skeleton.groups,
         devices=tuple(standing.roots),
-        kinds=tuple(" and ".join(found) for found in kinds.values()),
+        kinds=tuple(" and ".join(names) for names in kinds.values()),
         shapes=tuple(
             _shape(skeleton, owners[link.name], link.name, pose, *_measured(geometry, meshes))
             for link, _, shapes in bodies
@@ -156,15 +156,15 @@ def _left_out(links: Iterable[Link], owners: Mapping[str, str], meshes: Meshes) 
     for link in links:
         if (link.visuals or link.collisions) and not _bodies(link, meshes)[1]:
             bare.setdefault(owners[link.name], []).append(link)
-    for owner, found in bare.items():
-        named = [mesh for link in found for mesh in (*meshes_of(link.visuals), *link.collision_meshes())]
+    for owner, bare_links in bare.items():
+        named = [mesh for link in bare_links for mesh in (*meshes_of(link.visuals), *link.collision_meshes())]
         why = next((meshes.absent[mesh] for mesh in named if mesh in meshes.absent), "")
-        links_ = f"{len(found)} {'link' if len(found) == 1 else 'links'}"
+        links_ = f"{len(bare_links)} {'link' if len(bare_links) == 1 else 'links'}"
         yield f"shapes of {links_} of {owner or 'the cell'}", why
 
 
 def _owners(standing: Standing) -> dict[str, str]:
-    """Return the device of each link: that of the nearest mount above it; what is mounted on one is none of it."""
+    """Return the device of each link: that of the nearest mount above it; a mounted device has its own links."""
     roots = {link: name for name, link in standing.roots.items()}
     above = {joint.child: joint.parent for joint in standing.description.joints}
     beside = {name for name, frame in standing.frames.items() if frame.kind not in ("link", "mount")}

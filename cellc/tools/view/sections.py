@@ -36,8 +36,8 @@ def findings_section(findings: Findings) -> Element:
 
 
 def _by_severity(ordered: Sequence[Diagnostic], texts: Mapping[str, str]) -> Iterator[Element]:
-    for severity, found in groupby(ordered, key=lambda one: one.severity):
-        articles = [_finding(diagnostic, texts) for diagnostic in found]
+    for severity, diagnostics in groupby(ordered, key=lambda one: one.severity):
+        articles = [_finding(diagnostic, texts) for diagnostic in diagnostics]
         details = tag("details", tag("summary", count(len(articles), severity.value)), *articles)
         if severity in _OPEN:
             details.set("open", "")
@@ -99,9 +99,9 @@ def changes_section(review: Review) -> Element:
         )
         for change in review.changes
     ]
-    told = f"{review.before.name} → {review.after.name}. Gates to repeat: "
+    text = f"{review.before.name} → {review.after.name}. Gates to repeat: "
     gates = ", ".join(gate.code.value for gate in review.gates) or "none"
-    return section("changes", "What changed", tag("p", told, gates, class_="hint"), cards(names, rows))
+    return section("changes", "What changed", tag("p", text, gates, class_="hint"), cards(names, rows))
 
 
 _GRADES = {Grade.SAFE: "good", Grade.REVIEW: "unknown", Grade.DANGEROUS: "bad"}
@@ -128,7 +128,7 @@ def interfaces_section(contract: Contract) -> Element:
     """Return who tells what to whom with which QoS, and which ends never connect."""
     broken = [tag("p", text, class_="note") for text in unmatched_pairs(contract)]
     names = ("interface", "type", "from", "to", "bounds", "owner")
-    rows = [_interface(name, one) for name, one in contract.interfaces.items()]
+    rows = [_interface(name, interface) for name, interface in contract.interfaces.items()]
     return section("interfaces", "Interfaces and QoS", *broken, cards(names, rows))
 
 
@@ -150,11 +150,11 @@ def _ends(ends: Iterable[ContractEndpoint], with_qos: bool) -> Element:
 
 def _qos(end: ContractEndpoint) -> str:
     qos = end.qos
-    kept = f"last {qos.depth}" if qos.history == "keep_last" else "all"
+    history = f"last {qos.depth}" if qos.history == "keep_last" else "all"
     timed = [
         f"{name} {value:g} s" for name, value in (("deadline", qos.deadline_s), ("lifespan", qos.lifespan_s)) if value
     ]
-    return ", ".join((qos.reliability.replace("_", " "), qos.durability.replace("_", " "), kept, *timed))
+    return ", ".join((qos.reliability.replace("_", " "), qos.durability.replace("_", " "), history, *timed))
 
 
 def _bounds(one: ContractInterface) -> Iterator[str]:
@@ -173,8 +173,8 @@ def gates_section(contract: Contract) -> Element:
     texts = gate_texts()
     names = ("gate", "what it shows", "state", "evidence", "signed by")
     rows = [_gate(text, contract) for text in (*texts.promotion, *texts.network)]
-    told = "Passed by people at the cell, in this order; G3 layer by layer. The package has the checks of each."
-    return section("gates", "Gates", tag("p", told, class_="hint"), cards(names, rows))
+    sentence = "Passed by people at the cell, in this order; G3 layer by layer. The package has the checks of each."
+    return section("gates", "Gates", tag("p", sentence, class_="hint"), cards(names, rows))
 
 
 def _gate(text: GateText, contract: Contract) -> tuple[Child, ...]:

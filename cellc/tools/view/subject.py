@@ -67,7 +67,7 @@ def read_subject(path: Path) -> Subject:
     """Read a generated folder, or check and compile a spec, also the `cell.yaml` of a folder.
 
     Raises:
-        ViewError: the folder is none that `cellc build` wrote, or not as it was written beyond what edits explain.
+        ViewError: `cellc build` did not write the folder, or it has changes that edits do not explain.
     """
     spec = path / SPEC_FILE
     if not path.exists():
@@ -133,8 +133,8 @@ def _of_description(path: Path, findings: Findings) -> Subject:
 def _of_errors(path: Path, findings: Findings, linked: Cell | None) -> Subject:
     from cellc.tools.view.partial import cell_as_far
 
-    found, wanted = cell_as_far(path)
-    return _linked(path, findings, linked or found, wanted, _stem(path, findings.texts.get(path.as_posix(), "")))
+    cell, wanted = cell_as_far(path)
+    return _linked(path, findings, linked or cell, wanted, _stem(path, findings.texts.get(path.as_posix(), "")))
 
 
 def _stem(path: Path, text: str) -> str:

@@ -97,16 +97,16 @@ def signals_section(cell: Cell) -> str:
 
 def _signals(cell: Cell) -> Iterator[tuple[str, ...]]:
     for device in cell.devices:
-        one = device.switched
-        if one is None:
+        switched = device.switched
+        if switched is None:
             continue
-        accepted = "" if one.accepted_by is None else f", accepted by {one.accepted_by}"
-        lost = "holds nothing" if one.holds is None else f"{one.power_lost}{accepted}"
-        for name, interface in one.outputs.items():
+        accepted = "" if switched.accepted_by is None else f", accepted by {switched.accepted_by}"
+        lost = "holds nothing" if switched.holds is None else f"{switched.power_lost}{accepted}"
+        for name, interface in switched.outputs.items():
             by = next((each for each in cell.controllers if interface in each.all_claims), None)
             client = "none" if by is None or by.client is None else by.client
             yield device.name, f"output {name}", code(interface), "none" if by is None else by.label, client, lost
-        for name, interface in one.inputs.items():
+        for name, interface in switched.inputs.items():
             by = next((each for each in cell.controllers if interface in each.state_interfaces), None)
             yield device.name, f"sensor {name}", code(interface), "none" if by is None else by.label, "read only", lost
 
@@ -140,8 +140,8 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 def _past_controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
     """Yield what moves a device without a controller; any node that the policy permits can call it."""
-    for device, one, does in past_controllers(cell):
-        path = f"no client in the cell → {code(one.name)} → {device.name} (real target)"
+    for device, offer, does in past_controllers(cell):
+        path = f"no client in the cell → {code(offer.name)} → {device.name} (real target)"
         typed, watched = "per message type", device.safety.watchdog or _NOT_STATED
         yield path, typed, typed, "on request", _NOT_STATED, typed, watched, f"{does}; needs no claim"
 

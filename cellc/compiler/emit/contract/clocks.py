@@ -15,13 +15,13 @@ _SIM = "sim"
 
 def clocks(cell: Cell) -> dict[str, ContractClock]:
     """Return every clock by the name of the host or device that it ticks in."""
-    found = {name: _clock(host.clock) for name, host in cell.hosts.items()}
+    clocks = {name: _clock(host.clock) for name, host in cell.hosts.items()}
     for device in cell.devices:
         if (clock := _own_clock(cell, device)) is not None:
-            found[_clock_name(cell, device)] = _clock(clock)
+            clocks[_clock_name(cell, device)] = _clock(clock)
     if any(node.clock == _SIM for node in cell.nodes):
-        found[_SIM] = ContractClock(domain=_SIM, simulated=True)
-    return found
+        clocks[_SIM] = ContractClock(domain=_SIM, simulated=True)
+    return clocks
 
 
 def clock_of(cell: Cell) -> dict[str, str]:

@@ -56,16 +56,16 @@ _PLAYED = (Moment.ACTIVATE, Moment.CLAIM, Moment.PROGRAM_START)
 
 def _effects(hardware: HardwareComponent | None) -> dict[Moment, ContractEffect]:
     """Return what the hardware does at the moments that the mock plays; a moment of nothing is left out."""
-    told = {} if hardware is None else hardware.effects
+    by_moment = {} if hardware is None else hardware.effects
     effects = {
         moment: ContractEffect(
-            motion=told[moment].motion,
-            lock=told[moment].lock,
-            needs=dict(told[moment].needs),
-            largest_step=told[moment].largest_step,
+            motion=by_moment[moment].motion,
+            lock=by_moment[moment].lock,
+            needs=dict(by_moment[moment].needs),
+            largest_step=by_moment[moment].largest_step,
         )
         for moment in _PLAYED
-        if moment in told
+        if moment in by_moment
     }
     return {moment: effect for moment, effect in effects.items() if effect != ContractEffect()}
 
@@ -115,17 +115,17 @@ def _camera(cell: Cell, device: Device) -> ContractCamera | None:
 
 
 def _switched(device: Device) -> ContractSwitched | None:
-    one = device.switched
-    if one is None:
+    switched = device.switched
+    if switched is None:
         return None
     return ContractSwitched(
-        states={name: dict(state.sensors) for name, state in one.states.items()},
-        starts=one.starts,
-        time_s=one.time_s,
-        within_s=one.within_s,
-        holds=one.holds,
-        outputs=dict(one.outputs),
-        inputs=dict(one.inputs),
+        states={name: dict(state.sensors) for name, state in switched.states.items()},
+        starts=switched.starts,
+        time_s=switched.time_s,
+        within_s=switched.within_s,
+        holds=switched.holds,
+        outputs=dict(switched.outputs),
+        inputs=dict(switched.inputs),
     )
 
 
@@ -170,12 +170,12 @@ def _adapter(device: Device, adapted: AdaptedDevice, start: dict[str, float]) ->
 
 def simulated_joints(cell: Cell) -> dict[str, ContractSimulatedJoint]:
     """Return what the spec adds to joints, by joint; what it says of one joint counts before what it says of all."""
-    found: dict[str, ContractSimulatedJoint] = {}
+    joints: dict[str, ContractSimulatedJoint] = {}
     for device in cell.devices:
         for joint in device.actuated_joints:
             if stated := device.simulated(joint.name):
-                found[joint.name] = _simulated(stated)
-    return found
+                joints[joint.name] = _simulated(stated)
+    return joints
 
 
 def _simulated(stated: Sequence[SimulatedJoint]) -> ContractSimulatedJoint:

@@ -28,8 +28,8 @@ from cellc.contract.transforms import Pose
 def calibrations(cell: Cell) -> dict[str, ContractCalibration]:
     """Return every calibration with its revision."""
     return {
-        name: ContractCalibration(revision=written.revision, owner=written.owner)
-        for name, written in cell.calibrations.items()
+        name: ContractCalibration(revision=calibration.revision, owner=calibration.owner)
+        for name, calibration in cell.calibrations.items()
     }
 
 

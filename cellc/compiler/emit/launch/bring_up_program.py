@@ -107,10 +107,10 @@ class Graph:
             self._join()
 
     def heard(self, topic: str, kind: str) -> Any:
-        if topic not in self._listened and (found := self._node.get_publishers_info_by_topic(topic)):
+        if topic not in self._listened and (publishers := self._node.get_publishers_info_by_topic(topic)):
             from rclpy.qos import DurabilityPolicy
 
-            latched = all(end.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for end in found)
+            latched = all(end.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for end in publishers)
             self._listen(topic, kind, latched, lambda message: self._heard.update({topic: message}))
         # A message without a publisher is outdated, even with the wanted value.
         return self._heard.get(topic) if self._node.count_publishers(topic) else None
@@ -365,7 +365,7 @@ def seconds(text: str) -> float:
 def main(arguments: Sequence[str]) -> int:
     """Run phases, run a program after its proof, or watch; return the exit status."""
     global MANIFEST, PATIENCE_S
-    own = [*takewhile(lambda word: word not in ("--", "--ros-args"), arguments)]
+    options = [*takewhile(lambda word: word not in ("--", "--ros-args"), arguments)]
     command = [*arguments[arguments.index("--") + 1 :]] if "--" in arguments else []
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
@@ -375,7 +375,7 @@ def main(arguments: Sequence[str]) -> int:
     stated = os.environ.get("CELL_WAIT_S") or "0"
     parser.add_argument("--wait", type=seconds, default=stated, help="seconds that replace all deadlines (CELL_WAIT_S)")
     parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
-    read = parser.parse_args(own)
+    read = parser.parse_args(options)
     PATIENCE_S, MANIFEST = read.wait or PATIENCE_S, read.plan.parent.parent / "manifest.json"
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
     hosts = (read.host, "") if read.host else {step.host for step in getattr(plan, read.target)}

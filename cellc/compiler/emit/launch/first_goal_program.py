@@ -145,8 +145,8 @@ def arguments_of(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--absent", action="append", default=[], help="node that may not run")
     parser.add_argument("--then", choices=("end", "cancel"), default="end")
     parser.add_argument("joints", nargs="+", help="all joints of the controller")
-    own = [*words[: words.index("--ros-args")]] if "--ros-args" in words else [*words]
-    return parser.parse_args(own)
+    options = [*words[: words.index("--ros-args")]] if "--ros-args" in words else [*words]
+    return parser.parse_args(options)
 
 
 def main(words: Sequence[str]) -> int:

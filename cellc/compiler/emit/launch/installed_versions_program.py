@@ -48,8 +48,8 @@ def share_of(package: str) -> Path | None:
 def version_of(package: str) -> str:
     folder = share_of(package)
     text = "" if folder is None else (folder / "package.xml").read_text(encoding="utf-8")
-    found = re.search(r"<version[^>]*>\s*([^<\s]+)", re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL))
-    return found[1] if found else NOTHING
+    version = re.search(r"<version[^>]*>\s*([^<\s]+)", re.sub(r"<!--.*?-->", "", text, flags=re.DOTALL))
+    return version[1] if version else NOTHING
 
 
 def commit_of(package: str) -> str:
@@ -82,19 +82,19 @@ def compared(part: str, pinned: str) -> tuple[str, bool]:
     package = PACKAGES.get(part) or pinned.split()[0]
     chosen = os.environ.get("RMW_IMPLEMENTATION", NOTHING)
     if COMMIT.fullmatch(version) and share_of(package) is not None:
-        found = commit_of(package)
-        if not found:
+        installed = commit_of(package)
+        if not installed:
             return (
                 f"{part} must be {pinned}: cannot be checked, no source of {package} is beside its installation",
                 False,
             )
-        same = found.startswith(version)
+        same = installed.startswith(version)
     elif part == "rmw" and chosen != package:
-        found, same = f"{chosen} in RMW_IMPLEMENTATION", False
+        installed, same = f"{chosen} in RMW_IMPLEMENTATION", False
     else:
-        found = found_of_system(part) if part in OF_SYSTEM else version_of(package)
-        same = found in (pinned, version)
-    return ("", False) if same else (f"{part} must be {pinned}, is {found}", True)
+        installed = found_of_system(part) if part in OF_SYSTEM else version_of(package)
+        same = installed in (pinned, version)
+    return ("", False) if same else (f"{part} must be {pinned}, is {installed}", True)
 
 
 def accepted(differing: Sequence[str]) -> str:

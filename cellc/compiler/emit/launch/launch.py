@@ -139,14 +139,14 @@ def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
     """Yield the first goal of the real target, behind the proof of everything that may ask for motion."""
     yield _gate_argument(GOAL)
     yield _argument("then", "end", "Wait for the end of the goal, or cancel it half way.", "end", "cancel")
-    told = (
+    arguments = (
         f"--by={decimal(goal.delta)}",
         f"--seconds={decimal(goal.duration_s)}",
         f"--timeout={decimal(goal.timeout_s)}",
     )
     named = ("--action", goal.action, "--states", goal.topic, "--joint", goal.joint)
     absent = (f"--absent={node}" for node in goal.absent)
-    words = launch_words(*named, *told, *absent, *goal.joints)
+    words = launch_words(*named, *arguments, *absent, *goal.joints)
     yield comment("one small motion of one joint from its current position; no motion client may run")
     yield element(
         "node",
@@ -199,7 +199,11 @@ def _address_arguments(cell: Cell) -> Iterator[Element]:
 def addresses(cell: Cell) -> dict[str, str]:
     """Return the argument of each device with an address."""
     connections = ((device.name, device.connection) for device in cell.devices)
-    return {f"{name}_address": one.address for name, one in connections if one is not None and one.address is not None}
+    return {
+        f"{name}_address": connection.address
+        for name, connection in connections
+        if connection is not None and connection.address is not None
+    }
 
 
 def _argument(name: str, default: str | None, description: str, *choices: str) -> Element:

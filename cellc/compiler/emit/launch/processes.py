@@ -166,8 +166,8 @@ def _description(cell: Cell) -> Element:
 
 def control(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
     """Yield the processes of one update loop: one for its description where it has its own, and the loop."""
-    own = (node for node in cell.nodes if node.name == DESCRIPTION_PUBLISHER and node.path == manager.path)
-    yield from (_description_publisher(cell, manager, node) for node in own)
+    publishers = (node for node in cell.nodes if node.name == DESCRIPTION_PUBLISHER and node.path == manager.path)
+    yield from (_description_publisher(cell, manager, node) for node in publishers)
     yield _manager(cell, manager)
 
 

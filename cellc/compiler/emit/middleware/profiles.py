@@ -61,14 +61,14 @@ def bindings(graph: CellGraph) -> tuple[Binding, ...]:
     network = graph.cell.network
     remote = network.discovery in ("multicast", "unicast", "server")
     servers = _servers(graph) if network.discovery == "server" else ()
-    found: list[Binding] = []
+    bindings: list[Binding] = []
     for host in graph.cell.hosts:
-        own = _cards(graph, host) if remote else ()
+        cards = _cards(graph, host) if remote else ()
         others = [address for other in graph.cell.hosts if other != host for address in _cards(graph, other)]
         peers = (*others, *network.peers) if network.discovery == "unicast" else ()
         runs = tuple(number for number, server in enumerate(network.servers) if server.host == host) if servers else ()
-        found.append(Binding(host, (_LOOPBACK, *own), tuple(dict.fromkeys(peers)), servers, runs))
-    return tuple(found)
+        bindings.append(Binding(host, (_LOOPBACK, *cards), tuple(dict.fromkeys(peers)), servers, runs))
+    return tuple(bindings)
 
 
 def origins(binding: Binding) -> tuple[str, ...]:

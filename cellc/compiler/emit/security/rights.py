@@ -314,6 +314,6 @@ def _served(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
     nodes = [(node.full_name, node.endpoints) for node in cell.nodes_of.get(device.name, ())]
     if device.hardware is not None:
         nodes += [(node.full_name, node.endpoints) for node in device.hardware.nodes]
-    for node, own in nodes:
-        yield from ((InterfaceKind.SERVICE, name.replace("~", node, 1)) for name in own.serves)
-        yield from ((InterfaceKind.ACTION, name.replace("~", node, 1)) for name in own.executes)
+    for node, endpoints in nodes:
+        yield from ((InterfaceKind.SERVICE, name.replace("~", node, 1)) for name in endpoints.serves)
+        yield from ((InterfaceKind.ACTION, name.replace("~", node, 1)) for name in endpoints.executes)

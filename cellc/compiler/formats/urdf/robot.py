@@ -99,8 +99,8 @@ def _held(name: str, placed: Frame | SceneBox) -> Element:
 
 
 def _calibration(cell: Cell, frame: Frame) -> str:
-    written = cell.calibrations.get(frame.calibration) if frame.calibration else None
-    return f": calibration {frame.calibration}, revision {written.revision}" if written else ""
+    calibration = cell.calibrations.get(frame.calibration) if frame.calibration else None
+    return f": calibration {frame.calibration}, revision {calibration.revision}" if calibration else ""
 
 
 def _off_the_tree(cell: Cell) -> frozenset[str]:

@@ -49,8 +49,8 @@ def first_motion_too_large(graph: CellGraph) -> Findings:
             path = ("bringup", "first_motion", field)
             largest = "50 mm" if value.linear else "15 deg"
             per = " per second" if field == "velocity" else ""
-            allowed, written = f"{largest}{per}", graph.cell.text(*path)
-            message = f"`{field}` of the first motion must be at most {allowed}, got {written}"
+            allowed, stated = f"{largest}{per}", graph.cell.text(*path)
+            message = f"`{field}` of the first motion must be at most {allowed}, got {stated}"
             yield found(graph, path, message, f"write at most {largest}{per}")
 
 

@@ -39,10 +39,10 @@ def secret_in_spec(graph: CellGraph) -> Findings:
                 path = (*node.path, "parameters", name)
                 message = f"parameter `{name}` of `{node.name}` holds a secret"
                 yield found(graph, path, message)
-    for written in written_parameters(graph.cell):
-        if written.value and isinstance(written.value, str) and _SECRET.search(written.name):
-            message = f"parameter `{written.name}` of `{written.controller.name}` holds a secret"
-            yield found(graph, written.path, message)
+    for parameter in written_parameters(graph.cell):
+        if parameter.value and isinstance(parameter.value, str) and _SECRET.search(parameter.name):
+            message = f"parameter `{parameter.name}` of `{parameter.controller.name}` holds a secret"
+            yield found(graph, parameter.path, message)
 
 
 @rule(Severity.ERROR, assumes=("second-action-server",))

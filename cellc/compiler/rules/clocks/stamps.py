@@ -67,7 +67,7 @@ def _stated(node: Node) -> tuple[str | None, YamlPath]:
 
 def _other_clock(graph: CellGraph, who: str, clock: str | None, path: YamlPath) -> Findings:
     targets = {name: target.clock for name, target in graph.cell.targets.items()}
-    other = next((name for name, own in targets.items() if clock not in (None, own)), None)
+    other = next((name for name, target_clock in targets.items() if clock not in (None, target_clock)), None)
     if other is not None:
         yield found(graph, path, f"{who} runs on {clock} time, but target `{other}` on {targets[other]} time")
 

@@ -70,10 +70,10 @@ def _crossings(graph: CellGraph) -> Iterator[_Crossing]:
         ends = ((source, sink) for source in interface.sources for sink in interface.sinks)
         for source, sink in ends if interface.max_age_s is not None else ():
             pair = [hosts.get(running.get(end.full_name, "")) for end in (source, sink)]
-            one, other = pair
-            if one is None or other is None or one.name == other.name:
+            first, other = pair
+            if first is None or other is None or first.name == other.name:
                 continue
-            worse, better = sorted((one, other), key=lambda host: -(host.clock.max_offset_s or 0.0))
+            worse, better = sorted((first, other), key=lambda host: -(host.clock.max_offset_s or 0.0))
             yield _Crossing(worse, better, interface, interface.max_age_s or 0.0)
 
 

@@ -117,8 +117,8 @@ def speed_of_some_positions(graph: CellGraph) -> Findings:
                 f"`{joint.name}` must have at most {joint.velocity_everywhere:g} rad/s, which it has in every position,"
             )
             message += f" got {joint.velocity:.3g} rad/s"
-            written = device.limit_shares.velocity
-            advice = f"write at most {written / most * 100:.0f} %"
+            share = device.limit_shares.velocity
+            advice = f"write at most {share / most * 100:.0f} %"
             yield found(graph, path, message, advice, described(graph, [joint.name]))
 
 

@@ -114,12 +114,16 @@ def unwatched_claim(graph: CellGraph) -> Findings:
             kinds = [item.controller_kind for item in hardware.heard_before_a_claim]
             if any((kind, name) in telling for kind in kinds):
                 continue
-            owners = {number: one for joint in device.joints for number, one in claiming.get(joint.name, {}).items()}
+            owners = {
+                number: controller
+                for joint in device.joints
+                for number, controller in claiming.get(joint.name, {}).items()
+            }
             advice = (
                 f"add a controller of `type: {kinds[0]}` with `device: {name}`"
                 if kinds
                 else f"say under `told` of the `device.yaml` of `{name}` which topic reports whether its program runs"
             )
-            for _, one in sorted(owners.items(), key=itemgetter(0)):
-                message = f"`{name}` keeps the set points of `{one.name}` when its program stops, unreported"
-                yield found(graph, one.path, message, advice)
+            for _, controller in sorted(owners.items(), key=itemgetter(0)):
+                message = f"`{name}` keeps the set points of `{controller.name}` when its program stops, unreported"
+                yield found(graph, controller.path, message, advice)

@@ -51,16 +51,16 @@ def missing_controller_parameter(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def parameter_out_of_range(graph: CellGraph) -> Findings:
     """Yield numbers below or above what the declaration allows, items of lists too, and texts that it does not list."""
-    for written in written_parameters(graph.cell):
-        kind = written.controller.declared
-        facts = None if kind is None else kind.parameter(written.name, graph.cell.distro)
+    for parameter in written_parameters(graph.cell):
+        kind = parameter.controller.declared
+        facts = None if kind is None else kind.parameter(parameter.name, graph.cell.distro)
         if facts is None:
             continue
-        subject = f"`{written.name}` of `{written.controller.name}`"
-        if facts.not_empty and written.value in ("", ()):
-            yield found(graph, written.path, f"{subject} must not be empty")
+        subject = f"`{parameter.name}` of `{parameter.controller.name}`"
+        if facts.not_empty and parameter.value in ("", ()):
+            yield found(graph, parameter.path, f"{subject} must not be empty")
         seen: list[ParameterValue] = []
-        for path, item in written.items():
+        for path, item in parameter.items():
             reason = _out_of_range(facts, item) or ("must not repeat an item" if facts.unique and item in seen else "")
             seen.append(item)
             if reason:
@@ -155,14 +155,14 @@ def trajectory_without_gains(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def unknown_controller_parameter(graph: CellGraph) -> Findings:
     """Yield parameters of the spec that the kind of the controller does not declare for the distribution."""
-    for written in written_parameters(graph.cell):
-        kind = written.controller.declared
+    for parameter in written_parameters(graph.cell):
+        kind = parameter.controller.declared
         if kind is None:
             continue
-        here = {*kind.parameters_in(graph.cell.distro), *written.controller.plugin_parameters}
-        if not any(is_named(declared, written.name) for declared in here):
-            message = f"`{written.controller.kind}` has no parameter `{written.name}` in {graph.cell.distro}"
-            yield found(graph, written.path, message, did_you_mean(written.name, here, "parameters"))
+        here = {*kind.parameters_in(graph.cell.distro), *parameter.controller.plugin_parameters}
+        if not any(is_named(declared, parameter.name) for declared in here):
+            message = f"`{parameter.controller.kind}` has no parameter `{parameter.name}` in {graph.cell.distro}"
+            yield found(graph, parameter.path, message, did_you_mean(parameter.name, here, "parameters"))
 
 
 _TYPES: dict[str, type] = {"bool": bool, "int": int, "double": float, "string": str}
@@ -172,18 +172,20 @@ _ARRAY = "_array"
 @rule(Severity.ERROR)
 def wrong_parameter_type(graph: CellGraph) -> Findings:
     """Yield parameters of the spec whose value has another type than the declared one."""
-    for written in written_parameters(graph.cell):
-        kind, value = written.controller.declared, written.value
-        facts = None if kind is None else kind.parameter(written.name, graph.cell.distro)
+    for parameter in written_parameters(graph.cell):
+        kind, value = parameter.controller.declared, parameter.value
+        facts = None if kind is None else kind.parameter(parameter.name, graph.cell.distro)
         expected = "none" if facts is None else facts.type
         item_type = _TYPES.get(expected.removesuffix(_ARRAY))
         is_list = isinstance(value, tuple)
         if item_type is None or (
-            is_list == expected.endswith(_ARRAY) and all(type(item) is item_type for _, item in written.items())
+            is_list == expected.endswith(_ARRAY) and all(type(item) is item_type for _, item in parameter.items())
         ):
             continue
-        message = f"`{written.name}` of `{written.controller.name}` must be of type {expected}, got `{_shown(value)}`"
-        yield found(graph, written.path, message, f"write {_corrected(value, expected)}")
+        message = (
+            f"`{parameter.name}` of `{parameter.controller.name}` must be of type {expected}, got `{_shown(value)}`"
+        )
+        yield found(graph, parameter.path, message, f"write {_corrected(value, expected)}")
 
 
 def _corrected(value: ParameterValue, expected: str) -> str:

@@ -87,10 +87,10 @@ def negative_tolerance(graph: CellGraph) -> Findings:
         least: dict[YamlPath, float] = {
             (key,): min(figure.value for figure in figures.values()) for key, figures in stated(controller) if figures
         }
-        for name, written in controller.written_parameters.items():
+        for name, value in controller.written_parameters.items():
             watched = "tolerance" in name or name.startswith("constraints.")
-            if watched and isinstance(written, int | float):
-                least["parameters", name] = written
+            if watched and isinstance(value, int | float):
+                least["parameters", name] = value
         for at, value in least.items():
             if value < 0:
                 path = (*controller.path, *at)
@@ -110,13 +110,17 @@ def path_tolerance_without_effect(graph: CellGraph) -> Findings:
         if controller.behavior not in TRAJECTORIES or controller.path_tolerance is None:
             continue
         bounds = _bounds(joints, controller)
-        wide = [(bounds[name], name) for name, one in controller.path_tolerance.items() if one.value > bounds[name]]
+        wide = [
+            (bounds[name], name)
+            for name, tolerance in controller.path_tolerance.items()
+            if tolerance.value > bounds[name]
+        ]
         if wide:
             widest, joint = min(wide)
             path = (*controller.path, "path_tolerance")
-            written = graph.cell.text(*path) or f"{controller.path_tolerance[joint].value:g}"
+            text = graph.cell.text(*path) or f"{controller.path_tolerance[joint].value:g}"
             message = f"`path_tolerance` of `{controller.name}` must be at most {widest:.3g} rad or m, half of"
-            message += f" what `{joint}` moves or 1 rad, got {written}"
+            message += f" what `{joint}` moves or 1 rad, got {text}"
             yield found(graph, path, message, related=described(graph, [joint]))
 
 
@@ -153,6 +157,6 @@ def _unmet(speeds: Mapping[str, float], controller: Controller, rate_hz: float) 
     for key, figures in stated(controller):
         bounds = {joint: speeds.get(joint, 0.0) / rate_hz if rate_hz else 0.0 for joint in figures or {}}
         bounds = bounds if key == "path_tolerance" else dict.fromkeys(bounds, _HELD)
-        missed = [bounds[joint] for joint, one in (figures or {}).items() if 0.0 < one.value < bounds[joint]]
+        missed = [bounds[joint] for joint, figure in (figures or {}).items() if 0.0 < figure.value < bounds[joint]]
         if missed:
             yield key, max(missed), "one update at full speed" if key == "path_tolerance" else "what arms repeat"

@@ -141,8 +141,8 @@ def object_under_another_camera(graph: CellGraph) -> Findings:
     cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
     owners = {frame: name for name, device in cameras.items() for frame in device.frames.values()}
     for frame in graph.cell.frames:
-        own = owners.get(frame.parent)
-        if frame.kind is not FrameKind.DYNAMIC or own is None:
+        camera = owners.get(frame.parent)
+        if frame.kind is not FrameKind.DYNAMIC or camera is None:
             continue
         heard = {
             source.node: interface
@@ -151,16 +151,18 @@ def object_under_another_camera(graph: CellGraph) -> Findings:
             for source in interface.sources
             if source.node in cameras
         }
-        if heard and own not in heard:
+        if heard and camera not in heard:
             other, interface = next(iter(heard.items()))
             message = (
-                f"`{frame.name}` is attached to `{own}`, but its publisher `{frame.authority}` reads `{other}` alone"
+                f"`{frame.name}` is attached to `{camera}`, but its publisher `{frame.authority}` reads `{other}` alone"
             )
             missed = (
-                interface for interface in graph.cell.interfaces if own in {source.node for source in interface.sources}
+                interface
+                for interface in graph.cell.interfaces
+                if camera in {source.node for source in interface.sources}
             )
-            readers = [(interface, "its images"), *((interface, f"the images of `{own}`") for interface in missed)]
-            related = tuple(Related(label, graph.cell.locate(*one.path, "to")) for one, label in readers)
+            readers = [(interface, "its images"), *((interface, f"the images of `{camera}`") for interface in missed)]
+            related = tuple(Related(label, graph.cell.locate(*interface.path, "to")) for interface, label in readers)
             yield found(graph, (*frame.path, "parent"), message, related=related)
 
 

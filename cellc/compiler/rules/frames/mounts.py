@@ -71,10 +71,10 @@ def mounted_inside_another(graph: CellGraph) -> Findings:
     owners = {link.name: device for device in graph.cell.devices for link in device.description.links}
     reported: set[tuple[str, str]] = set()
     for contact in motion_answer(graph).rigid:
-        one, other = owners.get(contact.first), owners.get(contact.second)
-        if one is None or other is None or one is other:
+        first, other = owners.get(contact.first), owners.get(contact.second)
+        if first is None or other is None or first is other:
             continue
-        wrong, right = sorted((one, other), key=lambda device: _doubt(graph, device))
+        wrong, right = sorted((first, other), key=lambda device: _doubt(graph, device))
         if (wrong.name, right.name) in reported:
             continue
         reported.add((wrong.name, right.name))

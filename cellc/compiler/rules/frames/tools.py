@@ -102,8 +102,8 @@ def tip_within_tool(graph: CellGraph) -> Findings:
 
 def _nearest(graph: CellGraph, group: str, within_m: float) -> CartesianGoal | None:
     """Return the first goal of a group that brings its tip nearer to the goal's frame than a distance."""
-    own = (goal for goal in graph.cell.goals if goal.group == group)
-    return next((goal for goal in own if math.hypot(*goal.transform_tip_to_frame.position) < within_m), None)
+    goals = (goal for goal in graph.cell.goals if goal.group == group)
+    return next((goal for goal in goals if math.hypot(*goal.transform_tip_to_frame.position) < within_m), None)
 
 
 def _links(device: Device) -> set[str]:

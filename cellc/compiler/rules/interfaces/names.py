@@ -73,5 +73,5 @@ def _file_names(graph: CellGraph) -> Iterator[tuple[str, YamlPath]]:
     named = {(device.name, device.path) for device in cell.devices}
     named |= {(manager.name, manager.path) for manager in cell.managers}
     # The file of a node begins with the first part of its full name; that of a device's node is often the device.
-    own = {(node.full_name.split("/")[1], node.path) for node in cell.nodes}
-    yield from sorted(named | own, key=str)
+    names = {(node.full_name.split("/")[1], node.path) for node in cell.nodes}
+    yield from sorted(named | names, key=str)

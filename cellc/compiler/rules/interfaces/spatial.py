@@ -96,11 +96,11 @@ def pose_apart_from_its_frame(graph: CellGraph) -> Findings:
     dynamic = [frame for frame in graph.cell.frames if frame.kind is FrameKind.DYNAMIC]
     for interface in topics:
         names = _names(interface)
-        own = [item for item in dynamic if item.authority in names]
+        frames = [item for item in dynamic if item.authority in names]
         published = set[str | None]().union(*(published_by[name] for name in names))
-        if own and published.isdisjoint({name for frame in own for name in (frame.name, frame.parent)}):
-            message = f"`{interface.name}` must be in `{own[0].parent}`, in which its node has `{own[0].name}`,"
-            related = (Related("the frame of the object", own[0].span),)
+        if frames and published.isdisjoint({name for frame in frames for name in (frame.name, frame.parent)}):
+            message = f"`{interface.name}` must be in `{frames[0].parent}`, in which its node has `{frames[0].name}`,"
+            related = (Related("the frame of the object", frames[0].span),)
             yield found(graph, (*interface.path, "frame"), f"{message} got `{interface.frame}`", related=related)
 
 

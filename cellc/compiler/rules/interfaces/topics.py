@@ -22,8 +22,8 @@ Bounded = tuple[YamlPath, float | None, float, float]
 def impossible_simulation(graph: CellGraph) -> Findings:
     """Yield simulated figures outside their range."""
     cell = graph.cell
-    for path, written, least, greatest in (*_clocks(cell), *_networks(cell), *_adapters(cell), *_joints(cell)):
-        if written is not None and not least <= written <= greatest:
+    for path, value, least, greatest in (*_clocks(cell), *_networks(cell), *_adapters(cell), *_joints(cell)):
+        if value is not None and not least <= value <= greatest:
             message = f"`{path[-1]}` must be {_range(least, greatest)}, got `{cell.text(*path)}`"
             yield found(graph, path, message)
     yield from _other_units(graph)
@@ -80,10 +80,10 @@ def _other_units(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         for figures in device.simulated_joints:
             joints = [device.joint(name) for name in figures.joints]
-            for field, written in (("noise", figures.noise), ("velocity", figures.velocity)):
-                linear = written is not None and written.linear
+            for field, figure in (("noise", figures.noise), ("velocity", figures.velocity)):
+                linear = figure is not None and figure.linear
                 other = next((joint for joint in joints if (joint.type == "prismatic") != linear), None)
-                if written is not None and other is not None:
+                if figure is not None and other is not None:
                     path = (*figures.path, field)
                     message = f"`{field}` is `{graph.cell.text(*path)}`, but `{other.name}` is {other.type}"
                     yield found(graph, path, message, "write a length where a joint slides, else an angle")

@@ -24,11 +24,13 @@ _TURN_RAD = math.radians(2.0)
 def implausible_kinematics(graph: CellGraph) -> Findings:
     """Yield devices with a joint that is far from where its type has it."""
     for device in graph.cell.devices:
-        one = None if device.kinematics is None else device.kinematics.calibration
-        if one is not None and (one.offset_m > _OFFSET_M or one.turn_rad > _TURN_RAD):
-            differs = f"{one.offset_m * 1000.0:.0f} mm and {math.degrees(one.turn_rad):.1f} deg"
+        calibration = None if device.kinematics is None else device.kinematics.calibration
+        if calibration is not None and (calibration.offset_m > _OFFSET_M or calibration.turn_rad > _TURN_RAD):
+            differs = f"{calibration.offset_m * 1000.0:.0f} mm and {math.degrees(calibration.turn_rad):.1f} deg"
             allowed = f"{_OFFSET_M * 1000.0:.0f} mm and {math.degrees(_TURN_RAD):.0f} deg"
-            message = f"`{one.name}` must lie within {allowed} of the type `{device.model}`, differs by {differs}"
+            message = (
+                f"`{calibration.name}` must lie within {allowed} of the type `{device.model}`, differs by {differs}"
+            )
             yield found(graph, (*device.path, "calibration", "file"), message)
 
 
@@ -38,8 +40,8 @@ def nominal_kinematics(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         kinematics = device.kinematics
         if kinematics is not None:
-            one = kinematics.calibration
-            problems = _nominal(device, kinematics) if one is None else _unvouched(one, kinematics)
+            calibration = kinematics.calibration
+            problems = _nominal(device, kinematics) if calibration is None else _unvouched(calibration, kinematics)
             for field, message in problems:
                 yield found(graph, (*device.path, "calibration", *field), message)
 
@@ -64,9 +66,9 @@ def skipped_command_limit(graph: CellGraph) -> Findings:
         path = (*device.path, "model")
         for part in (part for component in device.description.hardware for part in component.joints):
             for interface in part.command_interfaces:
-                written = {"min": interface.minimum, "max": interface.maximum}
+                limits = {"min": interface.minimum, "max": interface.maximum}
                 texts = [
-                    f"`{key}` is `{text[:40]}`" for key, text in written.items() if text and as_number(text) is None
+                    f"`{key}` is `{text[:40]}`" for key, text in limits.items() if text and as_number(text) is None
                 ]
                 if texts:
                     message = (

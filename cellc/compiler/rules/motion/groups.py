@@ -102,7 +102,7 @@ def _figures(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
             yield from ((pose.path, name, linear) for name, linear in zip(pose.joints, pose.linear, strict=True))
     for controller in cell.controllers:
         for key, figures in stated(controller):
-            yield from (((*controller.path, key), name, one.linear) for name, one in (figures or {}).items())
+            yield from (((*controller.path, key), name, figure.linear) for name, figure in (figures or {}).items())
     for device in cell.devices:
         if device.adapter is not None and device.adapter.path_tolerance is not None:
             at: YamlPath = (*device.path, "adapter", "path_tolerance")

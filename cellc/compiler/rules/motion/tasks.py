@@ -190,7 +190,7 @@ def _other_camera(graph: CellGraph, rehearsal: Rehearsal) -> Findings:
     """Yield the only fault where it freezes a camera, and all that is detected is seen by others."""
     frames = {device.name: set(device.frames.values()) for device in graph.cell.devices if device.camera is not None}
     seen = [graph.frames.get(step.name) for step in rehearsal.steps if step.kind == "detect"]
-    used = {name for name, own in frames.items() for frame in seen if frame is not None and frame.parent in own}
+    used = {name for name, cameras in frames.items() for frame in seen if frame is not None and frame.parent in cameras}
     fault = rehearsal.faults[0]
     alone = len(rehearsal.faults) == 1 and fault.kind == "freeze" and fault.name in frames
     if alone and used and fault.name not in used:
@@ -201,11 +201,15 @@ def _other_camera(graph: CellGraph, rehearsal: Rehearsal) -> Findings:
 @rule(Severity.ERROR)
 def unread_sensor(graph: CellGraph) -> Findings:
     """Yield the first move of each rehearsal that comes before the sensor of a device is read."""
-    sensed = {device.name: one for device in graph.cell.devices if (one := device.switched) is not None and one.inputs}
+    sensed = {
+        device.name: switched
+        for device in graph.cell.devices
+        if (switched := device.switched) is not None and switched.inputs
+    }
     reported: set[tuple[YamlPath, str]] = set()
     for rehearsal in graph.cell.rehearsals:
         # What no output switches may be in any state at first; the others are where their outputs have them.
-        unread = {name: "" for name, one in sensed.items() if not one.signals}
+        unread = {name: "" for name, switched in sensed.items() if not switched.signals}
         for step in rehearsal.steps:
             if step.kind == "set" and step.name in sensed and step.state in sensed[step.name].distinct_states:
                 unread[step.name] = step.state or ""

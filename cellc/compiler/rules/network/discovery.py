@@ -123,14 +123,14 @@ def ros_cards_apart(graph: CellGraph) -> Findings:
         if "ros" in nic.carries and nic.interface is not None:
             cards.setdefault(nic.host, []).append(nic)
     seen: list[Nic] = []
-    for host, own in cards.items():
-        if seen and not any(_meet(nic, other) for nic in own for other in seen):
+    for host, nics in cards.items():
+        if seen and not any(_meet(nic, other) for nic in nics for other in seen):
             other = seen[0]
-            message = f"`{own[0].full_name}` must share a subnet with `{other.full_name}`, `{other.text}`,"
-            message += f" got `{own[0].text}`"
+            message = f"`{nics[0].full_name}` must share a subnet with `{other.full_name}`, `{other.text}`,"
+            message += f" got `{nics[0].text}`"
             related = (Related("the other card", graph.cell.locate(*other.path, "address")),)
-            yield found(graph, ("hosts", host, "nics", own[0].name, "address"), message, related=related)
-        seen += own
+            yield found(graph, ("hosts", host, "nics", nics[0].name, "address"), message, related=related)
+        seen += nics
 
 
 def _meet(one: Nic, other: Nic) -> bool:

@@ -41,7 +41,7 @@ def images_beyond_link(graph: CellGraph) -> Findings:
         message = f"the images on `{name}` must take at most {speed_bps * _SHARE / 1e6:g} Mbit/s of {link}"
         message += f" {speed_bps / 1e6:g} Mbit/s, got {total_bps / 1e6:.0f} Mbit/s"
         topics = {interface.name: interface for _, interface, _ in carried}
-        related = tuple(Related(f"`{topic}` goes over it", one.span) for topic, one in topics.items())
+        related = tuple(Related(f"`{topic}` goes over it", interface.span) for topic, interface in topics.items())
         yield found(graph, (*nic.path, "speed"), message, related=related)
 
 

@@ -117,8 +117,8 @@ def _refused_modes(cell: Cell, state: ControlState) -> Iterator[tuple[Controller
         ours = {label for owner in (*joints, *modes.names) for label in claiming.get(owner, ())}
         active = [state.active[number] for number in sorted(order[label] for label in ours)]
         taken = [(controller, modes.of(controller.claims("real"), joints)) for controller in active]
-        for (first, own), (second, others) in combinations(taken, 2):
-            refused = ((a, b) for a in sorted(own) for b in sorted(others) if not modes.allow(a, b))
+        for (first, first_modes), (second, others) in combinations(taken, 2):
+            refused = ((a, b) for a in sorted(first_modes) for b in sorted(others) if not modes.allow(a, b))
             if (pair := next(refused, None)) is not None:
                 yield first, second, device.name, f"`{pair[0]}` or `{pair[1]}`"
 
@@ -162,6 +162,6 @@ def unprovided_command_interface(graph: CellGraph) -> Findings:
             more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
             message = f"`{controller.name}` claims `{missing[0]}`{more}, which no hardware provides"
             joint = missing[0].rpartition("/")[0]
-            own = [name for name in provided if name.startswith(f"{joint}/")]
+            interfaces = [name for name in provided if name.startswith(f"{joint}/")]
             path = (*controller.path, "command_interfaces")
-            yield found(graph, path, message, did_you_mean(missing[0], own, f"command interfaces of `{joint}`"))
+            yield found(graph, path, message, did_you_mean(missing[0], interfaces, f"command interfaces of `{joint}`"))

@@ -15,8 +15,8 @@ from cellc.contract.vocabulary import UNKNOWN
 @rule(Severity.BLOCKER)
 def missing_approval(graph: CellGraph) -> Findings:
     """Yield the approval areas without an owner; those that the spec does not mention in one finding."""
-    written, others = _open(graph, "approval")
-    for item in written:
+    stated, others = _open(graph, "approval")
+    for item in stated:
         yield found(graph, item.path, f"no owner approves `{item.name}`")
     if others:
         yield found(graph, ("owners", "approvals"), f"no owner approves {others}")
@@ -25,8 +25,8 @@ def missing_approval(graph: CellGraph) -> Findings:
 @rule(Severity.BLOCKER)
 def missing_responsibility(graph: CellGraph) -> Findings:
     """Yield the responsibilities without an owner; those that the spec does not mention in one finding."""
-    written, others = _open(graph, "responsibility")
-    for item in written:
+    stated, others = _open(graph, "responsibility")
+    for item in stated:
         yield found(graph, item.path, f"`{item.name}` has no owner")
     if others:
         yield found(graph, ("owners", "responsibilities"), f"no owner for {others}")
@@ -35,8 +35,8 @@ def missing_responsibility(graph: CellGraph) -> Findings:
 def _open(graph: CellGraph, kind: str) -> tuple[list[Responsibility], str]:
     """Return what the spec mentions and no owner has, and the names of what it does not mention."""
     items = [item for item in graph.responsibilities.of_kind(kind) if item.open]
-    written = [item for item in items if graph.cell.states(*item.path)]
-    return written, ", ".join(f"`{item.name}`" for item in items if item not in written)
+    stated = [item for item in items if graph.cell.states(*item.path)]
+    return stated, ", ".join(f"`{item.name}`" for item in items if item not in stated)
 
 
 _ALIKE = 0.8

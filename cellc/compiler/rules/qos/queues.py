@@ -86,10 +86,12 @@ def queue_older_than_max_age(graph: CellGraph) -> Findings:
             stated = [(other.max_age_s, other) for other in bounds if other.max_age_s is not None]
             if not stated or end.qos.history == "keep_all" or _is_a_backlog(topic, end):
                 continue
-            if topic.wants == "every_sample" and not any((one.rate_hz or 0.0) < topic.rate_hz for one, _ in passed):
+            if topic.wants == "every_sample" and not any(
+                (passing.rate_hz or 0.0) < topic.rate_hz for passing, _ in passed
+            ):
                 continue
             oldest_s = end.qos.depth / topic.rate_hz
-            max_age_s, bound = min(stated, key=lambda one: one[0])
+            max_age_s, bound = min(stated, key=lambda passing: passing[0])
             if oldest_s > max_age_s * _ROUNDING:
                 message = (
                     f"`{end.node}` queues {end.qos.depth} samples of `{topic.name}` at {topic.rate_hz:g} Hz: "

@@ -12,11 +12,16 @@ from cellc.contract.vocabulary import UNKNOWN, Moment
 def drop_at_power_loss(graph: CellGraph) -> Findings:
     """Yield devices that hold something, may lose it without power, and name no person who accepts that."""
     for device in graph.cell.devices:
-        one = device.switched
-        if one is None or one.holds is None or one.power_lost == "holds" or one.accepted_by not in (None, UNKNOWN):
+        switched = device.switched
+        if (
+            switched is None
+            or switched.holds is None
+            or switched.power_lost == "holds"
+            or switched.accepted_by not in (None, UNKNOWN)
+        ):
             continue
         unknown = f"it is not stated whether `{device.name}` holds its load when power is lost"
-        message = unknown if one.power_lost == UNKNOWN else f"`{device.name}` drops its load when power is lost"
+        message = unknown if switched.power_lost == UNKNOWN else f"`{device.name}` drops its load when power is lost"
         yield found(graph, (*device.path, "switching", "power_lost"), message)
 
 

@@ -20,12 +20,12 @@ def removed_gate(graph: CellGraph) -> Findings:
     """Yield each ladder of gates that is not complete and in order."""
     gates = graph.cell.bringup.gates
     for ladder in (PROMOTION_GATES, NETWORK_GATES):
-        written = [gate for gate in gates if gate in ladder]
-        missing = [gate for gate in ladder if gate not in written]
+        stated = [gate for gate in gates if gate in ladder]
+        missing = [gate for gate in ladder if gate not in stated]
         if missing:
             yield found(graph, ("bringup", "gates"), f"gate {', '.join(missing)} is missing")
-        elif written != list(ladder):
-            order = ", ".join(written)
+        elif stated != list(ladder):
+            order = ", ".join(stated)
             message = f"gates are out of order: {order}"
             yield found(graph, ("bringup", "gates"), message)
 

@@ -46,9 +46,9 @@ def _given_on_mock(cell: Cell) -> Iterator[tuple[str, YamlPath, str, ParameterVa
     """Yield each parameter that something is given on the mock: who, where it is written, its name and its value."""
     for node in cell.nodes:
         if not node.real_only:
-            own = node.source is NodeSource.SPEC
+            in_spec = node.source is NodeSource.SPEC
             for name, value in node.parameters.items():
-                yield node.name, _path(node.path, own, name), name, value
+                yield node.name, _path(node.path, in_spec, name), name, value
     for controller in cell.controllers:
         if "mock" in controller.targets:
             for name, value in controller.parameters.items():
@@ -145,19 +145,19 @@ def driver_on_mock(graph: CellGraph) -> Findings:
 def _reasons(
     cell: Cell, node: Node, drivers: frozenset[str], programs: frozenset[str]
 ) -> Iterator[tuple[YamlPath, str]]:
-    own = node.source is NodeSource.SPEC
+    in_spec = node.source is NodeSource.SPEC
     program = f"{node.package}/{node.executable}"
-    packages = cell.hardware_packages | (drivers if own else frozenset())
+    packages = cell.hardware_packages | (drivers if in_spec else frozenset())
     drives = node.package in packages or program in programs or node.executable.endswith("ros2_control_node")
     if drives:
         message = f"`{node.name}` runs `{program}` on the mock, a driver of real hardware"
-        yield (*node.path, "run" if own else "model"), message
+        yield (*node.path, "run" if in_spec else "model"), message
     for name, value in node.parameters.items():
         texts = value if isinstance(value, tuple) else (value,)
         described = any("<ros2_control" in text or "<plugin" in text for text in texts if isinstance(text, str))
         if described or name.rpartition(".")[2] == _DESCRIPTION:
             message = f"`{node.name}` gets hardware to drive from `{name}` on the mock"
-            yield (*node.path, *(("parameters", name) if own else ("model",))), message
+            yield (*node.path, *(("parameters", name) if in_spec else ("model",))), message
 
 
 def _driver_packages(cell: Cell) -> frozenset[str]:

@@ -48,8 +48,8 @@ def os_of_third_tier(graph: CellGraph) -> Findings:
     """Yield an operating system of the third tier of the distribution."""
     facts = distribution(graph.cell)
     system = graph.cell.versions.os
-    written = system.lower()
-    if facts is not None and any(written == tier or written.startswith(f"{tier}.") for tier in facts.os_tier3):
+    lowered = system.lower()
+    if facts is not None and any(lowered == tier or lowered.startswith(f"{tier}.") for tier in facts.os_tier3):
         tested = ", ".join(f"`{name}`" for name in facts.os)
         message = f"`{graph.cell.distro}` has no tested packages for `{system}`, only for {tested}"
         yield found(graph, ("versions", "os"), message, f"install {tested}, or keep the evidence of your own build")
@@ -62,8 +62,8 @@ def os_ros_mismatch(graph: CellGraph) -> Findings:
     system = graph.cell.versions.os
     if facts is None or system == UNKNOWN:
         return
-    written = system.lower()
-    if not any(written == built or written.startswith(f"{built}.") for built in (*facts.os, *facts.os_tier3)):
+    lowered = system.lower()
+    if not any(lowered == built or lowered.startswith(f"{built}.") for built in (*facts.os, *facts.os_tier3)):
         built_for = ", ".join(f"`{name}`" for name in facts.os)
         message = f"`{graph.cell.distro}` is built for {built_for}, not for `{system}`"
         yield found(graph, ("versions", "os"), message, f"install {built_for}, or choose another distribution")
@@ -95,10 +95,10 @@ def ros_past_end_of_life(graph: CellGraph) -> Findings:
 def unknown_rmw(graph: CellGraph) -> Findings:
     """Yield a middleware that the distribution does not have."""
     facts = distribution(graph.cell)
-    written = graph.cell.versions.rmw
-    if facts is None or written == UNKNOWN:
+    name = graph.cell.versions.rmw
+    if facts is None or name == UNKNOWN:
         return
     known = (*facts.rmw, *facts.rmw_unverified)
-    if written.split()[0] not in known:
-        message = f"`{written.split()[0]}` is not a middleware of {graph.cell.distro}"
-        yield found(graph, ("versions", "rmw"), message, did_you_mean(written.split()[0], known, "middlewares"))
+    if name.split()[0] not in known:
+        message = f"`{name.split()[0]}` is not a middleware of {graph.cell.distro}"
+        yield found(graph, ("versions", "rmw"), message, did_you_mean(name.split()[0], known, "middlewares"))
