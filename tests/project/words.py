@@ -101,13 +101,6 @@ def files() -> Iterator[Path]:
             yield Path(name)
 
 
-def folder_of(file: Path) -> str:
-    """Return the folder that a count is kept for: a room of a wing of `cellc`, or one at the top."""
-    parts = file.parts
-    depth = 2 if parts[:2] == ("cellc", "mock") else 3
-    return "/".join(parts[:-1][:depth]) if parts[0] == "cellc" else parts[0]
-
-
 def printed(file: Path) -> list[str]:
     """Return the texts of a file that are printed for people: messages, prose, comments of what is generated."""
     text = _QUOTES.sub(" ", _read(file))

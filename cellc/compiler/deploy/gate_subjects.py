@@ -207,11 +207,9 @@ def _figures(values: Iterable[float], digits: int) -> str:
 def _shows_center(graph: CellGraph, device: Device) -> str:
     """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
     broadcaster = graph.once(_active_by_kind).get((device.robot.tcp_kind, device.name))
-    return (
-        ""
-        if broadcaster is None
-        else f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.tcp_topic}"
-    )
+    if broadcaster is None:
+        return ""
+    return f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.tcp_topic}"
 
 
 def _active_by_kind(graph: CellGraph) -> Mapping[tuple[str | None, str | None], Controller]:
@@ -265,15 +263,8 @@ def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
         calibration = None if device.kinematics is None else device.kinematics.calibration
         if calibration is not None:
             path = f"cells/{graph.cell.name}/{calibration.name}"
-            yield (
-                device.name,
-                calibration.name,
-                calibration.hash,
-                calibration.measured,
-                calibration.owner,
-                calibration.sha256,
-                path,
-            )
+            facts = (calibration.name, calibration.hash, calibration.measured, calibration.owner, calibration.sha256)
+            yield (device.name, *facts, path)
 
 
 def _cards(graph: CellGraph) -> Iterator[Values]:

@@ -66,8 +66,8 @@ def cell_files(paths: Sequence[str]) -> tuple[str, ...]:
     """Return the specs that are meant: a folder means every ``cell.yaml`` below it, in alphabetical order.
 
     A pattern such as ``cells/*/cell.yaml`` is expanded where the shell has not done so. Folders that begin with a dot
-    and virtual environments are left out, and links to folders are not followed. A device folder without a spec stands
-    for its ``device.yaml``. Any other folder is kept as it is, and reported like any file that is not a spec.
+    and virtual environments are left out, and links to folders are not followed. A device folder without a spec means
+    its ``device.yaml``. Any other folder is kept as it is, and reported like any file that is not a spec.
     """
     below = ((path, files_below(path, SPEC_FILE) if os.path.isdir(path) else ()) for path in matched(paths))
     return tuple(dict.fromkeys(spec for path, specs in below for spec in specs or (_device_in(path),)))
