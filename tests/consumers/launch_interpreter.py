@@ -5,6 +5,7 @@ It knows what our files may use and refuses the rest, so that a new action in an
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -191,7 +192,18 @@ class Launch:
         self.commands.append(Command(self._text(action.attrib["name"]), self._words(action.attrib["cmd"])))
 
     def _words(self, line: str) -> tuple[str, ...]:
-        """Return the words of a command; a file of the package by its path in it."""
+        """Return the words of a command; a file of the package by its path in it.
+
+        The text is split, and what a substitution gives is not: `_parse_cmdline` of launch 3.4,
+        https://github.com/ros2/launch/blob/001a398e/launch/launch/actions/execute_process.py.
+        """
         share = f"/share/{self.package}/"
-        words = shlex.split(self._text(line))
+        values: list[str] = []
+
+        def keep(value: str) -> str:
+            values.append(value)
+            return f"\0{len(values) - 1}\0"
+
+        split = shlex.split(expand(line, World(self.configurations, self._command), keep))
+        words = [re.sub("\0(\\d+)\0", lambda found: values[int(found[1])], word) for word in split]
         return tuple(self._file(word) if word.startswith(share) else word for word in words)

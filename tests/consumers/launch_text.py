@@ -29,20 +29,20 @@ def unescaped(text: str) -> str:
     return re.sub(r"\\(.)", r"\1", text)
 
 
-def expand(text: str, world: World) -> str:
-    """Return the text with every substitution in place."""
-    value, rest = _sequence(text, world, end="")
+def expand(text: str, world: World, keep: Callable[[str], str] = str) -> str:
+    """Return the text with every substitution in place, as ``keep`` writes its value."""
+    value, rest = _sequence(text, world, end="", keep=keep)
     assert not rest
     return value
 
 
-def _sequence(text: str, world: World, end: str) -> tuple[str, str]:
+def _sequence(text: str, world: World, end: str, keep: Callable[[str], str] = str) -> tuple[str, str]:
     """Expand up to an unquoted character of ``end``, which stays in the rest."""
     built = ""
     while text and text[0] not in end:
         if text.startswith("$("):
             value, text = _substitution(text[2:], world)
-            built += value
+            built += keep(value)
         elif re.match(r"\\.", text):
             built, text = built + text[1], text[2:]
         else:
@@ -93,6 +93,8 @@ def _evaluate(node: ast.expr) -> bool | str:
     """Evaluate comparisons of texts; anything else is not in what we emit, and not run here."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return node.value
+    if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.In) and isinstance(node.comparators[0], ast.List):
+        return _evaluate(node.left) in [_evaluate(item) for item in node.comparators[0].elts]
     if isinstance(node, ast.Compare) and len(node.ops) == 1:
         left, right = _evaluate(node.left), _evaluate(node.comparators[0])
         if isinstance(node.ops[0], ast.Eq):

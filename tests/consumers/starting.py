@@ -49,7 +49,7 @@ def every_process(built: Build) -> list[Process]:
     files = [path.removeprefix("launch/").removesuffix(".launch.xml") for path in built.texts if "launch.xml" in path]
     started = [one for target in ("mock", "real") for launch in bring_ups(built, target) for one in launch.processes]
     for file in files:
-        if file in ("activate", "claim"):
+        if file in ("activate", "claim", "goal"):
             root = fromstring(built.texts[f"launch/{file}.launch.xml"])
             stated = {one.attrib["name"]: one[0].attrib["value"] for one in root.findall("arg") if len(one)}
             started += launched(built, file, **stated).processes

@@ -13,7 +13,7 @@ import pytest
 
 from tests.cells import DISTROS
 from tests.consumers.matrix import build, every_build, spec_for
-from tests.consumers.starting import every_process, launched
+from tests.consumers.starting import every_process
 from tests.emit.cells import emitted
 from tests.foreign_yaml import safe_load
 
@@ -136,8 +136,6 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
     assert home == "lib/${PROJECT_NAME}"
     assert set(programs.split()) == {path for path in texts if path.startswith("scripts/")}
     processes = every_process(build(cell, distro))
-    if "launch/goal.launch.xml" in texts:
-        processes += launched(build(cell, distro), "goal", confirm_goal="I_HAVE_PASSED_GATES_G0_TO_G6").processes
     started = {one.executable for one in processes if one.package == cell}
     # The program before another one, and what the bring-up starts itself.
     started |= {one.prefix[0].rpartition("/")[2] for one in processes if one.prefix} | {"installed_versions"}

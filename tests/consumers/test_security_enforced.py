@@ -74,7 +74,7 @@ def rehearsed(folder: Path, keystore: Path) -> Rehearsed:
         command, place = [sys.executable, f"scripts/{program}", *words], folder / "package"
         return subprocess.run(command, env=enforced(keystore), cwd=place, capture_output=True, text=True)
 
-    (goal,) = launched(built, "goal", confirm_goal="I_HAVE_PASSED_GATES_G0_TO_G6").processes
+    (goal,) = launched(built, "goal", confirm_goal="I_HAVE_PASSED_GATES_G0_TO_G6", joint="arm_wrist_3_joint").processes
     with StandIns(enforced(keystore)) as started:
         homes = {home: nodes for home, nodes in stand_ins(built).items() if home != f"{_HOME}/task"}
         begun = {home: started.start(home, *nodes, **world(built)) for home, nodes in homes.items()}

@@ -109,7 +109,7 @@ def test_robot_listens_before_it_is_claimed_and_is_claimed_before_anything_asks_
 def test_one_small_goal_ends_before_the_application_is_started(distro: str) -> None:
     # The application picks, grips and places at once: a person cannot follow that as the first motion.
     lines = _gates("ur5e_pick", distro)["G7"]
-    small = _place(lines, "Send one goal to the controller")
+    small = _place(lines, "Move one joint after another by small goals")
     assert _place(lines, "Authorize the claims") < small < _place(lines, "Authorize the motion clients")
 
 

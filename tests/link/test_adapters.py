@@ -11,7 +11,7 @@ import pytest
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.bringup import bring_up
 from cellc.compiler.deploy.deployment import plan_deployment
-from cellc.compiler.deploy.first_goal import first_goal
+from cellc.compiler.deploy.first_goal import first_goals
 from cellc.compiler.emit import moveit, parameters
 from cellc.compiler.emit.launch import launch
 from cellc.compiler.emit.security import policy
@@ -92,10 +92,9 @@ def test_what_asks_for_motion_waits_for_the_action_of_an_adapter_on_the_real_tar
 
 
 def test_the_first_goal_is_sent_to_the_adapter_of_the_joint(cell: Cell) -> None:
-    goal = first_goal(cell)
-    assert goal is not None
-    assert (goal.action, goal.topic, goal.joint) == ("/arm/follow_joint_trajectory", "/joint_states", "fr3_joint7")
-    assert goal.joints == tuple(f"fr3_joint{number}" for number in range(1, 8))
+    (goal,) = first_goals(cell)
+    assert (goal.action, goal.topic, goal.moves[0]) == ("/arm/follow_joint_trajectory", "/joint_states", "fr3_joint7")
+    assert [joint.name for joint in goal.joints] == [f"fr3_joint{number}" for number in range(1, 8)]
 
 
 # What franka_ros2 alone has, and ros2_control: neither runs for an arm behind an adapter.

@@ -21,7 +21,7 @@ def _facts(spec: Path) -> dict[str, Leaf]:
     ("path", "value"),
     [
         ("spec/safety/stop/authority", "safety_plc"),
-        ("spec/bringup/first_motion/joint", "arm/joint_6"),
+        ("spec/bringup/first_motion/arm/joint_6/direction", "+"),
         ("spec/network/domain_id", 42),
         ("spec/targets/mock/hardware", "mock"),
         ("reference_points/fixture_A", 3),

@@ -29,7 +29,7 @@ from cellc.compiler.cell.uncertainty import Uncertainty
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
-from cellc.contract.vocabulary import Behavior, Distro, InterfaceKind
+from cellc.contract.vocabulary import TRAJECTORIES, Behavior, Distro, InterfaceKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,6 +190,18 @@ class Cell:
     def controllers(self) -> tuple[Controller, ...]:
         """Controllers of all managers, in order."""
         return tuple(controller for manager in self.managers for controller in manager.controllers)
+
+    @cached_property
+    def trajectory_controllers(self) -> tuple[Controller, ...]:
+        """Controllers that take trajectories on the real target from the claim on."""
+        takers = (controller for controller in self.controllers if controller.behavior in TRAJECTORIES)
+        return tuple(taker for taker in takers if taker.active and "real" in taker.targets)
+
+    @cached_property
+    def trajectory_joints(self) -> frozenset[str]:
+        """Joints that take trajectories on the real target, of a controller or an adapter."""
+        taken = [taker.joints for taker in self.trajectory_controllers] + [taker.joints for taker in self.adapters]
+        return frozenset(joint for joints in taken for joint in joints)
 
     def reporting(self, device: Device, source: RecordSource) -> Controller | None:
         """Return the controller of a device that publishes a field of the record on the real target, if one does."""

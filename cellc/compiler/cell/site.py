@@ -231,23 +231,32 @@ class JointFigure:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FirstMotion:
-    """The single-joint move of gate G6; ``joint`` is ``device/joint`` as written."""
+class FirstMotion(Entity):
+    """Small moves of gates G6 and G7; ``name`` is that of the first joint, as ``device/joint``."""
 
-    joint: str
     direction: str
     max_delta: JointFigure
     velocity: JointFigure
     timeout_s: float
     stop_if: tuple[str, ...]
 
+    @property
+    def device(self) -> str:
+        """The device that moves."""
+        return self.name.partition("/")[0]
+
+    @property
+    def local_joint(self) -> str:
+        """The joint without its device."""
+        return self.name.partition("/")[2]
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bringup:
-    """The gates by name, in order, and the first motion where it is stated."""
+    """The gates by name, in order, and the first motion of each device that has one."""
 
     gates: tuple[str, ...] = (*PROMOTION_GATES, *NETWORK_GATES)
-    first_motion: FirstMotion | None = None
+    first_motions: tuple[FirstMotion, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

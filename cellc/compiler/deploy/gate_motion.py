@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.site import FirstMotion
 from cellc.compiler.deploy.bringup import bring_up, phases, releases
-from cellc.compiler.deploy.first_goal import first_goal
+from cellc.compiler.deploy.first_goal import first_goals
 from cellc.compiler.deploy.processes import past_controllers
 from cellc.compiler.deploy.releases import GOAL, Release, release_once
 from cellc.compiler.formats.escape import shell_word
@@ -20,55 +19,57 @@ Values = tuple[str, ...]
 
 
 def first_motion(graph: CellGraph) -> Iterator[Values]:
-    """Yield the first motion as the spec has it."""
-    if graph.cell.bringup.first_motion is not None:
-        yield _first_motion(graph, graph.cell.bringup.first_motion)
+    """Yield the first motions as the spec has them."""
+    return (_first_motion(graph, first) for first in graph.cell.bringup.first_motions)
 
 
 def jogged(graph: CellGraph) -> Iterator[Values]:
-    """Yield the first motion of a robot whose driver reads on while a person moves it."""
-    first = graph.cell.bringup.first_motion
-    if first is not None and _moved(graph, first).jog is None:
-        yield _first_motion(graph, first)
+    """Yield the first motions of robots whose driver reads on while a person moves them."""
+    firsts = graph.cell.bringup.first_motions
+    return (_first_motion(graph, first) for first in firsts if graph.cell.device(first.device).jog is None)
+
+
+def jogging(graph: CellGraph) -> Iterator[Values]:
+    """Yield one empty row where any robot is recorded while a person moves it."""
+    return iter(((),) if any(jogged(graph)) else ())
 
 
 def guided(graph: CellGraph) -> Iterator[Values]:
-    """Yield the first motion of a robot whose driver cannot run meanwhile, with how its vendor has people move it."""
-    first = graph.cell.bringup.first_motion
-    jog = None if first is None else _moved(graph, first).jog
-    if first is not None and jog is not None:
-        yield *_first_motion(graph, first), jog
+    """Yield the first motions of robots whose driver cannot run meanwhile, with how their vendors have people move
+    them."""
+    for first in graph.cell.bringup.first_motions:
+        if jog := graph.cell.device(first.device).jog:
+            yield *_first_motion(graph, first), jog
 
 
 def _first_motion(graph: CellGraph, first: FirstMotion) -> Values:
-    texts = (graph.cell.text("bringup", "first_motion", part) for part in ("max_delta", "velocity", "timeout"))
+    texts = (graph.cell.text(*first.path, part) for part in ("max_delta", "velocity", "timeout"))
     figure = f"{shortest(round(first.max_delta.value, 4))} {'m' if first.max_delta.linear else 'rad'}"
-    local = first.joint.partition("/")[2]
-    name = next((joint.name for joint in _moved(graph, first).joints if joint.local_name == local), local)
-    return first.joint, first.direction, *texts, name, figure
-
-
-def _moved(graph: CellGraph, first: FirstMotion) -> Device:
-    return graph.cell.device(first.joint.partition("/")[0])
+    joints = graph.cell.device(first.device).joints
+    name = next((joint.name for joint in joints if joint.local_name == first.local_joint), first.local_joint)
+    return first.name, first.direction, *texts, name, figure
 
 
 def small_goal(graph: CellGraph) -> Iterator[Values]:
-    """Yield the first motion with the commands that send it as a goal, and as one that is canceled half way."""
-    first = graph.cell.bringup.first_motion
-    if first is not None:
-        command = release_once(graph.cell, GOAL) if first_goal(graph.cell) is not None else ""
-        yield *_first_motion(graph, first), command, command and f"{command} then:=cancel"
+    """Yield the first motions with the commands that send them as goals, and as one that is canceled half way."""
+    goals = {goal.moves[0]: goal for goal in first_goals(graph.cell)}
+    for first in graph.cell.bringup.first_motions:
+        about = _first_motion(graph, first)
+        goal = goals.get(about[5])
+        command = "" if goal is None else f'{release_once(graph.cell, GOAL, goal.release)} evidence:="$E"'
+        sent = [] if goal is None else [f"{command} joint:={shell_word(joint)}" for joint in goal.moves]
+        yield *about, "\n".join(sent), "".join(f"{line} then:=cancel" for line in sent[:1])
 
 
 def missing_first_motion(graph: CellGraph) -> Iterator[Values]:
     """Yield one empty row where no first motion is stated."""
-    return iter(((),) if graph.cell.bringup.first_motion is None else ())
+    return iter(() if graph.cell.bringup.first_motions else ((),))
 
 
 def stop_reasons(graph: CellGraph) -> Iterator[Values]:
-    """Yield what ends the first motion."""
-    first = graph.cell.bringup.first_motion
-    return ((reason,) for reason in (() if first is None else first.stop_if))
+    """Yield what ends a first motion."""
+    reasons = dict.fromkeys(reason for first in graph.cell.bringup.first_motions for reason in first.stop_if)
+    return ((reason,) for reason in reasons)
 
 
 def released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterator[Values]:

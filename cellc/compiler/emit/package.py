@@ -15,7 +15,7 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import SOURCES, plans
-from cellc.compiler.deploy.first_goal import first_goal, programs
+from cellc.compiler.deploy.first_goal import first_goals, programs
 from cellc.compiler.formats.urdf.hardware import share_folders
 from cellc.compiler.formats.xml_text import comment, element, render
 from cellc.compiler.formats.yaml_text import render as yaml
@@ -108,7 +108,7 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names |= {package for package in tools if package is not None}
     if plans(cell):
         names |= {*_of_moveit(cell), *(group.solver.package for group in cell.groups)}
-    if first_goal(cell) is not None:
+    if first_goals(cell):
         names |= set(_FIRST_GOAL)
     if cell.managers:
         names |= set(_CONTROL)

@@ -225,7 +225,7 @@ def _surroundings(
         calibrations=bind_calibrations(spec, places, measured.files),
         owners=bind_owners(spec),
         safety=bind_safety(spec, devices),
-        bringup=bind_bringup(spec),
+        bringup=bind_bringup(spec, places),
         kpis=bind_kpis(spec),
         recording=bind_recording(spec),
         targets=bind_targets(spec),

@@ -163,18 +163,25 @@ def bind_safety(spec: CellSpec, devices: tuple[Device, ...]) -> Safety:
     )
 
 
-def bind_bringup(spec: CellSpec) -> Bringup:
-    """Return the gates, ``standard`` written out, and the first motion."""
+def bind_bringup(spec: CellSpec, places: Places) -> Bringup:
+    """Return the gates, ``standard`` written out, and the first motions."""
     gates, first = spec.bringup.gates, spec.bringup.first_motion
+    path: YamlPath = ("bringup", "first_motion")
+    if isinstance(first, tuple):
+        stated = [(one, (*path, place)) for place, one in enumerate(first)]
+    else:
+        stated = [] if first is None else [(first, path)]
     return Bringup(
         gates=(*PROMOTION_GATES, *NETWORK_GATES) if gates == "standard" else tuple(gates),
-        first_motion=None if first is None else _first_motion(first),
+        first_motions=tuple(_first_motion(motion, at, places) for motion, at in stated),
     )
 
 
-def _first_motion(written: FirstMotionSpec) -> FirstMotion:
+def _first_motion(written: FirstMotionSpec, path: YamlPath, places: Places) -> FirstMotion:
     return FirstMotion(
-        joint=written.joint,
+        name=written.joint,
+        path=path,
+        span=places.locate(path),
         direction=written.direction,
         max_delta=joint_figure(written.max_delta),
         velocity=joint_figure(written.velocity),

@@ -1,11 +1,11 @@
 """Who is responsible for what, and the boundary that software does not cross: stop, recovery, and the gates of
 bring-up."""
 
-from typing import Literal
+from typing import Annotated, Literal, Union
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
-from cellc.compiler.spec.base import FrameReference, Name, SpecModel, StandardOr, Text
+from cellc.compiler.spec.base import FrameReference, Name, SpecModel, StandardOr, Text, shape_of
 from cellc.compiler.spec.quantity import Duration, JointSpeed, JointWay
 from cellc.contract.vocabulary import UNKNOWN
 
@@ -104,16 +104,24 @@ class SafetySpec(SpecModel):
 
 
 class FirstMotionSpec(SpecModel):
-    """Gate G6: one joint, stated aloud before it moves."""
+    """Gates G6 and G7: the first moves of one device, joint by joint, announced before each."""
 
-    joint: FrameReference = Field(..., description="The one joint, as `device/joint`.", examples=["arm/wrist_3_joint"])
+    joint: FrameReference = Field(..., description="First to move, as `device/joint`.", examples=["arm/wrist_3_joint"])
     direction: Literal["+", "-"] = Field(..., description="Sign of the first move.", examples=["+"])
-    max_delta: JointWay = Field(..., description="Largest change of position.", examples=["5 deg"])
+    max_delta: JointWay = Field(
+        ..., description="Range of one joint in all, of every joint with this unit.", examples=["5 deg"]
+    )
     velocity: JointSpeed = Field(..., description="Speed of the move.", examples=["5 deg/s"])
     timeout: Duration = Field(..., description="Bound of the move.", examples=["5 s"])
     stop_if: tuple[Text, ...] = Field(
         ..., description="What makes the observer stop.", examples=[["wrong direction"]], min_length=1
     )
+
+
+FirstMotionsSpec = Annotated[
+    Union[Annotated[FirstMotionSpec, Tag("mapping")], Annotated[tuple[FirstMotionSpec, ...], Tag("list")]],
+    Discriminator(shape_of, custom_error_type="wrong-type", custom_error_message="a first motion or a list of them"),
+]
 
 
 class BringupSpec(SpecModel):
@@ -122,9 +130,9 @@ class BringupSpec(SpecModel):
     gates: StandardOr = Field(
         "standard", description="`standard`, or the gates by name in order.", examples=["standard"]
     )
-    first_motion: FirstMotionSpec | None = Field(
+    first_motion: FirstMotionsSpec | None = Field(
         None,
-        description="The single-joint move of gate G6.",
+        description="First moves of gates G6 and G7: one entry, or a list with one for each arm and axis.",
         examples=[
             {
                 "joint": "arm/wrist_3_joint",

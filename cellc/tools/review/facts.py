@@ -299,7 +299,9 @@ def _of_pairs(files: Mapping[str, str], srdf: str | None) -> Iterator[tuple[Path
 def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
     """Yield what a spec says and no other file of the package holds as data."""
     yield from flatten(as_json(cell.safety), ("spec", "safety"))
-    yield from flatten(as_json(cell.bringup), ("spec", "bringup"))
+    yield ("spec", "bringup", "gates"), cell.bringup.gates
+    for first in cell.bringup.first_motions:
+        yield from flatten(_without_place(as_json(first)), ("spec", "bringup", "first_motion", first.name))
     yield from flatten(as_json(cell.recording), ("spec", "recording"))
     yield from flatten(as_json(cell.network), ("spec", "network"))
     yield from flatten(as_json(cell.targets), ("spec", "targets"))

@@ -242,7 +242,7 @@ ROWS: Sequence[Row] = (
     Row("step mock {step} ...", _A.START_ORDER, "step on the mock", Rule.REVIEW, ordered=False),
     Row("check first_motion {device} {what}", _A.GATES, "first motion", Rule.DANGEROUS),
     Row("spec bringup gates", _A.GATES, "gates", Rule.LOST),
-    Row("spec bringup first_motion {what}", _A.GATES, "first motion", Rule.DANGEROUS, ordered=False),
+    Row("spec bringup first_motion {joint} {what}", _A.GATES, "first motion", Rule.DANGEROUS, ordered=False),
     # What is rehearsed, who answers, and what is recorded.
     Row("rehearsals {rehearsal} expect", _A.REHEARSALS, "expected outcome", Rule.REVIEW),
     Row("rehearsals {rehearsal} within_s", _A.REHEARSALS, "bound of the outcome", Rule.LOOSER, "s", why=_STALE),

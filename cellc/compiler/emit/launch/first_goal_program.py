@@ -1,26 +1,51 @@
 #!/usr/bin/env python3
-"""Sends a trajectory controller one small goal: one joint moves a little, every other keeps its position.
+"""Moves one joint a little by a trajectory controller, to both sides of where it is; all others keep their position.
 
     first_goal --action NAME --states TOPIC --joint NAME --by RAD --seconds S --timeout S [--absent NODE]... \
-        --then end|cancel JOINT...
+        [--then end|cancel] [--evidence DIR] JOINT:LOWER:UPPER...
 
-It reads the joint states first, so that no other joint moves. It refuses while a motion client runs. It prints the
-position of each joint before and after. It ends with 0 when the goal ended as requested. With `cancel` it cancels half
-way and prints the time from the request to standstill. goal.launch.xml starts it, by a person's authorization, while
-the claims hold.
+It starts only when the states of all joints are fresh and all joints are at standstill, with no motion client running.
+`end` moves the joint by BY, back, to the other side and back: four goals, within twice BY in all. `cancel` moves it by
+BY, cancels half way, prints the time from the request to standstill, and moves it back. A joint that leaves its way, or
+states that stop arriving, cancel the goal; so does Ctrl-C. It ends with 0 when every goal ended as requested.
+With --evidence it writes command, state and error of each joint as CSV, and of the joint that moves as SVG.
+goal.launch.xml starts it, by a person's authorization, while the claims hold.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
+import html
+import math
+import signal
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
 
-WAIT_S = 10.0  # for states and for the server
+WAIT_S = 10.0  # for states, for the server, and for standstill
+FRESH_S = 0.5  # age of the newest states, by their arrival and by their stamp
 STILL = 5e-3  # rad/s or m/s; a slower joint is at standstill
+STILL_S = 0.5  # for so long before the first goal
+SLACK = 0.2  # share of BY by which a joint may leave its way
 SUCCEEDED, CANCELED = 4, 5  # action_msgs/msg/GoalStatus
+
+
+class Sample(NamedTuple):
+    """One joint at one time: command and error where the controller's feedback has them, else NaN."""
+
+    time_s: float
+    goal: str
+    joint: str
+    command: float
+    state: float
+    error: float
+
+
+class MotionError(Exception):
+    """No motion, or an end of it; the text says why."""
 
 
 class Robot:
@@ -31,19 +56,43 @@ class Robot:
         from control_msgs.action import FollowJointTrajectory
         from rclpy.action import ActionClient
         from rclpy.qos import qos_profile_sensor_data
+        from rclpy.signals import SignalHandlerOptions
         from sensor_msgs.msg import JointState
 
-        rclpy.init(args=sys.argv)
+        # Ctrl-C must cancel the goal, for which the context has to live on.
+        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
         self._rclpy, self._type = rclpy, FollowJointTrajectory
         self._node = rclpy.create_node("first_goal", start_parameter_services=False)
         self._client = ActionClient(self._node, FollowJointTrajectory, action)
         self.positions: dict[str, float] = {}
-        self.velocities: dict[str, float] = {}
+        self.arrived: dict[str, float] = {}
+        self.moved: dict[str, float] = {}
+        self.stamp_age_s = math.inf
+        self.samples: list[Sample] = []
+        self.goal = ""
         self._node.create_subscription(JointState, states, self._take, qos_profile_sensor_data)
 
     def _take(self, message: Any) -> None:
-        self.positions.update(zip(message.name, message.position, strict=False))
-        self.velocities.update(zip(message.name, message.velocity, strict=False))
+        now = time.monotonic()
+        stamp = message.header.stamp
+        self.stamp_age_s = self._node.get_clock().now().nanoseconds * 1e-9 - stamp.sec - stamp.nanosec * 1e-9
+        speeds = dict(zip(message.name, message.velocity, strict=False))
+        for name, position in zip(message.name, message.position, strict=False):
+            speed = speeds.get(name, math.nan)
+            if not math.isfinite(speed):  # a robot that reports no speed: from the positions
+                passed = now - self.arrived.get(name, now)
+                speed = (position - self.positions.get(name, position)) / passed if passed > 0.0 else 0.0
+            if abs(speed) > STILL or not math.isfinite(position) or name not in self.moved:
+                self.moved[name] = now
+            self.positions[name], self.arrived[name] = position, now
+            if self.goal:
+                self.samples.append(Sample(now, self.goal, name, math.nan, position, math.nan))
+
+    def _follow(self, message: Any) -> None:
+        now, feedback = time.monotonic(), message.feedback
+        columns = (feedback.desired.positions, feedback.actual.positions, feedback.error.positions)
+        for name, command, state, error in zip(feedback.joint_names, *columns, strict=False):
+            self.samples.append(Sample(now, self.goal, name, command, state, error))
 
     def spin(self, seconds: float) -> None:
         self._rclpy.spin_once(self._node, timeout_sec=seconds)
@@ -64,74 +113,215 @@ class Robot:
         when = Duration(sec=whole, nanosec=round((seconds - whole) * 1e9))
         point = JointTrajectoryPoint(positions=[*positions], velocities=[0.0] * len(positions), time_from_start=when)
         goal.trajectory.points = [point]
-        return self._client.send_goal_async(goal)
+        return self._client.send_goal_async(goal, feedback_callback=self._follow)
 
     def leave(self) -> None:
         self._node.destroy_node()
         self._rclpy.try_shutdown()
 
 
-def awaited(robot: Any, there: Callable[[], bool], seconds: float) -> bool:
-    """Spin until a condition holds; return whether it does."""
-    until = time.monotonic() + seconds
-    while not there() and time.monotonic() < until:
-        robot.spin(0.05)
-    return there()
+class Trial:
+    """One joint from its start: out and back to both sides, or out, canceled half way and back."""
 
+    def __init__(self, robot: Any, arguments: argparse.Namespace) -> None:
+        self._robot, self._arguments = robot, arguments
+        self._limits = dict(map(limits_of, arguments.joints))
+        self._joints = (*self._limits,)
+        self._start: dict[str, float] = {}
+        self._interrupted = False
 
-def refused(robot: Any, asked: argparse.Namespace) -> str:
-    """Return why no goal may be sent; empty where everything is ready and no motion client runs."""
-    if not awaited(robot, robot.serves, WAIT_S):
-        return f"no server of {asked.action}"
-    if not awaited(robot, lambda: set(asked.joints) <= set(robot.positions), WAIT_S):
-        return f"no state of {', '.join(sorted(set(asked.joints) - set(robot.positions)))} on {asked.states}"
-    there = ", ".join(name for name in asked.absent if name in robot.nodes())
-    return f"end {there} first: a motion client may not run" if there else ""
+    def interrupt(self, *_signal: object) -> None:
+        self._interrupted = True
 
+    def run(self) -> str:
+        """Check, then send the goals; return why that failed, or an empty text."""
+        by, canceled = self._arguments.by, self._arguments.then == "cancel"
+        try:
+            self._check()
+            self._start = {name: self._robot.positions[name] for name in self._joints}
+            for name, offset, cancels in self._goals(by, canceled):
+                self._send(name, offset, cancels)
+        except MotionError as error:
+            return str(error)
+        return ""
 
-def moving(robot: Any, joints: Sequence[str]) -> bool:
-    return any(abs(robot.velocities.get(name, 0.0)) > STILL for name in joints)
+    @staticmethod
+    def _goals(by: float, canceled: bool) -> Iterator[tuple[str, float, bool]]:
+        yield ("canceled" if canceled else "out"), by, canceled
+        yield "back", 0.0, False
+        if not canceled:
+            yield "other side", -by, False
+            yield "back again", 0.0, False
 
+    def _check(self) -> None:
+        """Return when everything is ready.
 
-def canceled(robot: Any, handle: Any, joints: Sequence[str], after_s: float, bound_s: float) -> None:
-    """Cancel half way; print the time from the request to standstill."""
-    awaited(robot, lambda: False, after_s)
-    asked = last = time.monotonic()
-    handle.cancel_goal_async()
-    while time.monotonic() < asked + bound_s:
-        robot.spin(0.02)
-        if moving(robot, joints):
-            last = time.monotonic()
-    print(f"canceled: standstill {last - asked:.3f} s after the request", flush=True)
+        Raises:
+            MotionError: no goal may be sent.
+        """
+        robot, arguments = self._robot, self._arguments
+        if arguments.joint not in self._limits:
+            raise MotionError(f"{arguments.joint} is no joint of {arguments.action}")
+        if not self._wait(robot.serves, WAIT_S):
+            raise MotionError(f"no server of {arguments.action}")
+        if not self._wait(lambda: set(self._joints) <= set(robot.positions), WAIT_S):
+            missing = ", ".join(sorted(set(self._joints) - set(robot.positions)))
+            raise MotionError(f"no state of {missing} on {arguments.states}")
+        if running := ", ".join(name for name in arguments.absent if name in robot.nodes()):
+            raise MotionError(f"end {running} first: a motion client may not run")
+        if not self._wait(lambda: not self._stale() and not self._moving(STILL_S), WAIT_S):
+            raise MotionError(
+                self._stale() or f"{', '.join(self._moving(STILL_S))} not at standstill for {STILL_S:g} s"
+            )
+        lower, upper = self._limits[arguments.joint]
+        position, by = robot.positions[arguments.joint], abs(arguments.by)
+        if not lower <= position - by or not position + by <= upper:
+            raise MotionError(
+                f"{arguments.joint} at {position:.4f} is closer than {by:.4f} to its limits {lower:g} {upper:g}"
+            )
 
+    def _stale(self) -> str:
+        robot = self._robot
+        oldest = time.monotonic() - min(robot.arrived[name] for name in self._joints)
+        if oldest > FRESH_S:
+            return f"states on {self._arguments.states} stopped arriving {oldest:.2f} s ago"
+        if abs(robot.stamp_age_s) > FRESH_S:
+            return (
+                f"stamps on {self._arguments.states} are {robot.stamp_age_s:.2f} s old, at most {FRESH_S:g} s allowed"
+            )
+        return ""
 
-def print_motion(before: Mapping[str, float], after: Mapping[str, float], joints: Sequence[str]) -> None:
-    for name in joints:
-        print(
-            f"{name}: {before[name]:.4f} before, {after[name]:.4f} after, {after[name] - before[name]:+.4f}", flush=True
-        )
+    def _moving(self, seconds: float) -> list[str]:
+        """Return the joints that moved in the last so many seconds."""
+        since = time.monotonic() - seconds
+        return [name for name in self._joints if self._robot.moved[name] > since]
 
+    def _wait(self, holds: Callable[[], bool], seconds: float) -> bool:
+        """Spin until a condition holds; return whether it does.
 
-def send(robot: Any, asked: argparse.Namespace) -> str:
-    """Send the goal and wait for its end; return why that failed, or an empty text."""
-    before = dict(robot.positions)
-    target = [before[name] + (asked.by if name == asked.joint else 0.0) for name in asked.joints]
-    sent = robot.send(asked.joints, target, asked.seconds)
-    if not awaited(robot, sent.done, WAIT_S) or not sent.result().accepted:
-        return f"{asked.action} did not accept the goal"
-    handle = sent.result()
-    ended = handle.get_result_async()
-    if asked.then == "cancel":
-        canceled(robot, handle, asked.joints, asked.seconds / 2.0, asked.timeout)
-    if not awaited(robot, ended.done, asked.timeout):
+        Raises:
+            MotionError: a person pressed Ctrl-C, or the launch ends.
+        """
+        until = time.monotonic() + seconds
+        while not holds() and time.monotonic() < until:
+            self._robot.spin(0.05)
+            if self._interrupted:
+                self._interrupted = False  # what follows is the cancel, which may be waited for
+                raise MotionError("interrupted")
+        return holds()
+
+    def _send(self, name: str, offset: float, cancels: bool) -> None:
+        """Send one goal and see it end as requested.
+
+        Raises:
+            MotionError: it was canceled, or ended otherwise.
+        """
+        robot, arguments = self._robot, self._arguments
+        before = dict(robot.positions)
+        target = {joint: self._start[joint] + (offset if joint == arguments.joint else 0.0) for joint in self._joints}
+        robot.goal = name
+        sent = robot.send([*target], [*target.values()], arguments.seconds)
+        try:
+            if not self._wait(sent.done, WAIT_S) or not sent.result().accepted:
+                raise MotionError(f"{arguments.action} did not accept the goal")
+            ended = sent.result().get_result_async()
+            if cancels:
+                self._watch(lambda: False, arguments.seconds / 2.0, before, target)
+                self._cancel(sent.result())
+            if not self._watch(ended.done, arguments.timeout, before, target):
+                raise MotionError(f"the goal did not end within {arguments.timeout:g} s and was canceled")
+        except MotionError as error:
+            self._end(sent)
+            raise MotionError(f"{name}: {error}") from None
+        self._report(name, ended.result(), CANCELED if cancels else SUCCEEDED, before)
+
+    def _watch(
+        self, holds: Callable[[], bool], seconds: float, before: dict[str, float], target: dict[str, float]
+    ) -> bool:
+        """Spin until a condition holds, with every joint on its way from ``before`` to ``target``."""
+        slack = SLACK * abs(self._arguments.by)
+
+        def ends() -> bool:
+            for name in self._joints:
+                first, last = sorted((before[name], target[name]))
+                position = self._robot.positions[name]
+                if not first - slack <= position <= last + slack:
+                    raise MotionError(f"{name} at {position:.4f} left its way from {first:.4f} to {last:.4f}")
+            if stale := self._stale():
+                raise MotionError(stale)
+            return holds()
+
+        return self._wait(ends, seconds)
+
+    def _end(self, sent: Any) -> None:
+        """Cancel a goal, also one that is accepted only now, and wait for its end."""
+        if self._wait(sent.done, WAIT_S) and sent.result().accepted:
+            sent.result().cancel_goal_async()
+            self._wait(sent.result().get_result_async().done, self._arguments.timeout)
+
+    def _cancel(self, handle: Any) -> None:
+        """Cancel, and print the time from the request to standstill."""
+        requested = last = time.monotonic()
         handle.cancel_goal_async()
-        awaited(robot, ended.done, asked.timeout)
-        return f"the goal did not end within {asked.timeout:g} s and was canceled"
-    print_motion(before, robot.positions, asked.joints)
-    answer, expected = ended.result(), CANCELED if asked.then == "cancel" else SUCCEEDED
-    said = f"status {answer.status}, error_code {answer.result.error_code} {answer.result.error_string}".rstrip()
-    print(said, flush=True)
-    return "" if answer.status == expected else f"unexpected result: {said}"
+        while time.monotonic() < requested + self._arguments.timeout:
+            self._robot.spin(0.02)
+            last = max(last, *(self._robot.moved[name] for name in self._joints))
+        print(f"canceled: standstill {last - requested:.3f} s after the request", flush=True)
+
+    def _report(self, name: str, answer: Any, expected: int, before: dict[str, float]) -> None:
+        for joint in self._joints:
+            after = self._robot.positions[joint]
+            moved = after - before[joint]
+            print(f"{name}: {joint} {before[joint]:.4f} before, {after:.4f} after, {moved:+.4f}", flush=True)
+        result = f"status {answer.status}, error_code {answer.result.error_code} {answer.result.error_string}".rstrip()
+        print(f"{name}: {result}", flush=True)
+        if answer.status != expected:
+            raise MotionError(f"{name}: unexpected result: {result}")
+
+
+def limits_of(text: str) -> tuple[str, tuple[float, float]]:
+    """Return a joint with its limits, rad or m; infinite where it has none."""
+    name, lower, upper = text.split(":")
+    return name, (float(lower or "-inf"), float(upper or "inf"))
+
+
+def write_evidence(samples: Sequence[Sample], joint: str, then: str, folder: Path) -> None:
+    """Write command, state and error as CSV, and those of one joint as SVG; nothing that exists is replaced."""
+    folder.mkdir(parents=True, exist_ok=True)
+    stem = f"G7-first-goal-{joint}-{then}-{time.strftime('%Y%m%dT%H%M%S')}"
+    start = samples[0].time_s if samples else 0.0
+    with (folder / f"{stem}.csv").open("x", encoding="utf-8", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(Sample._fields)
+        for sample in samples:
+            figures = ("" if math.isnan(value) else f"{value:.6f}" for value in sample[3:])
+            table.writerow([f"{sample.time_s - start:.4f}", sample.goal, sample.joint, *figures])
+    moved = [sample._replace(time_s=sample.time_s - start) for sample in samples if sample.joint == joint]
+    with (folder / f"{stem}.svg").open("x", encoding="utf-8") as file:
+        file.write(plot(moved, joint))
+    print(f"wrote {folder / stem}.csv and .svg", flush=True)
+
+
+def plot(samples: Sequence[Sample], joint: str) -> str:
+    """Return command and state over time, and the error below, each on a scale of its own."""
+    whole = max((sample.time_s for sample in samples), default=0.0) or 1.0
+    lines = [f'<text x="60" y="20">{html.escape(joint)}: command (gray), state (blue); error (red)</text>']
+    for columns, top in ((("command", "state"), 40.0), (("error",), 280.0)):
+        values = [value for sample in samples for name in columns if math.isfinite(value := getattr(sample, name))]
+        low, high = (min(values), max(values)) if values else (0.0, 0.0)
+        scale = 180.0 / (high - low) if high > low else 0.0
+        lines += [f'<text x="2" y="{y:g}">{v:.4f}</text>' for y, v in ((top + 8.0, high), (top + 180.0, low))]
+        for name in columns:
+            points = " ".join(
+                f"{60.0 + 720.0 * sample.time_s / whole:.1f},{top + (high - value) * scale:.1f}"
+                for sample in samples
+                if math.isfinite(value := getattr(sample, name))
+            )
+            color = {"command": "gray", "state": "blue", "error": "red"}[name]
+            lines.append(f'<polyline fill="none" stroke="{color}" points="{points}"/>')
+    lines.append(f'<text x="60" y="490">0 to {whole:.2f} s</text>')
+    head = '<svg xmlns="http://www.w3.org/2000/svg" width="800" height="500" font-family="sans-serif" font-size="11">'
+    return "\n".join((head, '<rect width="800" height="500" fill="white"/>', *lines, "</svg>", ""))
 
 
 def arguments_of(words: Sequence[str]) -> argparse.Namespace:
@@ -139,24 +329,30 @@ def arguments_of(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--action", required=True)
     parser.add_argument("--states", required=True)
     parser.add_argument("--joint", required=True, help="joint that moves")
-    parser.add_argument("--by", type=float, required=True, help="rad or m, with its sign")
-    parser.add_argument("--seconds", type=float, required=True, help="duration of the motion")
-    parser.add_argument("--timeout", type=float, required=True, help="seconds until the goal must end")
+    parser.add_argument("--by", type=float, required=True, help="rad or m to either side; its sign is the first one")
+    parser.add_argument("--seconds", type=float, required=True, help="duration of one motion")
+    parser.add_argument("--timeout", type=float, required=True, help="seconds until a goal must end")
     parser.add_argument("--absent", action="append", default=[], help="node that may not run")
     parser.add_argument("--then", choices=("end", "cancel"), default="end")
-    parser.add_argument("joints", nargs="+", help="all joints of the controller")
+    parser.add_argument("--evidence", type=Path, help="folder of the attempt")
+    parser.add_argument("joints", nargs="+", help="all joints of the controller, each with its limits")
     options = [*words[: words.index("--ros-args")]] if "--ros-args" in words else [*words]
     return parser.parse_args(options)
 
 
 def main(words: Sequence[str]) -> int:
-    """Check, send, print; return the exit status."""
-    asked = arguments_of(words)
-    robot = Robot(asked.action, asked.states)
+    """Check, send, write the evidence; return the exit status."""
+    arguments = arguments_of(words)
+    robot = Robot(arguments.action, arguments.states)
+    trial = Trial(robot, arguments)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, trial.interrupt)
     try:
-        why = refused(robot, asked) or send(robot, asked)
+        why = trial.run()
     finally:
         robot.leave()
+    if arguments.evidence is not None:
+        write_evidence(robot.samples, arguments.joint, arguments.then, arguments.evidence)
     if why:
         print(f"first_goal failed: {why}", file=sys.stderr, flush=True)
     return 1 if why else 0

@@ -17,7 +17,7 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.bringup import phases, releases
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.first_goal import NODE, FirstGoal, first_goal
+from cellc.compiler.deploy.first_goal import NODE, FirstGoal, first_goals
 from cellc.compiler.deploy.processes import started_by_a_person
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, GOAL, MOVE, START, Release
 from cellc.compiler.emit.launch.processes import HOST, ON_REAL, enclave, moving_node, on_host, share
@@ -56,8 +56,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         if phase in released:
             path, devices = f"launch/{release.file}.launch.xml", releases(plan.bring_up, phase)
             yield _file(plan.header, path, _released(cell, release, phase, devices))
-    if (goal := first_goal(cell)) is not None:
-        yield _file(plan.header, f"launch/{GOAL.file}.launch.xml", _sending(cell, goal))
+    if goals := first_goals(cell):
+        yield _file(plan.header, f"launch/{GOAL.file}.launch.xml", _sending(cell, goals))
     if plan.motion_clients:
         yield _file(plan.header, _MOVE, _moving(cell, plan))
         yield _file(plan.header, _gate_file(MOVE), [_gate_argument(MOVE)])
@@ -80,8 +80,13 @@ def _released(cell: Cell, release: Release, phase: BringUpPhase, devices: tuple[
     if not devices:
         yield bring_up(cell, "real", [phase], when={})
     for name in devices:
-        said = f"'$(var {release.argument})' == '{release.word_for(name)}'"
-        yield bring_up(cell, "real", [phase], release=name, when={"if": f'$(eval "{said}")'})
+        yield bring_up(cell, "real", [phase], release=name, when={"if": _says(release, name)})
+
+
+def _says(release: Release, device: str, more: str = "") -> str:
+    """Return what is true where the word of a release names a device, and ``more`` holds."""
+    said = f"'$(var {release.argument})' == '{release.word_for(device)}'"
+    return f'$(eval "{said}{more}")'
 
 
 def _host_file(host: str) -> str:
@@ -135,31 +140,41 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
             yield moving_node(cell, node, plan.hosts, before_motion(cell))
 
 
-def _sending(cell: Cell, goal: FirstGoal) -> Iterator[Element]:
-    """Yield the first goal of the real target, behind the proof of everything that may ask for motion."""
-    yield _gate_argument(GOAL)
-    yield _argument("then", "end", "Wait for the end of the goal, or cancel it half way.", "end", "cancel")
-    arguments = (
-        f"--by={decimal(goal.delta)}",
-        f"--seconds={decimal(goal.duration_s)}",
-        f"--timeout={decimal(goal.timeout_s)}",
+def _sending(cell: Cell, goals: tuple[FirstGoal, ...]) -> Iterator[Element]:
+    """Yield the first goals of the real target, behind the proof of everything that may ask for motion."""
+    yield _argument(GOAL.argument, None, GOAL.about, *dict.fromkeys(GOAL.word_for(goal.release) for goal in goals))
+    yield _argument("joint", None, "Joint that moves.", *dict.fromkeys(name for goal in goals for name in goal.moves))
+    about = "Move to both sides and back, or move to one side, cancel half way and move back."
+    yield _argument("then", "end", about, "end", "cancel")
+    yield _argument("evidence", ".", "Folder for the samples and the plot of command, state and error.")
+    yield comment("small motions of one joint from its current position; no motion client may run")
+    for goal in goals:
+        yield element(
+            "node",
+            {
+                "pkg": cell.name,
+                "exec": NODE,
+                "name": NODE,
+                "output": "both",
+                "args": f"--then $(var then) --joint $(var joint) --evidence $(var evidence) {_goal_words(goal)}",
+                "launch-prefix": before_motion(cell, "real"),
+                "if": _says(GOAL, goal.release, f" and '$(var joint)' in {[*goal.moves]}"),
+                **enclave(first_goal_enclave(cell)),
+            },
+        )
+
+
+def _goal_words(goal: FirstGoal) -> str:
+    return launch_words(
+        *("--action", goal.action, "--states", goal.topic),
+        *(f"--by={decimal(goal.by)}", f"--seconds={decimal(goal.duration_s)}", f"--timeout={decimal(goal.timeout_s)}"),
+        *(f"--absent={node}" for node in goal.absent),
+        *(":".join((joint.name, *map(_limit, (joint.lower, joint.upper)))) for joint in goal.joints),
     )
-    named = ("--action", goal.action, "--states", goal.topic, "--joint", goal.joint)
-    absent = (f"--absent={node}" for node in goal.absent)
-    words = launch_words(*named, *arguments, *absent, *goal.joints)
-    yield comment("one small motion of one joint from its current position; no motion client may run")
-    yield element(
-        "node",
-        {
-            "pkg": cell.name,
-            "exec": NODE,
-            "name": NODE,
-            "output": "both",
-            "args": f"--then $(var then) {words}",
-            "launch-prefix": before_motion(cell, "real"),
-            **enclave(first_goal_enclave(cell)),
-        },
-    )
+
+
+def _limit(value: float | None) -> str:
+    return "" if value is None else decimal(value)
 
 
 def _target_argument() -> Element:

@@ -17,7 +17,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.interface import NodeSource
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.first_goal import NODE, first_goal
+from cellc.compiler.deploy.first_goal import NODE, first_goals
 from cellc.compiler.deploy.spawning import spawnings
 from cellc.compiler.emit.security.rights import (
     Profile,
@@ -59,8 +59,8 @@ def _enclaves(cell: Cell, plan: Deployment) -> Iterator[Element]:
         yield _enclave(manager_enclave(cell, manager), manager_process(cell, manager))
         yield _enclave(spawner_enclave(cell, manager), _spawners(cell, manager))
     yield _enclave(bring_up_enclave(cell), bring_up_process(cell, plan.bring_up))
-    if (goal := first_goal(cell)) is not None:
-        yield _enclave(first_goal_enclave(cell), [sender(cell, f"/{NODE}", goal.action, goal.topic)])
+    if senders := [sender(cell, f"/{NODE}", goal.action, goal.topic) for goal in first_goals(cell)]:
+        yield _enclave(first_goal_enclave(cell), senders)
     yield _enclave(people_enclave(cell), people(cell))
     yield _enclave(commissioning_enclave(cell), commissioning(cell))
 

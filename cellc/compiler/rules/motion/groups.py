@@ -114,12 +114,10 @@ def _figures(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
 
 
 def _of_one_joint(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
-    first = cell.bringup.first_motion
-    if first is not None:
-        joints = {f"{device.name}/{joint.local_name}": joint.name for device in cell.devices for joint in device.joints}
-        name = joints.get(first.joint, "")
+    joints = {f"{device.name}/{joint.local_name}": joint.name for device in cell.devices for joint in device.joints}
+    for first in cell.bringup.first_motions:
         for key, figure in (("max_delta", first.max_delta), ("velocity", first.velocity)):
-            yield ("bringup", "first_motion", key), name, figure.linear
+            yield (*first.path, key), joints.get(first.name, ""), figure.linear
     for rehearsal in cell.rehearsals:
         for fault in rehearsal.faults:
             for key, moved in (("by", fault.displacement), ("to", fault.velocity)):
