@@ -1,8 +1,8 @@
 """How much cellc reads, expands and simulates before it refuses: one table, which every reader asks.
 
 The files are untrusted. A bound is far above what a real cell needs, and keeps a hostile one from costing more
-than seconds and some hundred megabytes. `docs/limits.md` is this table; `--limit NAME=VALUE` raises a row of it for one
-call.
+than seconds and some hundred megabytes. `docs/limits.md` is this table. What a large cell may need more of (time,
+memory, meshes, files, runs) `--limit NAME=VALUE` raises for one call; the other bounds are fixed.
 
 The table in force belongs to the process, as a locale does: every stage would otherwise pass it on to the next one.
 The command line alone changes it, for the time of a command, and hands it to the processes that it starts.
@@ -34,77 +34,93 @@ class Row:
     Args:
         unit: what is counted.
         bounds: what it bounds, for people.
-        highest: the largest value that the option takes; above it the program itself would fail.
+        highest: the largest value that the option takes; above it the program itself would fail. None where the bound
+            is fixed.
     """
 
     unit: str
     bounds: str
-    highest: int
+    highest: int | None
 
 
-def _row(default: int, unit: str, highest: int, bounds: str) -> int:
-    row: int = field(default=default, metadata={"row": Row(unit, bounds, highest)})
-    return row
+def _adjustable(default: int, unit: str, highest: int, bounds: str) -> int:
+    return _row(default, Row(unit, bounds, highest))
+
+
+def _fixed(value: int, unit: str, bounds: str) -> int:
+    return _row(value, Row(unit, bounds, None))
+
+
+def _row(default: int, row: Row) -> int:
+    limit: int = field(default=default, metadata={"row": row})
+    return limit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limits:
     """The limits in force; a field is a row of the table, with dashes for underscores in its name."""
 
-    spec_bytes: int = _row(2 * MIB, "bytes", 64 * MIB, "one file of a spec, or of YAML beside it")
-    spec_files: int = _row(32, "files", 128, "files that belong to one spec")
-    spec_depth: int = _row(64, "levels", 128, "nesting of values in YAML")
-    spec_values: int = _row(200_000, "values", 5_000_000, "values of a spec with every alias and include written out")
-    xml_bytes: int = _row(8 * MIB, "bytes", 256 * MIB, "one URDF, SRDF or xacro file, and one expansion of xacro")
-    xml_depth: int = _row(64, "levels", 128, "nesting of elements in XML")
-    xacro_elements: int = _row(50_000, "elements", 5_000_000, "elements that one expansion of xacro evaluates")
-    xacro_includes: int = _row(32, "files", 64, "nesting of includes in xacro")
-    xacro_macros: int = _row(100, "calls", 128, "nesting of macros in xacro")
-    xacro_yaml_bytes: int = _row(MIB, "bytes", 64 * MIB, "one YAML file that xacro reads")
-    xacro_text: int = _row(64 * KIB, "characters", 16 * MIB, "a text in an expression of xacro")
-    xacro_items: int = _row(10_000, "items", 1_000_000, "a list in an expression of xacro")
-    xacro_seconds: int = _row(10, "s", 3600, "processor time of one expansion of xacro")
-    xacro_seconds_together: int = _row(30, "s", 36_000, "processor time of all expansions of one spec")
-    xacro_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of one expansion of xacro")
-    mesh_shapes: int = _row(1000, "shapes", 20_000, "mesh shapes of one description")
-    mesh_bytes: int = _row(64 * MIB, "bytes", 1024 * MIB, "one mesh file")
-    mesh_bytes_together: int = _row(256 * MIB, "bytes", 4096 * MIB, "all mesh files of one description")
-    mesh_triangles: int = _row(200_000, "triangles", 5_000_000, "one mesh")
-    mesh_triangles_together: int = _row(
+    spec_files: int = _adjustable(32, "files", 128, "files that belong to one spec")
+    xml_bytes: int = _adjustable(
+        8 * MIB, "bytes", 256 * MIB, "one URDF, SRDF or xacro file, and one expansion of xacro"
+    )
+    xacro_elements: int = _adjustable(50_000, "elements", 5_000_000, "elements that one expansion of xacro evaluates")
+    xacro_seconds: int = _adjustable(10, "s", 3600, "processor time of one expansion of xacro")
+    xacro_seconds_together: int = _adjustable(30, "s", 36_000, "processor time of all expansions of one spec")
+    xacro_memory: int = _adjustable(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of one expansion of xacro")
+    mesh_shapes: int = _adjustable(1000, "shapes", 20_000, "mesh shapes of one description")
+    mesh_bytes: int = _adjustable(64 * MIB, "bytes", 1024 * MIB, "one mesh file")
+    mesh_bytes_together: int = _adjustable(256 * MIB, "bytes", 4096 * MIB, "all mesh files of one description")
+    mesh_triangles: int = _adjustable(200_000, "triangles", 5_000_000, "one mesh")
+    mesh_triangles_together: int = _adjustable(
         500_000, "triangles", 20_000_000, "all meshes of one description, each once for each scale"
     )
-    mesh_seconds: int = _row(24, "s", 3600, "processor time of reading all meshes of one description")
-    mesh_memory: int = _row(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
-    robot_links: int = _row(1000, "links", 20_000, "links of one URDF")
-    robot_joints: int = _row(200, "joints", 2000, "joints of one URDF that move")
-    robot_pairs: int = _row(
+    mesh_seconds: int = _adjustable(24, "s", 3600, "processor time of reading all meshes of one description")
+    mesh_memory: int = _adjustable(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
+    robot_pairs: int = _adjustable(
         20_000, "pairs", 1_000_000, "pairs of collision shapes of one cell, boxes of its scene among them"
     )
-    planning_seconds: int = _row(
+    planning_seconds: int = _adjustable(
         60, "s", 36_000, "processor time of what poses and goals of one cell lead to, and of its pairs of links"
     )
-    command_seconds: int = _row(
+    command_seconds: int = _adjustable(
         3600, "s", 360_000, "processor time of one spec or page, and of all of a call of `check`, `build` or `mock`"
     )
-    folder_bytes: int = _row(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
-    folder_total_bytes: int = _row(256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together")
-    folder_depth: int = _row(32, "levels", 100, "nesting of values in JSON and parameters of a generated folder")
-    folder_entries: int = _row(2000, "entries", 100_000, "one list or mapping in JSON of a generated folder")
-    folder_values: int = _row(100_000, "values", 10_000_000, "values of one JSON file of a generated folder")
-    mock_seconds: int = _row(86_400, "s", 1_000_000_000, "a duration in a generated folder")
-    mock_rate: int = _row(20_000, "Hz", 1_000_000, "a rate in a generated folder")
-    mock_samples: int = _row(
+    folder_bytes: int = _adjustable(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
+    folder_entries: int = _adjustable(
+        2000, "entries", 100_000, "one list or mapping in JSON of a generated folder, and files of a git revision"
+    )
+    folder_total_bytes: int = _adjustable(
+        256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together"
+    )
+    mock_samples: int = _adjustable(
         10_000_000, "values", 10_000_000_000, "update cycles of one run times their joints, and what a buffer keeps"
     )
-    mock_stop_cycles: int = _row(20_000, "cycles", 10_000_000, "update cycles that a stop of a trajectory takes")
-    rehearsal_seconds: int = _row(
+    rehearsal_seconds: int = _adjustable(
         600, "s", 360_000, "processor time of a rehearsal, and of those of one generated folder, one after the other"
     )
-    campaign_runs: int = _row(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
-    message_bytes: int = _row(16 * MIB, "bytes", 512 * MIB, "one message of an editor to the language server")
-    open_documents: int = _row(1000, "documents", 100_000, "documents that an editor has open with the language server")
-    sweep_runs: int = _row(1_000_000, "runs", 100_000_000, "runs of a sweep, each of which is kept with about 1 kB")
-    mock_events: int = _row(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
+    campaign_runs: int = _adjustable(10_000, "runs", 1_000_000, "runs of a campaign, and pairs and processes asked for")
+    mock_events: int = _adjustable(1_000_000, "events", 1_000_000_000, "images, messages and timers of one run")
+
+    spec_bytes: int = _fixed(2 * MIB, "bytes", "one file of a spec, or of YAML beside it")
+    spec_depth: int = _fixed(64, "levels", "nesting of values in YAML")
+    spec_values: int = _fixed(200_000, "values", "values of a spec with every alias and include written out")
+    xml_depth: int = _fixed(64, "levels", "nesting of elements in XML")
+    xacro_includes: int = _fixed(32, "files", "nesting of includes in xacro")
+    xacro_macros: int = _fixed(100, "calls", "nesting of macros in xacro")
+    xacro_yaml_bytes: int = _fixed(MIB, "bytes", "one YAML file that xacro reads")
+    xacro_text: int = _fixed(64 * KIB, "characters", "a text in an expression of xacro")
+    xacro_items: int = _fixed(10_000, "items", "a list in an expression of xacro")
+    robot_links: int = _fixed(1000, "links", "links of one URDF")
+    robot_joints: int = _fixed(200, "joints", "joints of one URDF that move")
+    folder_depth: int = _fixed(32, "levels", "nesting of values in JSON and parameters of a generated folder")
+    folder_values: int = _fixed(100_000, "values", "values of one JSON file of a generated folder")
+    mock_seconds: int = _fixed(86_400, "s", "a duration in a generated folder")
+    mock_rate: int = _fixed(20_000, "Hz", "a rate in a generated folder")
+    mock_stop_cycles: int = _fixed(20_000, "cycles", "update cycles that a stop of a trajectory takes")
+    message_bytes: int = _fixed(16 * MIB, "bytes", "one message of an editor to the language server")
+    open_documents: int = _fixed(1000, "documents", "documents that an editor has open with the language server")
+    sweep_runs: int = _fixed(1_000_000, "runs", "runs of a sweep, each of which is kept with about 1 kB")
 
 
 class BudgetError(CellcError):
@@ -169,8 +185,13 @@ def in_force(chosen: Limits) -> Iterator[None]:
 
 
 def rows() -> Mapping[str, Row]:
-    """Return the rows of the table by the name that the option takes, in its order."""
+    """Return the rows of the table by their names with dashes, in its order."""
     return {each.name.replace("_", "-"): each.metadata["row"] for each in fields(Limits)}
+
+
+def adjustable() -> Mapping[str, int]:
+    """Return the largest value of each limit that the option raises, by its name."""
+    return {name: row.highest for name, row in rows().items() if row.highest is not None}
 
 
 def default(name: str) -> int:
@@ -178,14 +199,9 @@ def default(name: str) -> int:
     return _value(DEFAULTS, name)
 
 
-def in_table(name: str) -> int:
-    """Return the value in force of a row."""
-    return _value(limits(), name)
-
-
 def option(name: str) -> str:
     """Return the option that raises a limit, for the help of a message."""
-    assert name in rows(), name
+    assert name in adjustable(), name
     return f"`--limit {name}=N` raises it"
 
 
@@ -199,12 +215,12 @@ def raised(given: Sequence[str]) -> Limits:
         LimitError: a name is unknown, or a value is below the default or above what the program can take.
     """
     changed: dict[str, int] = {}
-    table = rows()
+    largest = adjustable()
     for text in given:
         name, _, value = text.partition("=")
-        if name not in table:
-            raise LimitError(f"there is no limit `{name[:60]}`; there are {', '.join(table)}")
-        least, most = default(name), table[name].highest
+        if name not in largest:
+            raise LimitError(f"no limit `{name[:60]}` can be raised; those that can are {', '.join(largest)}")
+        least, most = default(name), largest[name]
         number = int(value) if value.isascii() and value.isdigit() and len(value) <= 20 else -1
         if not least <= number <= most:
             raise LimitError(f"`{name}` must be a whole number from {least} to {most}, got `{value[:60]}`")
@@ -214,7 +230,7 @@ def raised(given: Sequence[str]) -> Limits:
 
 def as_options(chosen: Limits) -> list[str]:
     """Return what of some limits is not at its default, as the option takes it."""
-    return [f"{name}={_value(chosen, name)}" for name in rows() if _value(chosen, name) != default(name)]
+    return [f"{name}={_value(chosen, name)}" for name in adjustable() if _value(chosen, name) != default(name)]
 
 
 def _value(of: Limits, name: str) -> int:

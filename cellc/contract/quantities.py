@@ -15,7 +15,7 @@ from typing import Annotated, TypeVar
 from pydantic import AfterValidator, ValidationInfo
 from pydantic_core import PydanticCustomError
 
-from cellc.contract.limits import Limits, option
+from cellc.contract.limits import Limits
 
 LARGEST = 1e9
 """Of lengths, angles, speeds and forces, SI. No machine has more, and products of such values stay finite."""
@@ -34,13 +34,11 @@ class _Range:
 
     Args:
         unit: after the figures of the message; empty where fields of one kind have several.
-        limit: name of the limit that ``most`` is; empty where no option raises it.
     """
 
     least: float | _Bound
     most: float | _Bound
     unit: str = ""
-    limit: str = ""
 
     def __call__(self, value: _Number, info: ValidationInfo) -> _Number:
         """Return a value of this kind, or refuse it where a folder is read."""
@@ -50,8 +48,6 @@ class _Range:
         most = self.most(info.context) if callable(self.most) else self.most
         if not least <= value <= most:
             text = f"must be from {least:.15g} to {most:.15g}{self.unit and f' {self.unit}'}, got {value:g}"
-            if value > most and self.limit:
-                text += f"; {option(self.limit)}"
             raise PydanticCustomError("out-of-range", "{text}", {"text": text})
         return value
 
@@ -76,17 +72,17 @@ def _shortest(limits: Limits) -> float:
     return 1.0 / limits.mock_rate
 
 
-Seconds = Annotated[float, AfterValidator(_Range(0.0, _longest, "s", "mock-seconds"))]
+Seconds = Annotated[float, AfterValidator(_Range(0.0, _longest, "s"))]
 """A duration or an age."""
-PositiveSeconds = Annotated[float, AfterValidator(_Range(SMALLEST, _longest, "s", "mock-seconds"))]
+PositiveSeconds = Annotated[float, AfterValidator(_Range(SMALLEST, _longest, "s"))]
 """A bound that zero would make meaningless."""
-Period = Annotated[float, AfterValidator(_Range(_shortest, _longest, "s", "mock-seconds"))]
+Period = Annotated[float, AfterValidator(_Range(_shortest, _longest, "s"))]
 """Time from one to the next."""
-Offset = Annotated[float, AfterValidator(_Range(lambda of: -_longest(of), _longest, "s", "mock-seconds"))]
+Offset = Annotated[float, AfterValidator(_Range(lambda of: -_longest(of), _longest, "s"))]
 """A difference of times."""
 Drift = Annotated[float, AfterValidator(_Range(-0.5, 0.5))]
 """Seconds that a clock gains in a second."""
-Rate = Annotated[float, AfterValidator(_Range(1e-4, _fastest, "Hz", "mock-rate"))]
+Rate = Annotated[float, AfterValidator(_Range(1e-4, _fastest, "Hz"))]
 """How often a second."""
 Share = Annotated[float, AfterValidator(_Range(0.0, 1.0))]
 """From none to all."""

@@ -51,11 +51,10 @@ def _check(data: Json, most: Limits) -> None:
         path, value = open_.pop()
         number += 1
         if number > most.folder_values:
-            raise FormatError(f"holds more than {most.folder_values} values; {option('folder-values')}")
+            raise FormatError(f"holds more than {most.folder_values} values")
         if isinstance(value, (dict, list)):
             if len(path) >= most.folder_depth:
-                text = f"is nested deeper than {most.folder_depth} levels; {option('folder-depth')}"
-                raise FormatError(f"{_shown(path)}{text}")
+                raise FormatError(f"{_shown(path)}is nested deeper than {most.folder_depth} levels")
             if len(value) > most.folder_entries:
                 text = f"has {len(value)} entries, at most {most.folder_entries} are read; {option('folder-entries')}"
                 raise FormatError(f"{_shown(path)}{text}")

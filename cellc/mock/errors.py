@@ -28,11 +28,11 @@ class LimitReachedError(CellcError):
 
     Args:
         text: what it asked for, and how much is allowed.
-        limit: the row of the table of limits.
+        limit: the limit that an option raises; empty where the bound is fixed.
     """
 
-    def __init__(self, text: str, limit: str) -> None:
-        super().__init__(f"{text}; {option(limit)}")
+    def __init__(self, text: str, limit: str = "") -> None:
+        super().__init__(f"{text}; {option(limit)}" if limit else text)
 
 
 class FaultMissedError(CellcError):

@@ -340,7 +340,7 @@ def path_tolerances(parameters: Mapping[str, str]) -> dict[str, float]:
 
 def _tolerances(text: str) -> Iterator[tuple[str, float]]:
     try:
-        nodes = load_values(text, limit="folder-values")
+        nodes = load_values(text, most=limits().folder_values)
     except (yaml.YAMLError, ValueError, RecursionError):
         return  # the controller manager says what is wrong with it
     for node in nodes.values() if isinstance(nodes, dict) else ():

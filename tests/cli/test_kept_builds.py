@@ -122,7 +122,7 @@ def test_change_is_computed(cell: Path, computed: list[str], change: Callable[[P
 
 @pytest.mark.parametrize(
     "options",
-    [("--limit", "spec-bytes=4000000"), ("--matrix", f"ros={Distro.JAZZY.value}")],
+    [("--limit", "spec-files=40"), ("--matrix", f"ros={Distro.JAZZY.value}")],
     ids=["other limits", "other versions"],
 )
 def test_other_question_is_computed(cell: Path, computed: list[str], options: tuple[str, ...]) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.compute.processes import processes
-from cellc.contract.limits import DEFAULTS, LimitError, as_options, in_force, limits, raised, rows
+from cellc.contract.limits import DEFAULTS, LimitError, adjustable, as_options, in_force, limits, raised, rows
 from cellc.tools.cli.batch import in_workers
 from cellc.tools.cli.fleet import Task
 from tests.cli.run import MINIMAL, run
@@ -15,23 +15,26 @@ from tests.cli.run import MINIMAL, run
 READING = ("audit", "build", "check", "mock", "show")
 
 
-def _long(folder: Path) -> str:
-    """Return a spec of more than two MiB, all of it a comment but what the minimal cell says."""
+def _wide(folder: Path) -> str:
+    """Return a spec of 40 files, all of them empty but one that has the minimal cell."""
     spec = folder / "cell.yaml"
-    spec.write_text(Path(MINIMAL).read_text(encoding="utf-8") + "# padding\n" * 220_000, encoding="utf-8")
+    parts = [f"{number}.yaml" for number in range(39)]
+    for part in parts:
+        (folder / part).write_text("hosts: {}\n", encoding="utf-8")
+    spec.write_text(Path(MINIMAL).read_text(encoding="utf-8") + f"include: [{', '.join(parts)}]\n", encoding="utf-8")
     return spec.as_posix()
 
 
-def test_file_that_is_too_large_is_read_where_the_option_raises_the_limit(tmp_path: Path) -> None:
-    refused = run("check", _long(tmp_path))
+def test_spec_of_too_many_files_is_read_where_the_option_raises_the_limit(tmp_path: Path) -> None:
+    refused = run("check", _wide(tmp_path))
     assert refused.code == 1
-    assert "file-too-large" in refused.out
-    assert "`--limit spec-bytes=N` raises it" in refused.out
-    assert run("check", "--limit", f"spec-bytes={3 * 2**20}", _long(tmp_path)).code == 0
+    assert "too-many-includes" in refused.out
+    assert "`--limit spec-files=N` raises it" in refused.out
+    assert "too-many-includes" not in run("check", "--limit", "spec-files=40", _wide(tmp_path)).out
 
 
 def test_limits_are_the_defaults_again_after_a_command() -> None:
-    run("check", "--limit", f"spec-bytes={3 * 2**20}", MINIMAL)
+    run("check", "--limit", "spec-files=40", MINIMAL)
     assert limits() == DEFAULTS
 
 
@@ -40,13 +43,21 @@ def test_unknown_limit_is_a_usage_error_that_lists_the_names(command: str) -> No
     refused = run(command, "--limit", "bytes=9", MINIMAL)
     assert refused.code == 2
     assert "no limit `bytes`" in refused.err
-    assert all(name in refused.err.replace("\n", " ") for name in rows())
+    assert all(name in refused.err.replace("\n", " ") for name in adjustable())
 
 
-@pytest.mark.parametrize("value", ["", "0", "-1", "1e9", "nan", "inf", "64", "9" * 5000, "²", "٣000000"])
+def test_bound_that_no_cell_comes_near_is_fixed() -> None:
+    fixed = [name for name, row in rows().items() if row.highest is None]
+    assert "spec-depth" in fixed
+    for name in fixed:
+        with pytest.raises(LimitError, match=f"no limit `{name}` can be raised"):
+            raised([f"{name}=1000000000"])
+
+
+@pytest.mark.parametrize("value", ["", "0", "-1", "1e9", "nan", "inf", "64", "9" * 5000, "²", "٣0000000"])
 def test_value_is_a_whole_number_between_the_default_and_the_largest(value: str) -> None:
-    with pytest.raises(LimitError, match="`spec-bytes` must be a whole number from 2097152 to 67108864"):
-        raised([f"spec-bytes={value}"])
+    with pytest.raises(LimitError, match="`xml-bytes` must be a whole number from 8388608 to 268435456"):
+        raised([f"xml-bytes={value}"])
 
 
 def test_last_value_of_a_name_counts() -> None:
@@ -54,12 +65,12 @@ def test_last_value_of_a_name_counts() -> None:
 
 
 def test_limits_are_handed_on_as_options() -> None:
-    chosen = raised(["spec-files=40", "xml-depth=100"])
-    assert as_options(chosen) == ["spec-files=40", "xml-depth=100"]
+    chosen = raised(["spec-files=40", "mesh-shapes=2000"])
+    assert as_options(chosen) == ["spec-files=40", "mesh-shapes=2000"]
     assert raised(as_options(chosen)) == chosen
 
 
 def test_processes_of_a_call_have_its_limits(tmp_path: Path) -> None:
-    with in_force(raised([f"spec-bytes={3 * 2**20}"])):
-        results = list(in_workers("check", [Task(_long(tmp_path))], processes(1)))
-    assert [found.code for found in results[0].findings.diagnostics if found.code == "file-too-large"] == []
+    with in_force(raised(["spec-files=40"])):
+        results = list(in_workers("check", [Task(_wide(tmp_path))], processes(1)))
+    assert "too-many-includes" not in [found.code for found in results[0].findings.diagnostics]

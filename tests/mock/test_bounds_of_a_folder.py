@@ -84,9 +84,9 @@ def test_files_that_only_the_manifest_names_are_bounded_too(folder: Path) -> Non
     ("text", "reason"),
     [
         ("[" * 10_000, "is not JSON: recursion limit exceeded"),
-        ('{"a":' * 50 + "1" + "}" * 50, "is nested deeper than 32 levels; `--limit folder-depth=N` raises it"),
+        ('{"a":' * 50 + "1" + "}" * 50, "is nested deeper than 32 levels"),
         ('{"cell": [' + "0," * 5000 + "0]}", "`cell`: has 5001 entries, at most 2000 are read"),
-        (json.dumps([[0] * 1000] * 200), "holds more than 100000 values; `--limit folder-values=N` raises it"),
+        (json.dumps([[0] * 1000] * 200), "holds more than 100000 values"),
         ('{"format": 9223372036854775808}', "`format`: must fit 64 bits"),
         ('{"frames": {"a": {"rate_hz": NaN}}}', "`frames.a.rate_hz`: must be a finite number, got nan"),
     ],
@@ -100,13 +100,13 @@ def test_json_is_bounded_before_anything_is_made_of_it(folder: Path, text: str, 
 @pytest.mark.parametrize(
     ("path", "value", "reason"),
     [
-        (("managers", "control", "update_rate_hz"), 1e9, "must be from 0.0001 to 20000 Hz, got 1e+09; "),
+        (("managers", "control", "update_rate_hz"), 1e9, "must be from 0.0001 to 20000 Hz, got 1e+09"),
         (("managers", "control", "update_rate_hz"), 0, "must be from 0.0001 to 20000 Hz, got 0"),
         (("managers", "control", "update_rate_hz"), True, "input should be a valid number"),
         (("joint_limits", "arm_elbow_joint", "jerk"), 0.0, "must be from 1e-09 to 1000000000, got 0"),
         (("goals", "pick", "pose", "quaternion"), [0, 0, 0, 0], "must be a unit quaternion, got one of length 0"),
         (("goals", "pick", "pose", "xyz"), [1e300, 0, 0], "must be from -1000000000 to 1000000000, got 1e+300"),
-        (("frames", "object", "buffer_s"), 1e9, "must be from 0 to 86400 s, got 1e+09; `--limit mock-seconds=N`"),
+        (("frames", "object", "buffer_s"), 1e9, "must be from 0 to 86400 s, got 1e+09"),
     ],
 )
 def test_number_is_refused_with_its_place_and_its_bounds(
@@ -201,9 +201,9 @@ def test_damaged_numbers_end_in_a_refusal_or_an_outcome(folder: Path, name: str)
 
 
 @pytest.mark.parametrize(
-    ("kind", "count", "limit"), [("fixed", 1001, "robot-links"), ("revolute", 201, "robot-joints")]
+    ("kind", "count", "most"), [("fixed", 1001, "at most 1000 are read"), ("revolute", 201, "at most 200 are read")]
 )
-def test_chain_of_links_is_bounded(folder: Path, kind: str, count: int, limit: str) -> None:
+def test_chain_of_links_is_bounded(folder: Path, kind: str, count: int, most: str) -> None:
     file = folder / "urdf/ur5e_pick.mock.urdf"
     chain = "".join(
         f'<link name="l{i}"/><joint name="j{i}" type="{kind}"><parent link="l{i - 1}"/><child link="l{i}"/></joint>'
@@ -212,7 +212,7 @@ def test_chain_of_links_is_bounded(folder: Path, kind: str, count: int, limit: s
     file.write_text(file.read_text().replace("</robot>", f'<link name="l-1"/>{chain}</robot>'))
     error = refusal(folder)
     assert error.file == "urdf/ur5e_pick.mock.urdf"
-    assert f"`--limit {limit}=N` raises it" in error.reason
+    assert most in error.reason
 
 
 @pytest.mark.parametrize("value", ["1e300", "1e21", "nan", "inf", "-1e7", "1" + "0" * 400])

@@ -65,7 +65,7 @@ def test_spoilt_json_is_refused(folder: Path, name: str, content: bytes) -> None
         ({"timeout_s": 1e300}, "`rehearsals.0.timeout_s`: must be from 1e-09 to 86400 s, got 1e+300"),
         (
             {"steps": [{"kind": "wait", "target": "", "duration_s": 1e10}]},
-            "`rehearsals.0.steps.0.duration_s`: must be from 0 to 86400 s, got 1e+10; `--limit mock-seconds=N`",
+            "`rehearsals.0.steps.0.duration_s`: must be from 0 to 86400 s, got 1e+10",
         ),
     ],
 )

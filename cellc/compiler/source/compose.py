@@ -165,7 +165,7 @@ class _Composer:
         self._refuse_tag(event)
         if len(self._open) >= self._limits.spec_depth:
             message = f"values are nested more than {self._limits.spec_depth} deep"
-            self._stop("too-deep", message, self._span(event), "spec-depth")
+            self._stop("too-deep", message, self._span(event))
             return
         self._anchors.pop(event.anchor or "", None)
         self._open.append(OpenCollection(event, isinstance(event, yaml.MappingStartEvent)))
@@ -175,10 +175,10 @@ class _Composer:
         node = collection.close(event, self._file, self._lines)
         if node.size > self._limits.spec_values:
             message = f"aliases expand to more than {self._limits.spec_values} values"
-            self._stop("alias-bomb", message, node.span, "spec-values")
+            self._stop("alias-bomb", message, node.span)
         elif node.height + len(self._open) > self._limits.spec_depth:
             message = f"aliases nest values more than {self._limits.spec_depth} deep"
-            self._stop("too-deep", message, node.span, "spec-depth")
+            self._stop("too-deep", message, node.span)
         else:
             # An anchor of the same name inside this collection comes later in the file and stays in force.
             if collection.start.anchor is not None:
@@ -190,7 +190,7 @@ class _Composer:
         self._values += 1
         if self._values > self._limits.spec_values:
             message = f"the file holds more than {self._limits.spec_values} values"
-            self._stop("too-many-values", message, span, "spec-values")
+            self._stop("too-many-values", message, span)
         elif not self._open:
             self.root = node
         elif self._open[-1].expects_key:
@@ -237,15 +237,14 @@ class _Composer:
         span: Span,
         related: tuple[Related, ...] = (),
         key: YamlPath = (),
-        limit: str = "",
         advice: str = "",
     ) -> None:
         path = tuple(part for collection in self._open if (part := collection.position) is not None) + key
-        self.findings.append(finding(code, message, span, path=path, advice=advice, limit=limit, related=related))
+        self.findings.append(finding(code, message, span, path=path, advice=advice, related=related))
         self.is_hopeless = self.is_hopeless or len(self.findings) >= MAX_FINDINGS
 
-    def _stop(self, code: str, message: str, span: Span, limit: str = "") -> None:
-        self._report(code, message, span, limit=limit)
+    def _stop(self, code: str, message: str, span: Span) -> None:
+        self._report(code, message, span)
         self.is_hopeless = True
 
     def _span(self, event: yaml.Event) -> Span:

@@ -78,7 +78,7 @@ def merge(roots: Sequence[Node]) -> Outcome[Node]:
     merged = _mapping(roots[0], sections)
     if merged.size > limits().spec_values:
         message = f"the spec and its includes hold {merged.size} values; at most {limits().spec_values} are read"
-        findings.append(finding("too-many-values", message, roots[0].span, limit="spec-values"))
+        findings.append(finding("too-many-values", message, roots[0].span))
     return Outcome(merged, tuple(findings))
 
 

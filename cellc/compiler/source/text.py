@@ -90,7 +90,7 @@ def _file_in(folder: Path) -> str:
 
 def _too_large(name: str, size: str, place: Span) -> Diagnostic:
     message = f"`{name}` is {size}; at most {limits().spec_bytes // MIB} MiB are read"
-    return finding("file-too-large", message, place, limit="spec-bytes")
+    return finding("file-too-large", message, place)
 
 
 def _similar_file(path: Path) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 from time import perf_counter
 
 from cellc.contract.compute.work import ComputeError
-from cellc.contract.limits import limits, option
+from cellc.contract.limits import limits
 from cellc.contract.printing import progress, remark, show, show_document
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.cell import MockCell
@@ -63,8 +63,7 @@ def entries_to_sweep(cell: MockCell, options: SweepOptions) -> Sequence[Rehearsa
     """Return the rehearsals that are meant; raise MockError where they cannot be swept as the options ask."""
     most = limits().sweep_runs
     if not 1 <= options.runs <= most:
-        problem = f"the number of runs is {options.runs}; it must be 1 or greater, and at most {most}"
-        raise MockError("", f"{problem}; {option('sweep-runs')}")
+        raise MockError("", f"the number of runs is {options.runs}; it must be 1 or greater, and at most {most}")
     _check_seed(options)
     entries = _meant(cell, options.rehearsals)
     if len(entries) > 1 and options.journal is not None:

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cellc.contract.compute.versions import difference, versions
 from cellc.contract.contract import Contract
-from cellc.contract.limits import limits, option
+from cellc.contract.limits import limits
 from cellc.contract.store.regular_file import open_regular
 from cellc.contract.store.swap import open_to_continue
 from cellc.mock.errors import MockError
@@ -96,7 +96,7 @@ class Journal:
             if len(line) > _LONGEST_LINE:
                 raise self._refused(f"line {number} has more than {_LONGEST_LINE} bytes; {_AWAY}")
             if number > limits().sweep_runs + 1:
-                raise self._refused(f"must have at most {limits().sweep_runs} runs; {option('sweep-runs')}")
+                raise self._refused(f"must have at most {limits().sweep_runs} runs")
             if not line.endswith(b"\n"):  # it was cut off as it was written
                 if number == 1 and not _line(self._head).startswith(line):
                     raise self._refused(f"is no journal; {_AWAY}")

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean
 from cellc.contract.diagnostics.unsafe_text import hidden, substitution
-from cellc.contract.limits import limits, option
+from cellc.contract.limits import limits
 from cellc.robot.description.model import (
     Box,
     Collision,
@@ -95,13 +95,13 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
 def _too_many(root: XmlElement) -> Diagnostic | None:
     """Refuse more links than the limits allow, or more joints that move: what is made of them grows with the square."""
     moving = [joint for joint in root.all("joint") if joint.attributes.get("type") != "fixed"]
-    for count, most, what, limit in (
-        (len(root.all("link")), limits().robot_links, "links", "robot-links"),
-        (len(moving), limits().robot_joints, "joints that move", "robot-joints"),
+    for count, most, what in (
+        (len(root.all("link")), limits().robot_links, "links"),
+        (len(moving), limits().robot_joints, "joints that move"),
     ):
         if count > most:
             message = f"the description has {count} {what}, at most {most} are read"
-            return Diagnostic("xml-too-large", Severity.ERROR, message, root.span, help=option(limit))
+            return Diagnostic("xml-too-large", Severity.ERROR, message, root.span, help="split it into several devices")
     return None
 
 

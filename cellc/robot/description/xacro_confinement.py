@@ -97,7 +97,7 @@ class Confinement:
         """Yield the files of one ``<xacro:include>``, wildcards in sorted order."""
         if len(xacro.filestack) > limits().xacro_includes:
             message = f"includes are nested deeper than {limits().xacro_includes} files"
-            raise XacroRefusedError("xacro-too-large", message, option("xacro-includes"))
+            raise XacroRefusedError("xacro-too-large", message, "look for a file that includes itself")
         path = self.path_of(str(xacro.eval_text(specification, symbols)))
         wildcard = re.search(r"[*?\[]", path)
         if wildcard is None:
@@ -221,7 +221,7 @@ class Confinement:
                 raise XacroRefusedError("xacro-too-large", message, option("xacro-elements"))
             if len(xacro.macrostack) > most.xacro_macros:
                 message = f"macros call each other deeper than {most.xacro_macros} levels"
-                raise XacroRefusedError("xacro-too-large", message, option("xacro-macros"))
+                raise XacroRefusedError("xacro-too-large", message, "look for a macro that calls itself")
             return located(node, macros, symbols)
 
         return eval_all

@@ -16,7 +16,7 @@ from functools import lru_cache
 from typing import Any, cast
 
 from cellc.contract.errors import CellcError
-from cellc.contract.limits import limits, option
+from cellc.contract.limits import limits
 
 MAX_MAGNITUDE = 10**40
 _WIDE = re.compile(r"%[^a-zA-Z%]*(?:\d{3}|\*)")
@@ -96,9 +96,9 @@ def bounded(value: Any) -> Any:
     if isinstance(value, int) and abs(value) > MAX_MAGNITUDE:
         raise ExpressionError("a number is beyond 1e40")
     if isinstance(value, str) and len(value) > limits().xacro_text:
-        raise ExpressionError(f"a text is longer than {limits().xacro_text} characters; {option('xacro-text')}")
+        raise ExpressionError(f"a text is longer than {limits().xacro_text} characters")
     if isinstance(value, (list, tuple, dict, set, frozenset)) and len(value) > limits().xacro_items:
-        raise ExpressionError(f"a list is longer than {limits().xacro_items} items; {option('xacro-items')}")
+        raise ExpressionError(f"a list is longer than {limits().xacro_items} items")
     return value
 
 

@@ -137,12 +137,13 @@ class ConfinedFiles:
         shown = self.shown(path)
         if len(text) > limits().xacro_yaml_bytes:
             message = f"`{shown}` is larger than {limits().xacro_yaml_bytes // MIB} MiB"
-            raise XacroRefusedError("xacro-too-large", message, option("xacro-yaml-bytes"))
+            raise XacroRefusedError(
+                "xacro-too-large", message, "move what the description does not use to another file"
+            )
         try:
             return load_values(text, _UnitLoader)
         except TooManyValuesError as error:
-            message, _, advice = str(error).partition("; ")
-            raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` {message}", advice) from None
+            raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` {error}") from None
         except (yaml.YAMLError, ValueError, RecursionError) as error:
             reason = str(error).split("\n", 1)[0]
             raise XacroRefusedError("xacro-bad-yaml", f"`{shown}` is not readable YAML: {reason}") from None

@@ -141,7 +141,7 @@ class _TreeBuilder:
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         if len(self.stack) >= self.depth:
             message = f"elements are nested deeper than {self.depth} levels"
-            raise _XmlError("xml-too-deep", message, option("xml-depth"))
+            raise _XmlError("xml-too-deep", message, "check that the file is a robot description")
         element = XmlElement(tag, attributes, self.start_tag_span())
         if self.stack:
             self.stack[-1].children.append(element)

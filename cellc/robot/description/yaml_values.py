@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import yaml
 
 from cellc.contract.errors import CellcError
-from cellc.contract.limits import in_table, limits, option
+from cellc.contract.limits import limits
 
 Loader: TypeAlias = "type[yaml.SafeLoader | yaml.CSafeLoader]"
 FAST: Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -26,11 +26,11 @@ _LONGEST_NUMBER = 4300
 to base 60, as YAML 1.1 has them, takes time by the square of its length."""
 
 
-def load_values(text: str, loader: Loader = FAST, limit: str = "xacro-items", *, aliases: bool = True) -> Any:
+def load_values(text: str, loader: Loader = FAST, most: int | None = None, *, aliases: bool = True) -> Any:
     """Return what a YAML document holds; it must be made with a safe loader.
 
     Args:
-        limit: the row of the limits that bounds its values.
+        most: how many values it may have; as many as a list in xacro if None.
         aliases: whether it may have some.
 
     Raises:
@@ -39,9 +39,9 @@ def load_values(text: str, loader: Loader = FAST, limit: str = "xacro-items", *,
     """
     _refuse_events(text, loader, aliases)
     root = yaml.compose(text, Loader=loader)
-    most = in_table(limit)
+    most = limits().xacro_items if most is None else most
     if _written_out(root) > most:
-        raise TooManyValuesError(f"has more than {most} values where its aliases are written out; {option(limit)}")
+        raise TooManyValuesError(f"has more than {most} values where its aliases are written out")
     try:
         return yaml.load(text, Loader=loader)
     except (ArithmeticError, LookupError, AttributeError, TypeError) as error:  # `!!bool x`, `!!int ''`, `1:1:…:1.5`

@@ -13,6 +13,7 @@ from typing import Any
 
 import yaml
 
+from cellc.contract.limits import limits
 from cellc.robot.description.yaml_values import load_values
 
 Facts = dict[str, Any]
@@ -34,7 +35,7 @@ _Loader.yaml_implicit_resolvers = {
 def facts_in(text: str) -> Facts | None:
     """Return what a ``device.yaml`` holds; None where it cannot be read, which a check tells with its place."""
     try:
-        facts = load_values(text, _Loader, "spec-values")
+        facts = load_values(text, _Loader, limits().spec_values)
     except (yaml.YAMLError, ValueError, RecursionError):
         return None
     return facts if isinstance(facts, dict) else None

@@ -24,7 +24,7 @@ from pygls.workspace import PositionCodec, TextDocument
 
 from cellc.compiler.source.text import read_text
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
-from cellc.contract.limits import limits, option
+from cellc.contract.limits import limits
 from cellc.contract.printing import refuse
 from cellc.contract.signals import Stopped, raise_again
 from cellc.tools.edit.rewrite import Edit
@@ -178,7 +178,7 @@ class _Messages(io.BufferedReader):
         most, left = limits().message_bytes, size or 0
         if left <= most:
             return super().read(left)
-        refuse(f"a message of {left} bytes is dropped; {option('message-bytes')}")
+        refuse(f"a message of {left} bytes is dropped: at most {most} are read")
         while left and (dropped := super().read(min(left, most))):
             left -= len(dropped)
         return b"" if left else _NOTHING
@@ -261,7 +261,7 @@ async def _touched(of: CellServer, params: _Touched) -> None:
     uri = params.text_document.uri
     if len(of.workspace.text_documents) > limits().open_documents:
         of.workspace.remove_text_document(uri)  # from here on it is what its file holds
-        refuse(f"`{file_of(uri)}` is one document too many; {option('open-documents')}")
+        refuse(f"`{file_of(uri)}` is one document too many: at most {limits().open_documents} may be open")
     of.soon(uri)
 
 

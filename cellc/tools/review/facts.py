@@ -19,6 +19,7 @@ from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.entities import TARGETS, ContractInterface
 from cellc.contract.errors import CellcError
 from cellc.contract.gates import GATES, Gates
+from cellc.contract.limits import limits
 from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import Rehearsals
@@ -152,7 +153,7 @@ def _described(files: Mapping[str, str], path: str) -> Description:
 
 def _loaded(path: str, text: str) -> Json:
     try:
-        return _plain(load_values(text, limit="folder-values", aliases=False))
+        return _plain(load_values(text, most=limits().folder_values, aliases=False))
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         raise FactsError(f"{path}: is not YAML that cellc writes: {_first_line(error)}") from None
 

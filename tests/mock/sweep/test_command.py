@@ -71,7 +71,7 @@ def test_several_folders_are_swept_into_one_table(nest_folder: Path) -> None:
         (["replay", "sweep:1", "--records", "x"], "--records does not go with a run of a sweep"),
         (["sweep"], "the folder has no `config/uncertainty.json`; write `uncertainty: {}` in the spec"),
         (["replay", "sweep:x"], "the folder has no `config/uncertainty.json`"),
-        (["sweep", "--runs", "1000001"], "at most 1000000; `--limit sweep-runs="),
+        (["sweep", "--runs", "1000001"], "at most 1000000"),
         (["sweep", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
         (["replay", "sweep:1", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
         (["sweep", "--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs does not go with --cluster"),

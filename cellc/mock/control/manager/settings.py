@@ -74,7 +74,7 @@ def read_settings(parameters: ParameterSet, distro: Distro) -> ManagerSettings:
         text = (
             f"the controller manager has an `update_rate` of {rate} Hz, at most {limits().mock_rate} Hz are simulated"
         )
-        raise LimitReachedError(text, "mock-rate")
+        raise LimitReachedError(text)
     return ManagerSettings(
         rate,
         parameters.flag("enforce_command_limits") and Feature.LIMITED_COMMANDS in features(distro),

@@ -208,7 +208,7 @@ class ParameterSet:
         rate_hz, most = self.number(name), limits().mock_rate
         if not _SLOWEST_HZ <= rate_hz <= most:
             text = f"parameter `{name}` is {rate_hz:g} Hz, from {_SLOWEST_HZ:g} to {most} Hz are simulated"
-            raise LimitReachedError(text, "mock-rate")
+            raise LimitReachedError(text)
         return round(1e9 / rate_hz)
 
     def flag(self, name: str) -> bool:

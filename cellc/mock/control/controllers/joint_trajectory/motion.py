@@ -310,7 +310,7 @@ def stop_points(position: Array, velocity: Array, deceleration: Array, period_ns
     longest = float(stop_s.max()) * 1e9 / period_ns
     if not longest <= limits().mock_stop_cycles:
         text = f"a stop takes {longest:.3g} update cycles, at most {limits().mock_stop_cycles} are simulated"
-        raise LimitReachedError(text, "mock-stop-cycles")
+        raise LimitReachedError(text)
     count = math.ceil(longest) + 1
     rest = position + velocity * np.abs(velocity) / (2.0 * deceleration)
     points = []
