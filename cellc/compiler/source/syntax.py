@@ -41,7 +41,7 @@ def syntax_finding(error: yaml.YAMLError | ValueError, file: str, text: str) -> 
     span = _problem_span(getattr(error, "problem_mark", None), file, text)
     if _NESTING in problem:
         depth = limits().spec_depth
-        return finding("too-deep", f"values are nested more than {depth} deep", span, limit="spec-depth")
+        return finding("too-deep", f"values are nested more than {depth} deep", span)
     tab = _tab_near(span, text)
     if tab is not None:
         return tab_finding(tab)
