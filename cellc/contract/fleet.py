@@ -1,49 +1,71 @@
-"""What ``--json`` prints where a command is about many cells: one row for each cell with each version tuple."""
+"""The table of many cells, a row for each with each version tuple: what ``--json`` prints of it, and its verdicts."""
 
-from typing import Literal
+from __future__ import annotations
 
-from pydantic import Field
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import ConfigDict, Field
 
 from cellc.contract.base import ContractModel
 from cellc.contract.review import ReviewFinding
 
+_READ = ConfigDict(extra="forbid", allow_inf_nan=False)
 
-class FleetRehearsal(ContractModel):
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetRehearsal:
     """How a rehearsal ended on the mock."""
 
-    name: str = Field(description="Name of the rehearsal.")
-    outcome: str = Field(description="How it ended.")
-    expected: str = Field(description="How it must end.")
-    passed: bool = Field(description="Whether it ended so, in time.")
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    name: Annotated[str, Field(description="Name of the rehearsal.")]
+    outcome: Annotated[str, Field(description="How it ended.")]
+    expected: Annotated[str, Field(description="How it must end.")]
+    passed: Annotated[bool, Field(description="Whether it ended so, in time.")]
 
 
-class FleetSweep(ContractModel):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetSweep:
     """How often a rehearsal succeeded."""
 
-    rehearsal: str = Field(description="Name of the rehearsal.")
-    runs: int = Field(description="Number of runs that the verdict rests on.")
-    succeeded: int = Field(description="Those of them that succeeded.")
-    low: float = Field(description="Least rate of success that they leave possible.")
-    high: float = Field(description="Highest rate of success that they leave possible.")
-    confidence: float = Field(description="Confidence of that interval.")
-    verdict: Literal["passed", "failed", "UNKNOWN"] | None = Field(
-        description="Whether the expected rate holds; null where the cell expects none."
-    )
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    rehearsal: Annotated[str, Field(description="Name of the rehearsal.")]
+    runs: Annotated[int, Field(description="Number of runs that the verdict rests on.")]
+    succeeded: Annotated[int, Field(description="Those of them that succeeded.")]
+    low: Annotated[float, Field(description="Least rate of success that they leave possible.")]
+    high: Annotated[float, Field(description="Highest rate of success that they leave possible.")]
+    confidence: Annotated[float, Field(description="Confidence of that interval.")]
+    verdict: Annotated[
+        Literal["passed", "failed", "UNKNOWN"] | None,
+        Field(description="Whether the expected rate holds; null where the cell expects none."),
+    ]
 
 
-class FleetRow(ContractModel):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetRow:
     """One cell with one version tuple."""
 
-    cell: str = Field(description="Name of the cell; empty where an error hides it.")
-    source: str = Field(description="Spec or generated folder, as it was named.")
-    versions: dict[str, str] = Field(description="Parts of the tuple by which rows differ, and `ros`.")
-    passed: bool = Field(description="Whether everything is as it must be.")
-    problem: str = Field("", description="Why there is no result; empty where there is one.")
-    findings: tuple[ReviewFinding, ...] | None = Field(
-        None, description="Of the check, options applied; null for a generated folder, which is not checked again."
-    )
-    rehearsals: tuple[FleetRehearsal, ...] | None = Field(None, description="Null where none was run.")
-    sweeps: tuple[FleetSweep, ...] | None = Field(None, description="Null where none was asked for.")
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    cell: Annotated[str, Field(description="Name of the cell; empty where an error hides it.")]
+    source: Annotated[str, Field(description="Spec or generated folder, as it was named.")]
+    versions: Annotated[Mapping[str, str], Field(description="Parts of the tuple by which rows differ, and `ros`.")]
+    passed: Annotated[bool, Field(description="Whether everything is as it must be.")]
+    problem: Annotated[str, Field(description="Why there is no result; empty where there is one.")] = ""
+    findings: Annotated[
+        tuple[ReviewFinding, ...] | None,
+        Field(description="Of the check, options applied; null for a generated folder, which is not checked again."),
+    ] = None
+    rehearsals: Annotated[tuple[FleetRehearsal, ...] | None, Field(description="Null where none was run.")] = None
+    sweeps: Annotated[tuple[FleetSweep, ...] | None, Field(description="Null where none was asked for.")] = None
+
+    @property
+    def label(self) -> str:
+        """The cell, or where an error hides that its source, with the tuple."""
+        return " ".join([self.cell or self.source, *(f"{part}={text}" for part, text in self.versions.items())])
 
 
 class Fleet(ContractModel):

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter, process_time
+from typing import Literal
 
 from cellc.contract.compute.work import Work, in_order, stream
-from cellc.contract.fleet import FleetRehearsal, FleetSweep
+from cellc.contract.fleet import FleetRehearsal, FleetRow, FleetSweep
 from cellc.contract.limits import limits, option
 from cellc.contract.printing import progress, time_left
-from cellc.contract.vocabulary import UNKNOWN
 from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import cell_of, in_turn, read_to_run
 from cellc.mock.command.campaign import executor
@@ -30,49 +30,39 @@ _TOO_LONG = "the rehearsals of all folders must take at most {} s of processor t
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A generated folder of a call.
+    """A generated folder of a call: its row as far as it is known, and what is executed; None where nothing can be."""
 
-    Attributes:
-        name: as the user knows it.
-        read: None where it cannot be executed, and ``problem`` says why.
-    """
-
-    name: str
+    row: FleetRow
     read: GeneratedFolder | None
-    problem: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Rehearsed:
-    """What became of a folder: its rehearsals or its sweeps, and its processor time."""
+class _Ended:
+    """How the rehearsals of a folder ended, or why they could not be run, and the processor time of it."""
 
-    rehearsals: tuple[FleetRehearsal, ...] | None = None
-    sweeps: tuple[FleetSweep, ...] | None = None
-    problem: str = ""
-    seconds: float = field(default=0.0, compare=False)
-
-    @property
-    def passed(self) -> bool:
-        """Whether everything ended as it must."""
-        swept = all(sweep.verdict in (None, "passed") for sweep in self.sweeps or ())
-        return not self.problem and swept and all(rehearsal.passed for rehearsal in self.rehearsals or ())
+    rehearsals: tuple[FleetRehearsal, ...]
+    problem: str
+    seconds: float
 
 
-def member_of(name: str, folder: Path, *, edited: bool, spec: Path | None = None) -> Member:
+def member_of(row: FleetRow, folder: Path, *, edited: bool, spec: Path | None = None) -> Member:
     """Read a generated folder.
 
     Args:
+        row: of it, or of the spec that it was made of for this call.
         spec: folder of the spec, where the package lies elsewhere than it will.
     """
     try:
         read = read_to_run(folder, edited=edited)
     except MockError as problem:
-        return Member(name, None, str(problem))
-    return Member(name, read if spec is None else replace(read, mesh_roots=(spec, *read.mesh_roots)))
+        return Member(replace(row, passed=False, problem=str(problem)), None)
+    contract = read.contract
+    row = replace(row, cell=contract.cell, versions={"ros": contract.distro.value, **row.versions})
+    return Member(row, read if spec is None else replace(read, mesh_roots=(spec, *read.mesh_roots)))
 
 
-def rehearse_all(members: Sequence[Member], options: RehearsalOptions) -> Iterator[Rehearsed]:
-    """Yield what became of each folder, in their order.
+def rehearse_all(members: Sequence[Member], options: RehearsalOptions) -> Iterator[FleetRow]:
+    """Yield the row of each folder with what became of its rehearsals, in their order.
 
     Raises:
         ComputeError: no worker can execute one.
@@ -81,19 +71,20 @@ def rehearse_all(members: Sequence[Member], options: RehearsalOptions) -> Iterat
     spent_s = 0.0
     with progress("mock") as update, closing(_rehearsed(members, options)) as ended:
         for number, member in enumerate(members):
-            left = time_left(number, len(members), perf_counter() - start)
-            update(f"{number + 1} of {len(members)}, {member.name}{left}")
+            row, left = member.row, time_left(number, len(members), perf_counter() - start)
+            update(f"{number + 1} of {len(members)}, {row.label}{left}")
             if member.read is None:
-                yield Rehearsed((), problem=member.problem)
+                yield row
             elif spent_s > limits().command_seconds:
-                yield Rehearsed((), problem=_TOO_LONG.format(limits().command_seconds))
+                yield replace(row, passed=False, problem=_TOO_LONG.format(limits().command_seconds), rehearsals=())
             else:
                 done = next(ended)
                 spent_s += done.seconds
-                yield done
+                passed = row.passed and not done.problem and all(each.passed for each in done.rehearsals)
+                yield replace(row, passed=passed, problem=done.problem, rehearsals=done.rehearsals)
 
 
-def _rehearsed(members: Sequence[Member], options: RehearsalOptions) -> Generator[Rehearsed, None, None]:
+def _rehearsed(members: Sequence[Member], options: RehearsalOptions) -> Generator[_Ended, None, None]:
     factory, _ = executor(options.fan)
     # Another computer may lack meshes; finding that out takes as long as a rehearsal.
     assigned = [
@@ -110,50 +101,49 @@ def _rehearsed(members: Sequence[Member], options: RehearsalOptions) -> Generato
     return in_order(stream(work, assigned, factory))
 
 
-def _begin(_: None) -> Callable[[Assignment], Rehearsed]:
+def _begin(_: None) -> Callable[[Assignment], _Ended]:
     return _rehearse
 
 
-def _rehearse(assignment: Assignment) -> Rehearsed:
+def _rehearse(assignment: Assignment) -> _Ended:
     start_s = process_time()
     try:
         cell = assignment.cell()
         results = [cell.run(name, seed=assignment.seed) for name in in_turn(cell, cell.rehearsals)]
     except MockError as problem:
-        return Rehearsed((), problem=str(problem))
-    return Rehearsed(
-        tuple(
-            FleetRehearsal(name=result.name, outcome=result.outcome, expected=result.expected, passed=result.passed)
-            for result in results
-        ),
-        seconds=process_time() - start_s,
+        return _Ended((), str(problem), 0.0)
+    ended = (
+        FleetRehearsal(name=result.name, outcome=result.outcome, expected=result.expected, passed=result.passed)
+        for result in results
     )
+    return _Ended(tuple(ended), "", process_time() - start_s)
 
 
-def sweep_all(members: Sequence[Member], options: SweepOptions) -> Iterator[Rehearsed]:
-    """Yield how often the rehearsals of each folder succeed, in their order; no sweep where a cell draws nothing."""
+def sweep_all(members: Sequence[Member], options: SweepOptions) -> Iterator[FleetRow]:
+    """Yield each row with how often its rehearsals succeed, in their order; no sweep where a cell draws nothing."""
     for member in members:
         if member.read is None or member.read.uncertainty is None:
-            yield Rehearsed(sweeps=(), problem=member.problem)
+            yield replace(member.row, sweeps=())
             continue
         try:
             cell = cell_of(member.read)
-            sweeps = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
-            yield Rehearsed(sweeps=tuple(map(_as_entry, sweeps)))
+            sweeps = tuple(_swept(sweep_entry(cell, entry, options)) for entry in entries_to_sweep(cell, options))
         except MockError as problem:
-            yield Rehearsed(sweeps=(), problem=str(problem))
+            yield replace(member.row, passed=False, problem=str(problem), sweeps=())
+            continue
+        passed = member.row.passed and all(sweep.verdict in (None, "passed") for sweep in sweeps)
+        yield replace(member.row, passed=passed, sweeps=sweeps)
 
 
-def _as_entry(sweep: Sweep) -> FleetSweep:
-    words = {True: "passed", False: "failed", None: UNKNOWN}
-    return FleetSweep.model_validate(
-        {
-            "rehearsal": sweep.rehearsal,
-            "runs": len(sweep.runs),
-            "succeeded": len(sweep.runs) - len(sweep.failed),
-            "low": sweep.rate.low,
-            "high": sweep.rate.high,
-            "confidence": sweep.rate.confidence,
-            "verdict": None if sweep.expected is None else words[sweep.verdict],
-        }
+def _swept(sweep: Sweep) -> FleetSweep:
+    verdicts: Mapping[bool | None, Literal["passed", "failed", "UNKNOWN"]]
+    verdicts = {True: "passed", False: "failed", None: "UNKNOWN"}
+    return FleetSweep(
+        rehearsal=sweep.rehearsal,
+        runs=len(sweep.runs),
+        succeeded=len(sweep.runs) - len(sweep.failed),
+        low=sweep.rate.low,
+        high=sweep.rate.high,
+        confidence=sweep.rate.confidence,
+        verdict=None if sweep.expected is None else verdicts[sweep.verdict],
     )

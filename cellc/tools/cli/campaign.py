@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import click
 
-from cellc.contract.compute.fan import Fan
+from cellc.mock.command.options import CampaignOptions
 from cellc.tools.cli.fleet import fan_options
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, RECORDS, SEED
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, RECORDS, SEED, options_as
 
 
 @click.command()
@@ -21,17 +21,8 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, R
 @EDITED
 @fan_options
 @limit_option
-def campaign(
-    folder: str,
-    pairs: int,
-    list_only: bool,
-    records: str | None,
-    evidence: str | None,
-    as_json: bool,
-    seed: int,
-    edited: bool,
-    fan: Fan,
-) -> None:
+@options_as(CampaignOptions)
+def campaign(options: CampaignOptions, list_only: bool) -> None:
     """Run every fault at every step of the generated FOLDER, and print the matrix.
 
     A run fails where it ends in another outcome than its fault allows, later than its bound, or beyond a limit of a
@@ -44,10 +35,9 @@ def campaign(
     cellc campaign generated/bench --evidence evidence/1
     """
     from cellc.mock.command.campaign import list_runs, run_campaign
-    from cellc.mock.command.options import CampaignOptions
 
-    option = next((name for name, path in (("--evidence", evidence), ("--records", records)) if path is not None), "")
-    if list_only and option:
-        raise click.UsageError(f"{option} does not go with --list, which runs nothing.")
-    options = CampaignOptions(folder, seed, edited, as_json, evidence, fan, pairs, records)
+    kept = {"--evidence": options.evidence, "--records": options.records}
+    written = next((option for option, path in kept.items() if path is not None), "")
+    if list_only and written:
+        raise click.UsageError(f"{written} does not go with --list, which runs nothing.")
     raise click.exceptions.Exit(list_runs(options) if list_only else run_campaign(options))

@@ -1,17 +1,21 @@
-"""The options of commands about many cells: the tuples to try, and who does it."""
+"""The arguments and options of commands about many cells: which are meant, the tuples to try, and who does it."""
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import wraps
 from itertools import product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from cellc.contract.compute.fan import Fan
+
+if TYPE_CHECKING:
+    from cellc.mock.command.options import FolderOptions
 
 Versions = Mapping[str, str]
 """Parts of the version tuple with other texts than a spec has."""
@@ -115,3 +119,44 @@ def _refuse_unusable(part: str, texts: Sequence[str]) -> None:
 def folder_of(versions: Versions) -> str:
     """Return the folder that holds the packages of a tuple, such as ``ros-humble``; empty for the cells' own."""
     return "_".join(re.sub(r"[^A-Za-z0-9.+~-]", "-", f"{part}-{text}") for part, text in versions.items())
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """What the arguments of a call name.
+
+    Attributes:
+        paths: generated folders; specs, or folders of them, where there is a matrix.
+        table: whether a table of several is printed, and not the results of one folder.
+    """
+
+    paths: tuple[str, ...]
+    table: bool
+
+
+def named_by(arguments: tuple[str, ...], matrix: tuple[str, ...]) -> Named:
+    """Return what is named; a pattern represents what it matches, and a folder of several all of them."""
+    if matrix:
+        return Named(arguments, table=True)
+    if len(arguments) == 1 and os.path.exists(os.path.join(arguments[0], "contract.json")):
+        return Named(arguments, table=False)  # what looks for others loads for longer than a folder is read
+    from cellc.tools.cli.batch import matched, several_folders
+
+    several = several_folders(arguments)
+    return Named((next(matched(arguments)),), table=False) if several is None else Named(several, table=True)
+
+
+_OF_ONE_FOLDER = {
+    "rehearsals": "--rehearsal",
+    "records": "--records",
+    "journal": "--journal",
+    "evidence": "--evidence",
+    "live": "--live",
+}
+
+
+def refuse_for_many(options: FolderOptions) -> None:
+    """Raise UsageError for the first option that was given, each of which is about one folder."""
+    for name, option in _OF_ONE_FOLDER.items():
+        if getattr(options, name, None):
+            raise click.UsageError(f"{option} is about one folder.")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import click
 
-from cellc.contract.compute.fan import Fan
+from cellc.mock.command.options import GatesOptions
 from cellc.tools.cli.fleet import fan_options
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JOURNAL, JSON, PAIRS, RECORDS, SEED
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JOURNAL, JSON, PAIRS, RECORDS, SEED, options_as
 
 
 @click.command()
@@ -22,18 +22,8 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JOURNAL, JSON,
 @EDITED
 @fan_options
 @limit_option
-def gates(
-    folder: str,
-    runs: int | None,
-    journal: str | None,
-    pairs: int,
-    records: str | None,
-    evidence: str | None,
-    as_json: bool,
-    seed: int,
-    edited: bool,
-    fan: Fan,
-) -> None:
+@options_as(GatesOptions)
+def gates(options: GatesOptions) -> None:
     """Run rehearsals and campaign of the generated FOLDER, and judge gates L6, G1 and G2 by them, line by line.
 
     What only a robot or a person can show stays UNKNOWN; exit 1 where a line failed.
@@ -44,9 +34,7 @@ def gates(
     cellc gates generated/bench --evidence evidence/1
     """
     from cellc.mock.command.gates import run_gates
-    from cellc.mock.command.options import GatesOptions
 
-    if journal is not None and runs is None:
+    if options.journal is not None and options.runs is None:
         raise click.UsageError("--journal needs --sweep.")
-    options = GatesOptions(folder, seed, edited, as_json, evidence, fan, pairs, records, runs, journal)
     raise click.exceptions.Exit(run_gates(options))

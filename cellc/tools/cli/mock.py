@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import click
 
-from cellc.contract.compute.fan import USUAL, Fan
-from cellc.tools.cli.fleet import MATRIX, FleetOptions, fan_options, read_matrix
+from cellc.contract.compute.fan import USUAL
+from cellc.mock.command.options import RehearsalOptions
+from cellc.tools.cli.fleet import MATRIX, FleetOptions, fan_options, named_by, read_matrix, refuse_for_many
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.many_folders import named_by, refuse_for_many, tell_table
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JSON, RECORDS, REHEARSALS, SEED
+from cellc.tools.cli.run_options import (
+    EDITED,
+    EVIDENCE,
+    FOLDERS,
+    JSON,
+    RECORDS,
+    REHEARSALS,
+    SEED,
+    live_options,
+    options_as,
+)
 
 _NOW = {
     "--gates": "cellc gates FOLDER",
@@ -46,26 +57,12 @@ class _Mock(click.Command):
 @JSON
 @SEED
 @EDITED
-@click.option("--live", is_flag=True, help="Show the rehearsals in Foxglove, in real time.")
-@click.option("--listen", metavar="HOST:PORT", help="With --live: where Foxglove connects; 127.0.0.1:8765 by default.")
-@click.option("--speed", type=float, metavar="X", help="With --live: X times as fast as real time.")
+@live_options
 @MATRIX
 @fan_options
 @limit_option
-def mock(
-    folders: tuple[str, ...],
-    rehearsals: tuple[str, ...],
-    records: str | None,
-    evidence: str | None,
-    as_json: bool,
-    seed: int,
-    edited: bool,
-    live: bool,
-    listen: str | None,
-    speed: float | None,
-    matrix: tuple[str, ...],
-    fan: Fan,
-) -> None:
+@options_as(RehearsalOptions)
+def mock(options: RehearsalOptions, folders: tuple[str, ...], matrix: tuple[str, ...]) -> None:
     """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should.
 
     Several folders, or one of several, give one table. With --matrix cells are named instead, and each is built with
@@ -77,33 +74,16 @@ def mock(
     cellc mock generated/bench --live          in Foxglove
     cellc mock cells --matrix ros=humble,jazzy
     """
-    from cellc.mock.command.options import Live, RehearsalOptions
-
-    tuples, named = read_matrix(matrix), named_by(folders, matrix)
-    _refuse_view(live, listen, speed, evidence)
-    shown = Live(listen or "127.0.0.1:8765", speed or 1.0) if live else None
-    options = RehearsalOptions(named.paths[0], seed, edited, as_json, evidence, fan, rehearsals, records, shown)
+    fleet, named = FleetOptions(read_matrix(matrix), options.fan, options.as_json), named_by(folders, matrix)
     if named.table:
+        refuse_for_many(options)
         from cellc.mock.command.fleet import rehearse_all
+        from cellc.tools.cli.rows import tell_executed
 
-        about_one = {"--rehearsal": bool(rehearsals), "--evidence": evidence is not None}
-        refuse_for_many({**about_one, "--records": records is not None, "--live": live})
-        fleet = FleetOptions(tuples, fan, as_json)
-        tell_table(named.paths, fleet, partial(rehearse_all, options=options), edited=edited)
+        tell_executed(named.paths, fleet, partial(rehearse_all, options=options), edited=options.edited)
         return
-    if fan != USUAL:
-        raise click.UsageError(f"{'--jobs' if fan.cluster is None else '--cluster'} needs several folders.")
+    if options.fan != USUAL:
+        raise click.UsageError(f"{'--jobs' if options.fan.cluster is None else '--cluster'} needs several folders.")
     from cellc.mock.command.rehearsals import run_rehearsals
 
-    raise click.exceptions.Exit(run_rehearsals(options))
-
-
-def _refuse_view(live: bool, listen: str | None, speed: float | None, evidence: str | None) -> None:
-    """Raise UsageError where options of a view do not go together."""
-    needless = [option for option, value in (("--listen", listen), ("--speed", speed)) if value is not None]
-    if needless and not live:
-        raise click.UsageError(f"{needless[0]} needs --live.")
-    if live and evidence is not None:
-        raise click.UsageError("--live does not go with --evidence.")
-    if speed is not None and not speed > 0.0:
-        raise click.UsageError(f"--speed must be greater than 0, got {speed}.")
+    raise click.exceptions.Exit(run_rehearsals(replace(options, folder=named.paths[0])))

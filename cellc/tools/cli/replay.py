@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import click
 
+from cellc.mock.command.options import ReplayOptions
 from cellc.mock.sweep.names import SWEPT
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, RECORDS, SEED
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, RECORDS, SEED, options_as
 from cellc.tools.cli.words import complete_rehearsal, complete_run
 
 
@@ -23,17 +24,8 @@ from cellc.tools.cli.words import complete_rehearsal, complete_run
 @SEED
 @EDITED
 @limit_option
-def replay(
-    folder: str,
-    runs: tuple[str, ...],
-    rehearsal: str | None,
-    journal: str | None,
-    records: str | None,
-    evidence: str | None,
-    as_json: bool,
-    seed: int,
-    edited: bool,
-) -> None:
+@options_as(ReplayOptions)
+def replay(options: ReplayOptions) -> None:
     """Make each RUN of the generated FOLDER again: of its campaign, or `sweep:NUMBER`; exit 1 where one fails.
 
     `cellc campaign --list` prints the runs of a campaign; a run that failed is printed with its command.
@@ -42,20 +34,15 @@ def replay(
     cellc replay generated/bench 'pick/stick:arm_elbow_joint@3'
     cellc replay generated/bench sweep:17 --evidence evidence/17
     """
-    from cellc.mock.command.options import ReplayOptions
-
-    swept = [run.startswith(SWEPT) for run in runs]
+    swept = [run.startswith(SWEPT) for run in options.runs]
     if any(swept) and not all(swept):
         raise click.UsageError("runs of a sweep do not go with runs of the campaign.")
-    of_sweep = {"--rehearsal": rehearsal is not None, "--journal": journal is not None}
-    needless = next((option for option, given in of_sweep.items() if given and not swept[0]), "")
+    of_sweep = {"--rehearsal": options.rehearsal, "--journal": options.journal}
+    needless = next((option for option, given in of_sweep.items() if given is not None and not swept[0]), "")
     if needless:
         raise click.UsageError(f"{needless} needs a run of a sweep, `{SWEPT}NUMBER`.")
-    if records is not None and swept[0]:
+    if options.records is not None and swept[0]:
         raise click.UsageError("--records does not go with a run of a sweep.")
-    options = ReplayOptions(
-        folder, seed, edited, as_json, evidence, runs=runs, rehearsal=rehearsal, journal=journal, records=records
-    )
     if swept[0]:
         from cellc.mock.command.sweep import replay_swept
 

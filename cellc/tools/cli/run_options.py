@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import fields
+from functools import wraps
+from typing import Any
+
 import click
 
+from cellc.mock.command.options import FolderOptions, Live
 from cellc.tools.cli.words import complete_rehearsal
+
+Command = Callable[..., None]
 
 
 def _refuse_empty(_context: click.Context, parameter: click.Parameter, path: str | None) -> str | None:
@@ -44,3 +52,43 @@ SEED = click.option("--seed", default=0, show_default=True, help="Seed of everyt
 EDITED = click.option(
     "--edited", is_flag=True, help="Run a folder that was edited; every result says so, no gate is signed."
 )
+
+
+def options_as(kind: type[FolderOptions]) -> Callable[[Command], Command]:
+    """Give what fields of ``kind`` are named after as one argument, ``options``.
+
+    Of a command that takes several folders it names none: which are meant is found out by the command.
+    """
+    names = {each.name for each in fields(kind)}
+
+    def decorate(command: Command) -> Command:
+        @wraps(command)
+        def within(**given: Any) -> None:
+            own = {"folder": ""} | {name: value for name, value in given.items() if name in names}
+            command(options=kind(**own), **{name: value for name, value in given.items() if name not in names})
+
+        return within
+
+    return decorate
+
+
+def live_options(command: Command) -> Command:
+    """Add the options that show rehearsals in Foxglove; they come as one argument, ``live``."""
+
+    @click.option("--live", is_flag=True, help="Show the rehearsals in Foxglove, in real time.")
+    @click.option(
+        "--listen", metavar="HOST:PORT", help="With --live: where Foxglove connects; 127.0.0.1:8765 by default."
+    )
+    @click.option("--speed", type=float, metavar="X", help="With --live: X times as fast as real time.")
+    @wraps(command)
+    def within(live: bool, listen: str | None, speed: float | None, **others: Any) -> None:
+        needless = [option for option, value in (("--listen", listen), ("--speed", speed)) if value is not None]
+        if needless and not live:
+            raise click.UsageError(f"{needless[0]} needs --live.")
+        if live and others["evidence"] is not None:
+            raise click.UsageError("--live does not go with --evidence.")
+        if speed is not None and not speed > 0.0:
+            raise click.UsageError(f"--speed must be greater than 0, got {speed}.")
+        command(live=Live(listen or "127.0.0.1:8765", speed or 1.0) if live else None, **others)
+
+    return within

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 import click
 
-from cellc.contract.compute.fan import Fan
-from cellc.tools.cli.fleet import MATRIX, FleetOptions, fan_options, read_matrix
+from cellc.mock.command.options import SweepOptions
+from cellc.tools.cli.fleet import MATRIX, FleetOptions, fan_options, named_by, read_matrix, refuse_for_many
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.many_folders import named_by, refuse_for_many, tell_table
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JOURNAL, JSON, REHEARSALS, SEED
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JOURNAL, JSON, REHEARSALS, SEED, options_as
 
 
 @click.command()
@@ -25,18 +25,8 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JOURNAL, JSON
 @MATRIX
 @fan_options
 @limit_option
-def sweep(
-    folders: tuple[str, ...],
-    runs: int,
-    rehearsals: tuple[str, ...],
-    journal: str | None,
-    evidence: str | None,
-    as_json: bool,
-    seed: int,
-    edited: bool,
-    matrix: tuple[str, ...],
-    fan: Fan,
-) -> None:
+@options_as(SweepOptions)
+def sweep(options: SweepOptions, folders: tuple[str, ...], matrix: tuple[str, ...]) -> None:
     """Draw what is uncertain in the generated FOLDER, and print how often its rehearsals succeed.
 
     Rehearsals are those with an expected rate, or the first. It ends as soon as the verdict is certain; exit 1 where a
@@ -48,17 +38,13 @@ def sweep(
     cellc sweep generated/bench --rehearsal pick
     cellc sweep cells --matrix ros=humble,jazzy
     """
-    from cellc.mock.command.options import SweepOptions
-
-    tuples, named = read_matrix(matrix), named_by(folders, matrix)
-    options = SweepOptions(named.paths[0], seed, edited, as_json, evidence, fan, runs, rehearsals, journal)
+    fleet, named = FleetOptions(read_matrix(matrix), options.fan, options.as_json), named_by(folders, matrix)
     if not named.table:
         from cellc.mock.command.sweep import run_sweep
 
-        raise click.exceptions.Exit(run_sweep(options))
+        raise click.exceptions.Exit(run_sweep(replace(options, folder=named.paths[0])))
+    refuse_for_many(options)
     from cellc.mock.command.fleet import sweep_all
+    from cellc.tools.cli.rows import tell_executed
 
-    about_one = {"--rehearsal": bool(rehearsals), "--journal": journal is not None, "--evidence": evidence is not None}
-    refuse_for_many(about_one)
-    fleet = FleetOptions(tuples, fan, as_json)
-    tell_table(named.paths, fleet, partial(sweep_all, options=options), edited=edited)
+    tell_executed(named.paths, fleet, partial(sweep_all, options=options), edited=options.edited)

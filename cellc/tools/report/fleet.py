@@ -18,8 +18,8 @@ _NONE = "-"
 def fleet_lines(rows: Sequence[FleetRow]) -> Iterator[Line]:
     """Yield the table, and below it why there is no result of a row, and which rehearsals failed."""
     parts = tuple(dict.fromkeys(part for row in rows for part in row.versions))
-    labels = [_label(row) for row in rows]
-    names = [row.cell if row.cell and labels.count(_label(row)) == 1 else row.source for row in rows]
+    labels = [row.label for row in rows]
+    names = [row.cell if row.cell and labels.count(row.label) == 1 else row.source for row in rows]
     table = [("cell", *parts, *_COUNTED.values(), "rehearsals", "sweep")]
     table += [(name, *_columns(row, parts)) for name, row in zip(names, rows, strict=True)]
     shown = [place for place in range(len(table[0])) if any(row[place] != _NONE for row in table[1:])]
@@ -38,13 +38,9 @@ def fleet_lines(rows: Sequence[FleetRow]) -> Iterator[Line]:
             if not rehearsal.passed
         ]
         if row.problem or failed:
-            yield f"{_label(row)}: {row.problem or ', '.join(failed)}"
+            yield f"{row.label}: {row.problem or ', '.join(failed)}"
     passed = sum(row.passed for row in rows)
     yield f"{passed} of {len(rows)} passed"
-
-
-def _label(row: FleetRow) -> str:
-    return " ".join([row.cell or row.source, *(f"{part}={text}" for part, text in row.versions.items())])
 
 
 def _columns(row: FleetRow, parts: Sequence[str]) -> Iterator[str]:

@@ -14,6 +14,7 @@ from collections.abc import Iterable
 
 from cellc.contract.diagnostics import Diagnostic, Span
 from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.review import ReviewFinding
 from cellc.tools.report.text_report import counts
 
 JSON_FORMAT = 1
@@ -42,6 +43,11 @@ def _diagnostic(diagnostic: Diagnostic) -> dict[str, object]:
         "related": [{"message": related.message, **_place(related.span)} for related in diagnostic.related],
         "fix": None if fix is None else {**_place(fix.span), "text": fix.text, "sure": fix.sure},
     }
+
+
+def as_review_finding(found: Diagnostic) -> ReviewFinding:
+    """Return a finding as reviews and tables of many cells have it."""
+    return ReviewFinding(code=found.code, severity=found.severity.value, message=found.message, place=str(found.span))
 
 
 def _place(span: Span) -> dict[str, object]:

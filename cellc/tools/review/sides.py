@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
-from cellc.contract.diagnostics import Diagnostic, Severity
+from cellc.contract.diagnostics import Severity
 from cellc.contract.errors import CellcError
 from cellc.contract.limits import limits, option
 from cellc.contract.manifest import Manifest
@@ -18,6 +18,7 @@ from cellc.contract.reading import FormatError, read_json
 from cellc.contract.review import ReviewFinding
 from cellc.mock.errors import MockError
 from cellc.mock.folder import read_text
+from cellc.tools.report.json_report import as_review_finding
 from cellc.tools.review.facts import MANIFEST, Facts, FactsError, facts_of
 from cellc.tools.review.objects import RevisionError
 from cellc.tools.review.revisions import repository_of
@@ -215,11 +216,6 @@ def package_of(name: str, checked: Checked) -> Package:
     findings = tuple(as_review_finding(diagnostic) for diagnostic in checked.diagnostics)
     excused = tuple(as_review_finding(diagnostic) for diagnostic in checked.excused)
     return Package(name, files, facts_of(files, checked.graph.cell, checked.excused), findings, excused, is_spec=True)
-
-
-def as_review_finding(found: Diagnostic) -> ReviewFinding:
-    """Return a finding of the check as a review tells it."""
-    return ReviewFinding(code=found.code, severity=found.severity.value, message=found.message, place=str(found.span))
 
 
 def _of_folder(name: str, folder: Path) -> Package:

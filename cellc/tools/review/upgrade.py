@@ -15,12 +15,13 @@ from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN, Distro, ReviewArea
 from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.tools.edit.rewrite import Edit, rewrite
+from cellc.tools.report.json_report import as_review_finding
 from cellc.tools.review.declared import NodeParameters, parameter_changes
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Leaf
 from cellc.tools.review.moved_spec import UpgradeError, edited_check, facts_of_distro
 from cellc.tools.review.review import gates_again, review
-from cellc.tools.review.sides import Package, SideError, as_review_finding, package_of
+from cellc.tools.review.sides import Package, SideError, package_of
 from cellc.tools.review.tuples import PinMove, moved_pins
 
 _POLICY = "security/policy.xml"
