@@ -9,3 +9,8 @@ from __future__ import annotations
 
 class CellcError(Exception):
     """A call cannot be answered; the text says why in one line."""
+
+
+def reason_of(error: OSError) -> str:
+    """Return why the system refused something, as a part of a sentence."""
+    return (error.strerror or type(error).__name__).lower()

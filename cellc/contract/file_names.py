@@ -1,4 +1,4 @@
-"""The kinds of names in the files between compiler and mock that become paths.
+"""Names of files: of a spec, and the kinds of names in the files between compiler and mock that become paths.
 
 As with numbers, the compiler writes what its own types let through, and who reads an untrusted folder validates with
 ``context=limits()``: past that door a name leads to its own place, and to no other.
@@ -16,6 +16,8 @@ from pydantic_core import PydanticCustomError
 
 from cellc.contract.limits import Limits
 
+SPEC_FILE = "cell.yaml"
+"""What a spec is called where a folder is named instead of it."""
 _CELL = re.compile("[a-z][a-z0-9_]{1,63}")
 _LONGEST_NAME = 255
 """Bytes of one name, as most file systems have it."""

@@ -21,6 +21,7 @@ from enum import Enum
 from typing import TextIO
 
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_line
+from cellc.contract.errors import reason_of
 from cellc.contract.extras import MissingExtraError
 from cellc.contract.signals import CLOSED_PIPE, drop_output
 
@@ -235,7 +236,7 @@ def run_to_end(run: Callable[[], int]) -> int:
         # What a command expects of the disk it reports itself: this is a full disk under the output, and the like.
         drop_output()
         place = f"{error.filename}: " if error.filename else ""
-        refuse(f"{place}{(error.strerror or 'unknown reason').lower()}")
+        refuse(f"{place}{reason_of(error)}")
         return FAILED
     except MissingExtraError as missing:
         refuse(str(missing))

@@ -10,6 +10,8 @@ from pathlib import Path
 from cellc.compiler.source.findings import finding
 from cellc.contract.diagnostics import Diagnostic, Outcome, Span, nearest
 from cellc.contract.diagnostics.unsafe_text import HIDDEN, hidden
+from cellc.contract.errors import reason_of
+from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.limits import MIB, limits
 from cellc.contract.store.regular_file import NotRegularError, open_regular, read_regular
 
@@ -71,7 +73,7 @@ def bytes_of(path: Path, name: str, place: Span) -> bytes | Diagnostic:
     except (FileNotFoundError, NotADirectoryError):
         return finding("file-not-found", f"there is no file `{name}`", place, advice=_similar_file(path))
     except OSError as error:
-        reason = (error.strerror or "unknown reason").lower()
+        reason = reason_of(error)
         return finding("file-unreadable", f"`{name}` cannot be read: {reason}", place)
     except ValueError:
         # A zero character in the name: no system call takes it.
@@ -81,7 +83,7 @@ def bytes_of(path: Path, name: str, place: Span) -> bytes | Diagnostic:
 
 def _file_in(folder: Path) -> str:
     """Return the file of a folder that was meant; an empty text where there is no clear candidate."""
-    if os.path.isfile(folder / "cell.yaml"):
+    if os.path.isfile(folder / SPEC_FILE):
         return f"name the spec in it: `{(folder / 'cell.yaml').as_posix()}`"
     if os.path.isfile(folder / "contract.json"):
         return "this is a generated folder: name the spec that it was built from"

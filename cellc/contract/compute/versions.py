@@ -5,11 +5,10 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from cellc.contract.store.regular_file import own_bytes
-from cellc.contract.vocabulary import UNKNOWN
+from cellc.version import installed
 
 _PACKAGES = ("cellc", "numpy", "pin")
 
@@ -17,13 +16,13 @@ _PACKAGES = ("cellc", "numpy", "pin")
 @cache
 def versions() -> Mapping[str, str]:
     """Return what computes here; of cellc with a digest of its modules, since a version may be under work."""
-    installed = {name: _version(name) for name in _PACKAGES}
+    here = {name: installed(name) for name in _PACKAGES}
     digest = hashlib.sha256()
     root = Path(__file__).parents[2]
     for file in sorted(root.rglob("*.py")):
         digest.update(file.relative_to(root).as_posix().encode() + b"\0" + own_bytes(file))
-    installed["cellc"] += f" ({digest.hexdigest()[:12]})"
-    return installed
+    here["cellc"] += f" ({digest.hexdigest()[:12]})"
+    return here
 
 
 def difference(there: Mapping[str, object]) -> str:
@@ -32,10 +31,3 @@ def difference(there: Mapping[str, object]) -> str:
         if there.get(name) != here:
             return f"{name} {there.get(name, 'UNKNOWN')}, here is {here}"
     return ""
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return UNKNOWN

@@ -56,6 +56,11 @@ class Severity(str, Enum):
     WARNING = "warning"
     AUDIT = "audit"
 
+    @property
+    def rank(self) -> int:
+        """Its place in the order from the worst."""
+        return tuple(Severity).index(self)
+
     def counted(self, number: int) -> str:
         """Return such as ``2 errors`` or ``1 audit item``."""
         noun = "audit item" if self is Severity.AUDIT else self.value

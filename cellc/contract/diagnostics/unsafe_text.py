@@ -101,6 +101,11 @@ def harmless_json(text: str) -> str:
     return _COMMAND_WITHIN.sub(r"#\\u0023", shown)
 
 
+def json_document(data: object) -> str:
+    """Return data as JSON of several lines that is harmless, with a line break at its end."""
+    return harmless_json(json.dumps(data, ensure_ascii=False, indent=2)) + "\n"
+
+
 def substitution(text: str) -> str | None:
     """Say that a text holds what xacro, ros2 launch or a shell would evaluate; None where it does not."""
     match = _SUBSTITUTION.search(text) if "$" in text else None

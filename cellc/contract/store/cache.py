@@ -15,14 +15,13 @@ import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from cellc.contract.store.cache_key import cache_key, is_private, is_shipped_with
+from cellc.contract.store.cache_key import cache_key, is_private, is_shipped_with, user_folder
 from cellc.contract.store.regular_file import own_bytes, read_regular
 from cellc.contract.store.swap import remove_file, replace_whole
-from cellc.version import __version__
+from cellc.version import __version__, installed
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
@@ -68,16 +67,8 @@ def cache_folder(environment: Mapping[str, str] = os.environ, platform: str = sy
     """
     if environment.get(OFF, "") not in ("", "0"):
         return None
-    chosen = Path(environment.get("XDG_CACHE_HOME", ""))
-    if chosen.is_absolute():
-        return chosen / "cellc"
-    try:
-        home = Path.home()
-    except RuntimeError:
-        return None
-    if platform == "win32":
-        return Path(environment.get("LOCALAPPDATA", "") or home / "AppData" / "Local") / "cellc" / "cache"
-    return home / ("Library/Caches" if platform == "darwin" else ".cache") / "cellc"
+    places = {"": ".cache/cellc", "win32": "AppData/Local/cellc/cache", "darwin": "Library/Caches/cellc"}
+    return user_folder("XDG_CACHE_HOME", places, environment, platform)
 
 
 _adapters: dict[type, TypeAdapter[Any]] = {}
@@ -97,15 +88,8 @@ def _content(program: Program) -> str:
     for name in program.code:
         for file in [root / name] if name.endswith(".py") else sorted((root / name).glob("*.py")):
             digest.update(f"{file.name}\0".encode() + own_bytes(file) + b"\0")
-    digest.update("\0".join((sys.version, *map(_version, program.libraries))).encode())
+    digest.update("\0".join((sys.version, *map(installed, program.libraries))).encode())
     return digest.hexdigest()
-
-
-def _version(distribution: str) -> str:
-    try:
-        return version(distribution)
-    except PackageNotFoundError:
-        return "unknown"
 
 
 def recall(

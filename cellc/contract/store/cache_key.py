@@ -29,16 +29,27 @@ def state_folder(environment: Mapping[str, str] = os.environ, platform: str = sy
     Returns:
         None where the user has no home.
     """
-    chosen = Path(environment.get("XDG_STATE_HOME", ""))
+    places = {"win32": "AppData/Local/cellc", "darwin": "Library/Application Support/cellc"}
+    return user_folder("XDG_STATE_HOME", {"": ".local/state/cellc", **places}, environment, platform)
+
+
+def user_folder(variable: str, places: Mapping[str, str], environment: Mapping[str, str], platform: str) -> Path | None:
+    """Return a folder of cellc among those of the user; None where the user has no home.
+
+    Args:
+        variable: of the environment, which counts on every platform where it is absolute.
+        places: by platform, from the home of the user; under "" that of any other platform.
+    """
+    chosen = Path(environment.get(variable, ""))
     if chosen.is_absolute():
         return chosen / "cellc"
     try:
         home = Path.home()
     except RuntimeError:
         return None
-    if platform == "win32":
-        return Path(environment.get("LOCALAPPDATA", "") or home / "AppData" / "Local") / "cellc"
-    return home / ("Library/Application Support" if platform == "darwin" else ".local/state") / "cellc"
+    local = environment.get("LOCALAPPDATA", "") if platform == "win32" else ""
+    place = places.get(platform, places[""])
+    return Path(local, place.removeprefix("AppData/Local/")) if local else home / place
 
 
 def cache_key(asked_by: Path | None) -> bytes | None:

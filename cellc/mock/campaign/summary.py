@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 
-from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.columns import aligned
+from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.campaign.campaign import Campaign
@@ -70,13 +70,10 @@ def matrix_of(entry: RehearsalEntry, ends: Sequence[RunEnd]) -> Matrix:
 def matrix_lines(matrix: Matrix) -> Iterator[str]:
     """Yield a matrix for a terminal; a run that failed has an exclamation mark."""
     numbers = [str(number) for number in range(1, len(matrix.steps) + 1)]
-    rows = [(fault, [cell_text(cell) for cell in row]) for fault, row in matrix.rows]
-    widths = [max([len(number), *(len(row[place]) for _, row in rows)]) for place, number in enumerate(numbers)]
-    name_width = max([len("fault"), *(len(fault) for fault, _ in rows)])
+    rows = ((fault, *map(cell_text, row)) for fault, row in matrix.rows)
     steps = ", ".join(f"{number} {title}" for number, title in zip(numbers, matrix.steps, strict=True))
     yield f"{matrix.rehearsal}: {steps}"
-    for name, row in (("fault", numbers), *rows):
-        yield "  ".join([name.ljust(name_width), *_padded(row, widths)]).rstrip()
+    yield from aligned((("fault", *numbers), *rows))
 
 
 def cell_text(ends: Sequence[RunEnd]) -> str:
@@ -99,10 +96,6 @@ def _title(step: StepEntry) -> str:
 def _label(end: RunEnd) -> str:
     label = SHORT.get(end.result.outcome, end.result.outcome)
     return label if end.passed else f"{label}!"
-
-
-def _padded(texts: Sequence[str], widths: Sequence[int]) -> list[str]:
-    return [text.ljust(width) for text, width in zip(texts, widths, strict=True)]
 
 
 ReplayCommand = Callable[[str], str]
@@ -213,7 +206,7 @@ def campaign_json(campaign: Campaign, notes: Sequence[str], replay: ReplayComman
         "limits": _limits(campaign.limits),
         "notes": list(notes),
     }
-    return harmless_json(json.dumps(content, ensure_ascii=False, indent=2))
+    return json_document(content)
 
 
 def _run(end: RunEnd, replay: ReplayCommand) -> dict[str, object]:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
-
-from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.printing import show, show_document
 from cellc.mock.cell import in_turn
 from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_for_campaign
@@ -33,7 +31,7 @@ def run_gates(options: GatesOptions) -> int:
     gates = sign_gates(cell.folder, runs, options.seed, sweeps)
     if options.as_json:
         judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
-        show_document(harmless_json(json.dumps(judged, ensure_ascii=False, indent=2)))
+        show_document(json_document(judged))
     else:
         show(*(f"note: {note}" for note in cell.notes), *list(gate_lines(gates))[:-1])
     return 1 if any(_failed(gate) for gate in gates) else 0

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import BinaryIO
 
+from cellc.contract.errors import reason_of
 from cellc.contract.store.regular_file import open_regular
 from cellc.contract.store.swap import open_stream, replace_whole
 from cellc.mock.errors import MockError
@@ -31,7 +32,7 @@ def write_records(path: Path, records: Iterable[AttemptRecord]) -> None:
         else:
             replace_whole(path, content)
     except OSError as error:
-        raise MockError(path.as_posix(), f"cannot be written: {(error.strerror or 'unknown reason').lower()}") from None
+        raise MockError(path.as_posix(), f"cannot be written: {reason_of(error)}") from None
 
 
 def refuse_foreign(path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
@@ -10,7 +9,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.extras import LIVE, gate
 from cellc.contract.printing import progress, show, show_document
 from cellc.mock.cell import MockCell, in_turn, load
@@ -51,7 +50,7 @@ def to_summary_json(configuration_id: str, timed: Sequence[TimedResult], notes: 
         for each in timed
     ]
     summary = {"configuration_id": configuration_id, "rehearsals": rehearsals, "notes": list(notes)}
-    return harmless_json(json.dumps(summary, ensure_ascii=False, indent=2))
+    return json_document(summary)
 
 
 def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str]:

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import BinaryIO
 from urllib.parse import quote
 
-from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import json_document
+from cellc.contract.errors import reason_of
 from cellc.contract.file_names import is_file_name, opens_a_device
 from cellc.contract.limits import limits, option
 from cellc.contract.store.regular_file import open_regular, read_regular
@@ -102,8 +103,7 @@ class EvidenceFolder:
         self._refuse_edited(self._names)
         new = self._staging / "new"
         hashes = {name: _sha256(new / name) for name in sorted(self._names)}
-        index = json.dumps({"format": 1, **identity, "files": hashes}, ensure_ascii=False, indent=2)
-        self.write(INDEX, harmless_json(index) + "\n")
+        self.write(INDEX, json_document({"format": 1, **identity, "files": hashes}))
         former = {*_hashes(self._folder), *(name for staging in self._stale for name in _hashes(staging / "new"))}
         try:
             self._swap(sorted(former - set(hashes) - {INDEX}), [*hashes, INDEX])
@@ -151,8 +151,7 @@ class EvidenceFolder:
             raise
 
     def _unwritable(self, error: OSError) -> MockError:
-        reason = (error.strerror or type(error).__name__).lower()
-        return MockError(self._folder.as_posix(), f"cannot be written: {reason}")
+        return MockError(self._folder.as_posix(), f"cannot be written: {reason_of(error)}")
 
 
 def _is_index(path: Path) -> bool:

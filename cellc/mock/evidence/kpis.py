@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 
-from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.entities import Kpis
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
@@ -80,7 +79,7 @@ def to_kpi_json(entry: RehearsalEntry, result: RehearsalResult, figures: Sequenc
         "faults": [fault.kind for fault in entry.faults],
         "kpis": [asdict(figure) for figure in figures],
     }
-    return harmless_json(json.dumps(content, ensure_ascii=False, allow_nan=False, indent=2)) + "\n"
+    return json_document(content)
 
 
 def _at_most(name: str, value: float | None, target: float | None) -> Kpi:

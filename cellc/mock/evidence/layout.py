@@ -6,11 +6,10 @@ Foxglove has no schema of layouts; panels and their settings are those of its op
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 
 from cellc.contract.contract import Contract
-from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.vocabulary import TRAJECTORIES, Behavior
 from cellc.mock.evidence.topics import (
     ATTEMPTS,
@@ -51,7 +50,7 @@ def to_layout(contract: Contract) -> str:
         "playbackConfig": {"speed": 1},
         "layout": {"direction": "row", "first": left, "second": right, "splitPercentage": 60},
     }
-    return harmless_json(json.dumps(layout, ensure_ascii=False, indent=2)) + "\n"
+    return json_document(layout)
 
 
 def _controllers(contract: Contract, behaviors: Iterable[str]) -> Iterable[tuple[str, str]]:

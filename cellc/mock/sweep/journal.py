@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from cellc.contract.compute.versions import difference, versions
 from cellc.contract.contract import Contract
+from cellc.contract.errors import reason_of
 from cellc.contract.limits import limits
 from cellc.contract.store.regular_file import open_regular
 from cellc.contract.store.swap import open_to_continue
@@ -182,7 +183,7 @@ class Journal:
         return MockError(self._path.as_posix(), reason)
 
     def _unusable(self, what: str, error: OSError) -> MockError:
-        return self._refused(f"cannot be {what}: {(error.strerror or 'unknown reason').lower()}")
+        return self._refused(f"cannot be {what}: {reason_of(error)}")
 
 
 def _line(value: Mapping[str, object]) -> bytes:

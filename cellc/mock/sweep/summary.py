@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 
 import numpy as np
 
+from cellc.contract.columns import aligned
 from cellc.contract.contract import Contract
-from cellc.contract.diagnostics.unsafe_text import harmless_json
+from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.uncertainty import Uncertainty
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
@@ -45,7 +45,7 @@ def sweep_lines(sweep: Sweep, contract: Contract, replay: Callable[[int], str]) 
     """Yield the summary for people."""
     yield from count_lines(sweep)
     for table in (margin_table(tuple(margins(sweep, contract))), drawn_table(sweep), explained_table(sweep)):
-        yield from _aligned(table)
+        yield from aligned(table)
     for run in sweep.failed[:_SHOWN]:
         yield f"FAILED  sweep:{run.number}: {run.outcome}"
         yield f"        replay: {replay(run.number)}"
@@ -133,12 +133,6 @@ def explained_table(sweep: Sweep) -> Table:
     return [("explains failures", "distance", "by chance", "if half as uncertain"), *rows] if rows else ()
 
 
-def _aligned(rows: Table) -> Iterator[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        yield "  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip()
-
-
 def _shown(value: float, unit: str) -> str:
     shown, factor = _SHOWN_UNITS[unit]
     return f"{float(f'{value * factor:.3g}'):.10g} {shown}".rstrip()  # three digits, and no power of ten
@@ -164,7 +158,7 @@ def sweep_json(contract: Contract, sweeps: Sequence[Sweep], notes: Sequence[str]
         "sweeps": [_sweep(each, contract) for each in sweeps],
         "notes": list(notes),
     }
-    return harmless_json(json.dumps(content, ensure_ascii=False, indent=2))
+    return json_document(content)
 
 
 def _sweep(sweep: Sweep, contract: Contract) -> dict[str, object]:

@@ -11,6 +11,7 @@ from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.load import CatalogDevice, device_names, load_device
 from cellc.compiler.formats.markdown_table import Link, table
 from cellc.compiler.spec.quantity import Length, Mass, Quantity
+from cellc.contract.columns import aligned
 from cellc.contract.printing import Line, Style, Styled
 
 
@@ -101,13 +102,10 @@ def _read(figure: TypeAdapter[Quantity], text: str) -> float:
 
 def listed(devices: Iterable[CatalogDevice]) -> Iterator[Line]:
     """Yield a line for each device: model, kind, reach, payload, distributions, what it is."""
-    rows = [_columns(entry.model) for entry in devices]
-    widths = [max((len(row[column]) for row in rows), default=0) for column in range(len(_HEAD))]
-    widths = [max(width, len(head)) for width, head in zip(widths, _HEAD, strict=True)]
+    head, *rows = aligned((_HEAD, *(_columns(entry.model) for entry in devices)))
     if rows:
-        yield (Styled(_padded(_HEAD, widths), Style.DIM),)
-    for row in rows:
-        yield _padded(row, widths)
+        yield (Styled(head, Style.DIM),)
+    yield from rows
 
 
 _HEAD = ("model", "kind", "vendor", "reach", "payload", "driver for", "what it is")
@@ -130,7 +128,3 @@ def listed_in_table(devices: Iterable[CatalogDevice]) -> str:
     """Write the same as a table of Markdown, each model with a link to its page."""
     rows = (_columns(entry.model) for entry in devices)
     return table(_HEAD, ((Link(row[0], f"{row[0]}.md"), *row[1:]) for row in rows))
-
-
-def _padded(row: Iterable[str], widths: Iterable[int]) -> str:
-    return "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip()

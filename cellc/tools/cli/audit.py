@@ -6,7 +6,7 @@ import click
 
 from cellc.compiler.pipeline import check
 from cellc.contract.printing import show_document
-from cellc.tools.cli.findings import show_findings
+from cellc.tools.cli.findings import linked
 from cellc.tools.cli.limit_option import limit_option
 
 
@@ -22,12 +22,9 @@ def audit(file: str) -> None:
     \b
     cellc audit cells/bench/cell.yaml
     """
-    checked = check(file)
-    if checked.graph is None:
-        show_findings([checked.findings], "text")
-        raise click.exceptions.Exit(1)
+    graph = linked(check(file))
     from cellc.compiler.deploy.deployment import plan_deployment
     from cellc.compiler.emit.audit.audit import emit
 
-    for artifact in emit(checked.graph, plan_deployment(checked.graph)):
+    for artifact in emit(graph, plan_deployment(graph)):
         show_document(artifact.text)

@@ -21,6 +21,7 @@ from cellc.compiler.catalog.compiled import DEVICE_FILE
 from cellc.compiler.rules.shared_domain import Presence, presence_of, shared_domains
 from cellc.contract.compute.fan import USUAL, Fan
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.limits import Limits, children_seconds, limits, use
 from cellc.contract.printing import progress, remark, time_left
 from cellc.contract.signals import within
@@ -137,10 +138,6 @@ def states(places: Iterable[str], output: Path | None = None) -> dict[str, State
                 continue
             states[entry.path] = (state.st_mtime_ns, state.st_size, state.st_ino)
     return states
-
-
-SPEC_FILE = "cell.yaml"
-"""What a spec is called where a folder is named instead of it."""
 
 
 def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL, *, full: bool = False) -> Iterator[CellResult]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from cellc.contract.errors import reason_of
 from cellc.contract.printing import Stream, progress, show
 from cellc.tools.cli.batch import cell_files, results
 from cellc.tools.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected, write_sarif
@@ -109,6 +110,6 @@ def _rewrite(file: str, edits: Sequence[Edit], text: str) -> None:
     try:
         done = rewrite(Path(file), edits, text)
     except OSError as error:
-        raise click.UsageError(f"`{file}` cannot be written: {(error.strerror or 'unknown reason').lower()}") from error
+        raise click.UsageError(f"`{file}` cannot be written: {reason_of(error)}") from error
     for edit in edits if done else ():
         show(f"{edit.file}:{edit.line}: {edit.message}", to=Stream.ERR)

@@ -8,7 +8,7 @@ import click
 
 from cellc.compiler.cell.cell import Cell
 from cellc.contract.printing import show
-from cellc.tools.cli.findings import show_findings
+from cellc.tools.cli.findings import linked
 from cellc.tools.cli.limit_option import limit_option
 
 
@@ -58,8 +58,4 @@ def _cell(file: str | None) -> Cell | None:
         return None
     from cellc.compiler.pipeline import check
 
-    checked = check(file)
-    if checked.graph is None:
-        show_findings([checked.findings], "text")
-        raise click.exceptions.Exit(1)
-    return checked.graph.cell
+    return linked(check(file)).cell

@@ -8,6 +8,7 @@ import click
 
 from cellc.compiler.pages import all_codes, render_handbook, render_page
 from cellc.contract.code_page import meant_code, page_of
+from cellc.contract.columns import aligned
 from cellc.contract.printing import show, show_document
 from cellc.tools.cli.handbook import write_pages
 from cellc.tools.cli.words import complete_code
@@ -38,8 +39,7 @@ def explain(code: str | None, everything: bool, output: Path | None) -> None:
     elif everything:
         show_document("\n".join(render_page(page_of(known)) for known in codes))
     elif code is None:
-        width = max(map(len, codes))
-        show(*(f"{known:<{width}}  {severity.value:<8} {page_of(known).title}" for known, severity in codes.items()))
+        show(*aligned((known, severity.value, page_of(known).title) for known, severity in codes.items()))
     elif code in codes:
         show_document(render_page(page_of(code)))
     else:

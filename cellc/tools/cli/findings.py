@@ -5,16 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from cellc.contract.diagnostics import Diagnostic, Severity
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.errors import reason_of
 from cellc.contract.printing import show, show_document
 from cellc.contract.store.swap import write_whole
 from cellc.tools.cli.words import complete_codes
 from cellc.tools.report.selection import Selection, UnknownSelectionError, selection
 from cellc.tools.report.text_report import render_text, summary, summed_blockers
+
+if TYPE_CHECKING:
+    from cellc.compiler.graph.cell_graph import CellGraph
+    from cellc.compiler.pipeline import Checked
 
 FORMAT = click.option(
     "--format",
@@ -45,8 +51,6 @@ FAIL_ON = click.option(
     show_default=True,
     help="Least severity that makes the exit code 1.",
 )
-
-_RANK = {Severity.ERROR: 0, Severity.BLOCKER: 1, Severity.WARNING: 2, Severity.AUDIT: 3}
 
 
 def show_findings(
@@ -86,8 +90,15 @@ def write_sarif(found: Sequence[Findings], file: Path) -> None:
     try:
         write_whole(file, render_sarif(_each_once(found), Path.cwd()))
     except OSError as error:
-        place, reason = error.filename or file.as_posix(), (error.strerror or "unknown reason").lower()
-        raise click.UsageError(f"`{place}` cannot be written: {reason}") from error
+        raise click.UsageError(f"`{error.filename or file}` cannot be written: {reason_of(error)}") from error
+
+
+def linked(checked: Checked) -> CellGraph:
+    """Return the graph of a cell; where it has none, show what is wrong with it and end the command."""
+    if checked.graph is None:
+        show_findings([checked.findings], "text")
+        raise click.exceptions.Exit(1)
+    return checked.graph
 
 
 def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:
@@ -97,8 +108,7 @@ def number_hidden(found: Sequence[Findings], shown: Sequence[Findings]) -> int:
 
 def fails(found: Findings, fail_on: str) -> bool:
     """Tell whether a finding is as severe as ``fail_on``."""
-    limit = _RANK[Severity(fail_on)]
-    return any(_RANK[diagnostic.severity] <= limit for diagnostic in found.diagnostics)
+    return any(diagnostic.severity.rank <= Severity(fail_on).rank for diagnostic in found.diagnostics)
 
 
 def _show_for_programs(found: Sequence[Diagnostic], output_format: str) -> None:

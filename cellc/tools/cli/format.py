@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 import click
 
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.errors import reason_of
+from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.printing import Line, Stream, Style, Styled, as_text, refuse, show, show_document, stage
-from cellc.tools.cli.batch import SPEC_FILE, files_below
+from cellc.tools.cli.batch import files_below
 from cellc.tools.cli.findings import show_findings
 
 if TYPE_CHECKING:
@@ -92,7 +94,7 @@ def _put(one: Taken, *, writes: bool) -> bool:
             refuse(f"`{one.name}` was changed meanwhile")
             return False
     except OSError as error:
-        refuse(f"`{one.name}` cannot be written: {(error.strerror or 'unknown reason').lower()}")
+        refuse(f"`{one.name}` cannot be written: {reason_of(error)}")
         return False
     show(f"{'formatted' if writes else 'would format'} {one.name}", to=Stream.ERR)
     return True

@@ -14,6 +14,7 @@ import click
 from cellc.compiler.catalog.device_model import device_kinds
 from cellc.contract.diagnostics import Severity
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.printing import show, stage
 from cellc.contract.store.swap import write_whole
 from cellc.contract.vocabulary import Distro
@@ -195,7 +196,7 @@ def _write_cell(folder: Path, first: FirstCell) -> None:
     from cellc.compiler.pipeline import check
     from cellc.tools.importing.cell_text import cell_text
 
-    file, name = folder.parent / "cell.yaml", f"{folder.name}_cell"
+    file, name = folder.parent / SPEC_FILE, f"{folder.name}_cell"
     if file.exists() or file.is_symlink():  # one that leads nowhere is kept too
         show(f"kept {file.as_posix()} as it was")
     else:

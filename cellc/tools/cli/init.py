@@ -15,6 +15,7 @@ from cellc.compiler.catalog.load import device_names, load_device, load_device_f
 from cellc.compiler.catalog.starter import NamedDevice, starter_spec
 from cellc.compiler.catalog.starter_wires import without_signal
 from cellc.contract.diagnostics import did_you_mean
+from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.printing import show
 from cellc.contract.store.swap import write_whole
 from cellc.contract.vocabulary import Distro
@@ -60,7 +61,7 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     if not devices:
         raise click.UsageError(f"name at least one model of the catalog: {', '.join(device_names())}")
     folders = [Path(text.rpartition("=")[2]) for text in devices if _is_folder(text.rpartition("=")[2])]
-    file = output or (folders[0].parent if folders else Path("cells") / name) / "cell.yaml"
+    file = output or (folders[0].parent if folders else Path("cells") / name) / SPEC_FILE
     if file.exists() and not force:
         raise click.UsageError(f"{file.as_posix()} exists; give --force to replace it, or -o for another file")
     entries = _named(devices, file.parent)

@@ -8,7 +8,7 @@ from cellc.compiler.pipeline import check
 from cellc.contract.diagnostics import did_you_mean
 from cellc.contract.printing import Style, Styled
 from cellc.contract.printing import show as show_lines
-from cellc.tools.cli.findings import show_findings
+from cellc.tools.cli.findings import linked
 from cellc.tools.cli.limit_option import limit_option
 from cellc.tools.report.resolved import Leaf, Tree, flatten, resolved_tree
 
@@ -27,11 +27,7 @@ def show(file: str, path: str) -> None:
     cellc show cells/bench/cell.yaml control.controllers
     """
     path = path.rstrip(".")
-    checked = check(file)
-    if checked.graph is None:
-        show_findings([checked.findings], "text")
-        raise click.exceptions.Exit(1)
-    tree = resolved_tree(checked.graph.cell)
+    tree = resolved_tree(linked(check(file)).cell)
     if not path:
         show_lines(*tree)
         return

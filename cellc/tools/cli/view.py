@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from cellc.contract.errors import reason_of
 from cellc.contract.limits import limits, option
 from cellc.contract.printing import refuse, show
 from cellc.contract.signals import within
@@ -82,7 +83,7 @@ def view(folder: str, output: Path | None, names: tuple[str, ...], against: str 
     try:
         replace_whole(place, page)
     except OSError as error:
-        refuse(f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}")
+        refuse(f"{place.as_posix()}: cannot be written: {reason_of(error)}")
         raise click.exceptions.Exit(2) from None
     show(f"wrote {place.as_posix()}, {len(page) / 1e6:.1f} MB")
     if against is not None and subject.folder is None:
@@ -125,8 +126,6 @@ def _hold_replaceable(place: Path, heads: tuple[bytes, ...] = _HEADS, what: str 
     except FileNotFoundError:
         return
     except OSError as error:
-        raise ViewError(
-            f"{place.as_posix()}: cannot be written: {(error.strerror or 'unknown reason').lower()}"
-        ) from None
+        raise ViewError(f"{place.as_posix()}: cannot be written: {reason_of(error)}") from None
     if head and not head.startswith(heads):
         raise ViewError(f"{place.as_posix()}: is not {what}; move it away, or name another file")

@@ -11,6 +11,7 @@ from pydantic import Field, StringConstraints, field_validator, model_validator
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text, Token
 from cellc.compiler.catalog.compiled import CATALOG, compiled_table
+from cellc.contract.review import ApprovalArea
 from cellc.tools.diagnose.fields import FIELDS, Scope
 
 Layer = Literal[
@@ -29,7 +30,6 @@ Layer = Literal[
 ]
 LAYERS: tuple[Layer, ...] = get_args(Layer)
 """The layers in the order in which they are ruled out."""
-Area = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
 
 # Commands that read. Anything else, such as a switch, a parameter set or a published message, is refused as data.
 _READING = re.compile(
@@ -108,7 +108,7 @@ class LayerKnowledge(CatalogModel):
 
     layer: Layer
     title: Text
-    owner: Area
+    owner: ApprovalArea
     symptoms: tuple[Symptom, ...] = Field(min_length=1)
 
 

@@ -84,12 +84,13 @@ def replace_text(file: Path, text: str, expected: str) -> bool:
 def _content(file: Path, expected: str) -> str | None:
     """Return a file's content as stored; None where it is not what is expected."""
     content = read_regular(file, limits().spec_bytes).decode("utf-8", errors="replace")
-    return content if _normalized(content) == expected else None
+    return content if normalized(content) == expected else None
 
 
 def _line_break(content: str) -> str:
     return "\r\n" if "\r\n" in content else "\n"
 
 
-def _normalized(content: str) -> str:
-    return content.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+def normalized(content: str) -> str:
+    """Return a text as a reader of files gives it: with line breaks as ``\\n``, and no byte order mark."""
+    return content.removeprefix(_BYTE_ORDER_MARK).replace("\r\n", "\n").replace("\r", "\n")

@@ -15,9 +15,9 @@ from cellc.compiler.source import SourceDocument, read
 from cellc.compiler.source.compose import compose
 from cellc.compiler.source.text import as_yaml
 from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.file_names import SPEC_FILE
 from cellc.tools.lsp.answers import Known
 
-_SPEC = "cell.yaml"
 _OF_A_CELL = re.compile(r"^(cell|devices)\s*:", re.MULTILINE)
 """Whether a file of another name is a cell: an editor opens all kinds of YAML."""
 
@@ -40,9 +40,9 @@ class Cells:
         if known is not None:
             return known
         spec = file
-        if os.path.basename(file) != _SPEC:
+        if os.path.basename(file) != SPEC_FILE:
             above = Path(file).parents[:_MOST_FOLDERS]
-            candidates = ((folder / _SPEC).as_posix() for folder in above if (folder / _SPEC).is_file())
+            candidates = ((folder / SPEC_FILE).as_posix() for folder in above if (folder / SPEC_FILE).is_file())
             includes = (candidate for candidate in candidates if file in _texts(read(candidate, opened).value))
             spec = next(includes, file)
         if spec != file:  # a file that is not included yet may be included soon
@@ -55,7 +55,7 @@ class Cells:
         diagnostics: tuple[Diagnostic, ...] = ()
         if os.path.basename(spec) == DEVICE_FILE:
             diagnostics = _device_findings(spec, text) if text is not None else ()
-        elif os.path.basename(spec) == _SPEC or (text is not None and _OF_A_CELL.search(text)):
+        elif os.path.basename(spec) == SPEC_FILE or (text is not None and _OF_A_CELL.search(text)):
             checked = check(spec, opened)
             diagnostics = checked.diagnostics
             document = read(spec, opened)

@@ -27,7 +27,7 @@ from cellc.contract.diagnostics import Diagnostic, Severity, Span
 from cellc.contract.limits import limits
 from cellc.contract.printing import refuse
 from cellc.contract.signals import Stopped, raise_again
-from cellc.tools.edit.rewrite import Edit
+from cellc.tools.edit.rewrite import Edit, normalized
 from cellc.tools.layout.layout import formatted
 from cellc.tools.lsp.answers import Symbol, by_file, completions, definition, fixes, hover, symbols
 from cellc.tools.lsp.cells import Cells
@@ -240,11 +240,6 @@ def file_of(uri: str) -> str:
     """Return the absolute path of a document with forward slashes, as spans name it."""
     # No file has a zero character in its name, and Python refuses to look for one.
     return Path((to_fs_path(uri) or uri).replace("\0", "\ufffd")).as_posix()
-
-
-def normalized(text: str) -> str:
-    """Return a text as a reader of files gives it."""
-    return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
 
 
 server = CellServer()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from cellc.contract.columns import aligned
 from cellc.contract.diagnostics import Severity
 from cellc.contract.diagnostics.diagnostic import Diagnostic, Findings
 from cellc.contract.fleet import FleetRow, FleetSweep
@@ -23,14 +24,13 @@ def fleet_lines(rows: Sequence[FleetRow]) -> Iterator[Line]:
     table = [("cell", *parts, *_COUNTED.values(), "rehearsals", "sweep")]
     table += [(name, *_columns(row, parts)) for name, row in zip(names, rows, strict=True)]
     shown = [place for place in range(len(table[0])) if any(row[place] != _NONE for row in table[1:])]
-    widths = {place: max(len(row[place]) for row in table) for place in shown}
+    lines = aligned([row[place] for place in shown] for row in table)
     verdicts = ["", *("passed" if row.passed else "FAILED" for row in rows)]
     if all(row.rehearsals is None and row.sweeps is None for row in rows):
         yield ""  # findings stand above
-    for verdict, texts in zip(verdicts, table, strict=True):
+    for verdict, line in zip(verdicts, lines, strict=True):
         style = {"passed": Style.GREEN, "FAILED": Style.RED}.get(verdict, Style.BOLD)
-        columns = "  ".join(texts[place].ljust(widths[place]) for place in shown)
-        yield (Styled(verdict.ljust(6), style), f"  {columns}".rstrip())
+        yield (Styled(verdict.ljust(6), style), f"  {line}")
     for row in rows:
         failed = [
             f"`{rehearsal.name}` ended as {rehearsal.outcome}"

@@ -56,7 +56,7 @@ def _first_of_each_code(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnosti
 
 
 def _worst_first(diagnostic: Diagnostic) -> tuple[int, tuple[Span, str, str]]:
-    return tuple(Severity).index(diagnostic.severity), diagnostic.sort_key()
+    return diagnostic.severity.rank, diagnostic.sort_key()
 
 
 def _render(diagnostic: Diagnostic, texts: Texts) -> Iterator[Line]:

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from cellc.contract.errors import reason_of
 from cellc.contract.store.swap import make_folder, temporary_folder, write_new
 from cellc.tools.review.objects import Entry, Objects, RevisionError, objects_of
 
@@ -134,8 +135,7 @@ def _lay_out(files: Mapping[str, bytes], top: Path, revision: str) -> None:
         for name, content in files.items():
             write_new(Path(top, *PurePosixPath(name).parts), content)
     except OSError as error:
-        reason = (error.strerror or type(error).__name__).lower()
-        raise RevisionError(f"`{revision}` holds {name!a}, which cannot be laid out: {reason}") from None
+        raise RevisionError(f"`{revision}` holds {name!a}, which cannot be laid out: {reason_of(error)}") from None
 
 
 def _leads_out(name: str, content: bytes) -> bool:

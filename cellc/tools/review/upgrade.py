@@ -11,6 +11,7 @@ from cellc.compiler.catalog.tables import DistroFacts
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.pipeline import Checked, check
 from cellc.contract.diagnostics import Severity
+from cellc.contract.errors import reason_of
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN, Distro, ReviewArea
 from cellc.robot.description.xml_tree import XmlElement, read_xml
@@ -46,8 +47,7 @@ class Planned:
             try:
                 changed = rewrite(Path(file), tuple(edits), self.texts[file])
             except OSError as error:
-                reason = (error.strerror or "unknown reason").lower()
-                raise UpgradeError(f"`{file}` cannot be written: {reason}") from None
+                raise UpgradeError(f"`{file}` cannot be written: {reason_of(error)}") from None
             if not changed:
                 raise UpgradeError(f"`{file}` changed while it was read; nothing of it was written")
         return self.edits

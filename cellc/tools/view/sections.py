@@ -29,7 +29,7 @@ def section(id_: str, title: str, *children: Child) -> Element:
 
 def findings_section(findings: Findings) -> Element:
     """Return every finding, the worst first, at its place in the spec."""
-    ordered = sorted(findings.diagnostics, key=lambda one: (list(Severity).index(one.severity), one.sort_key()))
+    ordered = sorted(findings.diagnostics, key=lambda one: (one.severity.rank, one.sort_key()))
     if not ordered:
         return section("findings", "Findings", tag("p", "None."))
     return section("findings", "Findings", *_by_severity(ordered, findings.texts))

@@ -15,6 +15,7 @@ from cellc.compiler.output.write import write
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.errors import CellcError
+from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.store.swap import temporary_folder
 from cellc.mock.cell import read_to_show
 from cellc.mock.errors import MockError
@@ -22,8 +23,6 @@ from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, read_folder, read_
 from cellc.robot.description.packages import root_of
 from cellc.tools.view.standing import Standing, Wanted, of_cell, of_package, wanted_of
 
-SPEC_FILE = "cell.yaml"
-"""What a spec is called where its folder is named."""
 PICTURES = ("graph/cell.svg", "graph/nodes.svg", "graph/responsibility.svg")
 """Files of a package that the page shows as pictures."""
 _FILE_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,99}", re.ASCII)

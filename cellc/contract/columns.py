@@ -1,0 +1,16 @@
+"""Rows of texts in columns, for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+def aligned(rows: Iterable[Iterable[str]]) -> list[str]:
+    """Return a line for each row, the columns below each other with two blanks between, and none at the end.
+
+    Args:
+        rows: of one length; the first may name the columns.
+    """
+    table = [tuple(row) for row in rows]
+    widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+    return ["  ".join(map(str.ljust, row, widths)).rstrip() for row in table]
