@@ -10,6 +10,7 @@ from typing import Generic, TypeVar, Union
 
 from cellc.contract.diagnostics.notebook import html_table
 from cellc.contract.diagnostics.unsafe_text import escaped
+from cellc.contract.wording import count
 
 T = TypeVar("T")
 YamlPath = tuple[Union[str, int], ...]
@@ -63,8 +64,7 @@ class Severity(str, Enum):
 
     def counted(self, number: int) -> str:
         """Return such as ``2 errors`` or ``1 audit item``."""
-        noun = "audit item" if self is Severity.AUDIT else self.value
-        return f"{number} {noun}{'' if number == 1 else 's'}"
+        return count(number, "audit item" if self is Severity.AUDIT else self.value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 
-from cellc.contract.columns import aligned
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome
+from cellc.contract.wording import aligned
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import CommandStep, LimitsReport
 from cellc.mock.campaign.plan import RunEnd

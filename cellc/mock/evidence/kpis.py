@@ -13,18 +13,20 @@ from cellc.mock.evidence.run_trace import StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 
 _MEASURED = {
-    "plan_to_execute_s": ("s", "plan ready (step 3) to first motion (step 7), longest"),
-    "cancel_s": ("s", "cancel requested to all joints standing still, longest"),
-    "missed_cycles": ("cycles", "joint states that were due"),
-    "stale_state_rejection": ("share", "attempts that stale data ended, of those it met"),
-    "protective_stops": ("stops", "hardware components that left active"),
-    "recovery_time_s": ("s", "hardware left active until it was active again, longest"),
+    "plan_to_execute_s": ("plan to execute", "s", "plan ready (step 3) to first motion (step 7), longest"),
+    "cancel_s": ("cancel to hold", "s", "cancel requested to all joints standing still, longest"),
+    "missed_cycles": ("missed cycles", "cycles", "joint states that were due"),
+    "stale_state_rejection": ("stale data rejected", "share", "attempts that stale data ended, of those it met"),
+    "protective_stops": ("protective stops", "stops", "hardware components that left active"),
+    "recovery_time_s": ("recovery time", "s", "hardware left active until it was active again, longest"),
     "wrong_owner_events": (
+        "wrong-owner events",
         "events",
         "claims that the contract does not state, and attempts that another commander ended",
     ),
 }
-"""Unit of each figure, and what was measured."""
+"""Title and unit of each figure, and what was measured."""
+TITLES = {name: title for name, (title, _, _) in _MEASURED.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +85,7 @@ def to_kpi_json(entry: RehearsalEntry, result: RehearsalResult, figures: Sequenc
 
 
 def _at_most(name: str, value: float | None, target: float | None) -> Kpi:
-    unit, basis = _MEASURED[name]
+    _, unit, basis = _MEASURED[name]
     met = None if value is None or target is None else value <= target
     return Kpi(name, unit, value, target, met, basis)
 
@@ -93,7 +95,7 @@ def _cancel(attempts: Sequence[AttemptRecord], target_s: float | None) -> Kpi:
     held = [latency for latency in latencies if latency is not None]
     if len(held) == len(latencies):
         return _at_most("cancel_s", _worst(held), target_s)
-    unit, basis = _MEASURED["cancel_s"]
+    _, unit, basis = _MEASURED["cancel_s"]
     return Kpi("cancel_s", unit, None, target_s, False, f"{basis}; the joints of one did not stand still in time")
 
 
@@ -104,7 +106,7 @@ def _rejection(attempts: Sequence[AttemptRecord], target: float | None, max_age_
         record.joint_state_age is not None and record.joint_state_age > max_age_s and record.action_goal_id is not None
         for record in attempts
     )
-    unit, basis = _MEASURED["stale_state_rejection"]
+    _, unit, basis = _MEASURED["stale_state_rejection"]
     share = rejected / (rejected + used) if rejected + used else None
     met = None if share is None or target is None else share >= target
     return Kpi("stale_state_rejection", unit, share, target, met, basis)

@@ -9,6 +9,8 @@ from cellc.contract.diagnostics.unsafe_text import escaped_within
 
 Child = Element | str
 _NONE = "–"
+PREFIXES = ((1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"))
+"""Of units, each with its parts of one."""
 
 
 def tag(name: str, *children: Child, **attributes: str) -> Element:
@@ -41,6 +43,25 @@ def _named(cell: Child, name: str) -> Element:
     element = cell if isinstance(cell, Element) and cell.tag == "td" else tag("td", cell)
     element.set("data-name", name)
     return element
+
+
+def section(title: str, *children: Child, id_: str = "") -> Element:
+    """Return a section under its title; the head of the page leads to those that have an id."""
+    element = tag("section", tag("h2", title), *children)
+    if id_:
+        element.set("id", id_)
+    return element
+
+
+def hint(*children: Child) -> Element:
+    """Return a paragraph that explains what is around it."""
+    return tag("p", *children, class_="hint")
+
+
+def pairs(rows: Iterable[tuple[str, Child]], class_: str) -> Element:
+    """Return names with what belongs to each; a value may be a ``dd`` already."""
+    values = ((name, value if isinstance(value, Element) else tag("dd", value)) for name, value in rows)
+    return tag("dl", *(tag("div", tag("dt", name), value) for name, value in values), class_=class_)
 
 
 def svg(width: float, height: float, label: str, *children: Child, class_: str = "plot") -> Element:
@@ -90,7 +111,7 @@ def span(low: float, high: float, unit: str) -> str:
 
 def small(value: float, unit: str) -> str:
     """Return a deviation in thousandths or millionths of its unit, whatever reads best; rounding is no deviation."""
-    for factor, prefix in ((1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n")):
+    for factor, prefix in PREFIXES:
         if abs(value) * factor >= 1.0:
             return f"{value * factor:.3g} {prefix}{unit}"
     return f"0 {unit}" if value == 0.0 else f"below 1 n{unit}"
@@ -103,8 +124,3 @@ def plain(value: float | None, unit: str) -> str:
     if unit == "s":
         return seconds(value)
     return f"{value:.0%}" if unit == "share" else f"{value:g} {unit.removesuffix('s') if value == 1 else unit}"
-
-
-def count(number: int, noun: str) -> str:
-    """Return a number with its noun, in the plural where there are several."""
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

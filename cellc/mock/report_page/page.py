@@ -10,26 +10,17 @@ from xml.etree.ElementTree import Element
 from cellc.contract.contract import Contract
 from cellc.contract.store.regular_file import own_text
 from cellc.contract.vocabulary import UNKNOWN
+from cellc.contract.wording import count
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
-from cellc.mock.evidence.kpis import Kpi
+from cellc.mock.evidence.kpis import TITLES, Kpi
 from cellc.mock.gates.gate import GateCheck, GateResult, Tally, Verdict
-from cellc.mock.report_page.html import Child, cards, count, plain, seconds, tag, to_page
+from cellc.mock.report_page.html import Child, cards, hint, pairs, plain, seconds, section, tag, to_page
 from cellc.mock.report_page.run_section import RunEvidence, run_section
 from cellc.mock.report_page.sweep_section import sweep_section, sweep_verdict
 from cellc.mock.result import simulated_s
 from cellc.mock.sweep.sweep import Sweep
-
-_NAMES = {
-    "plan_to_execute_s": "plan to execute",
-    "cancel_s": "cancel to hold",
-    "missed_cycles": "missed cycles",
-    "stale_state_rejection": "stale data rejected",
-    "protective_stops": "protective stops",
-    "recovery_time_s": "recovery time",
-    "wrong_owner_events": "wrong-owner events",
-}
 
 UNPROVEN = (
     (
@@ -82,7 +73,6 @@ def header(content: ReportContent) -> Element:
     ]
     if content.runs or not content.sweeps:
         facts.append(("simulated", seconds(simulated_s(run.result for run in content.runs))))
-    pairs = [tag("div", tag("dt", name), tag("dd", value)) for name, value in facts]
     return tag(
         "header",
         tag("p", "Rehearsed on the mock", class_="kicker"),
@@ -90,7 +80,7 @@ def header(content: ReportContent) -> Element:
         tag("p", contract.summary, class_="summary"),
         *(sweep_verdict(sweep) for sweep in content.sweeps),
         *(() if content.sweeps else (verdict,)),
-        tag("dl", *pairs, class_="facts"),
+        pairs(facts, "facts"),
         *(tag("p", tag("b", "Note: "), note, class_="note") for note in content.notes),
     )
 
@@ -99,7 +89,7 @@ def outcomes(content: ReportContent) -> Element:
     """Return the matrix of rehearsals and their ends."""
     names = ("rehearsal", "verdict", "outcome", "expected", "injected", "response", "bound", "simulated")
     rows = [_outcome_row(number, run) for number, run in enumerate(content.runs, start=1)]
-    return tag("section", tag("h2", "Outcomes"), cards(names, rows))
+    return section("Outcomes", cards(names, rows))
 
 
 def _outcome_row(number: int, run: RunEvidence) -> tuple[Child, ...]:
@@ -117,21 +107,21 @@ def _outcome_row(number: int, run: RunEvidence) -> tuple[Child, ...]:
 
 def key_figures(content: ReportContent) -> Element:
     """Return the seven figures of the checkpoint, one column each under its target, with one row a rehearsal."""
-    title = tag("h2", "Key figures")
+    title = "Key figures"
     runs = [run for run in content.runs if run.kpis]
     if not runs:
-        return tag("section", title, tag("p", "No cell was brought up, so that nothing was measured.", class_="hint"))
+        return section(title, hint("No cell was brought up, so that nothing was measured."))
     figures = runs[0].kpis
-    names = ("rehearsal", *(_NAMES[figure.name] for figure in figures))
+    names = ("rehearsal", *(TITLES[figure.name] for figure in figures))
     targets = (tag("td", "target", class_="aim"), *(tag("td", _target(figure), class_="aim") for figure in figures))
     table = cards(names, (targets, *(_figure_row(run) for run in runs)))
-    hint = (
+    reading = (
         "A target is for the cell in service. Where a rehearsal injects a fault, a missed target tells what the fault "
         "did, and is set in brackets; the rehearsal itself is judged above. – is what a run never reached."
     )
-    bases = [tag("div", tag("dt", _NAMES[figure.name]), tag("dd", figure.basis)) for figure in figures]
-    measured = tag("details", tag("summary", "What was measured"), tag("dl", *bases, class_="pairs"))
-    return tag("section", title, tag("p", hint, class_="hint"), table, measured)
+    bases = pairs(((TITLES[figure.name], figure.basis) for figure in figures), "pairs")
+    measured = tag("details", tag("summary", "What was measured"), bases)
+    return section(title, hint(reading), table, measured)
 
 
 def _target(figure: Kpi) -> str:
@@ -163,9 +153,8 @@ def campaign_section(campaign: Campaign | None) -> Iterator[Element]:
     verdict = tag("p", _mark(campaign.passed), words)
     matrices = [_table(matrix_of(baseline.run.entry, campaign.ends)) for baseline in campaign.baselines]
     lines = [tag("li", line.strip()) for line in (*outcome_lines(campaign.ends), *limit_lines(campaign.limits))]
-    yield tag(
-        "section",
-        tag("h2", "Campaign"),
+    yield section(
+        "Campaign",
         verdict,
         *_failures(campaign.failed),
         *matrices,
@@ -197,12 +186,12 @@ def _cell(ends: Sequence[RunEnd]) -> Element:
 
 def gate_section(gates: Sequence[GateResult]) -> Element:
     """Return the checklists of the gates, each with its evidence; the last one is open."""
-    hint = (
+    reading = (
         "Each line is judged by the runs of this call and by the generated folder. What they cannot show is UNKNOWN, "
         "with what would show it; no line says anything about hardware."
     )
     lists = [_gate(gate, open_=gate is gates[-1]) for gate in reversed(gates)]
-    return tag("section", tag("h2", "Gates before hardware"), tag("p", hint, class_="hint"), *lists)
+    return section("Gates before hardware", hint(reading), *lists)
 
 
 def _gate(gate: GateResult, *, open_: bool) -> Element:
@@ -212,11 +201,11 @@ def _gate(gate: GateResult, *, open_: bool) -> Element:
     title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {text}")
     rows = tag("ul", *(_check(check) for check in gate.checks), class_="checks")
     by = tag("code", gate.signature) if gate.signature else "not signed, because the folder was edited"
-    signed = tag("p", f"State of the robot: {gate.state}. Signed by result: ", by, class_="hint")
-    section = tag("details", title, rows, signed, class_="gate")
+    signed = hint(f"State of the robot: {gate.state}. Signed by result: ", by)
+    details = tag("details", title, rows, signed, class_="gate")
     if open_:
-        section.set("open", "open")
-    return section
+        details.set("open", "open")
+    return details
 
 
 def _check(check: GateCheck) -> Element:
@@ -227,42 +216,28 @@ def _check(check: GateCheck) -> Element:
 
 def unproven() -> Element:
     """Return what stays unproven however well the rehearsals ended."""
-    rows = [tag("div", tag("dt", name), tag("dd", words)) for name, words in UNPROVEN]
-    hint = (
+    reading = (
         "It validates contracts between components. Each of these needs its own gate on the real cell, drives disabled "
         "first."
     )
-    return tag(
-        "section",
-        tag("h2", "What the mock cannot prove"),
-        tag("p", hint, class_="hint"),
-        tag("dl", *rows, class_="pairs"),
-    )
+    return section("What the mock cannot prove", hint(reading), pairs(UNPROVEN, "pairs"))
 
 
 def identity(contract: Contract) -> Element:
     """Return the tuple of versions, what is not known of it first."""
     parts = sorted(contract.version_tuple.items(), key=lambda part: (part[1] != UNKNOWN, part[0]))
-    rows = [
-        tag("div", tag("dt", name), tag("dd", version, class_="unknown" if version == UNKNOWN else "plain"))
-        for name, version in parts
-    ]
+    rows = ((name, tag("dd", version, class_="unknown" if version == UNKNOWN else "plain")) for name, version in parts)
     known = Tally.of(version != UNKNOWN for _, version in parts)
-    hint = (
+    pinned = (
         f"{count(known.bad, 'part')} of {known.total} UNKNOWN; gate G0 stops there."
         if known.bad
         else "All parts are pinned."
     )
-    calibrations = [
-        tag("div", tag("dt", f"calibration {name}"), tag("dd", f"revision {each.revision}, {each.owner}"))
+    calibrations = (
+        (f"calibration {name}", f"revision {each.revision}, {each.owner}")
         for name, each in sorted(contract.calibrations.items())
-    ]
-    return tag(
-        "section",
-        tag("h2", "Versions and calibrations"),
-        tag("p", hint, class_="hint"),
-        tag("dl", *calibrations, *rows, class_="pairs columns"),
     )
+    return section("Versions and calibrations", hint(pinned), pairs((*calibrations, *rows), "pairs columns"))
 
 
 def to_report(content: ReportContent) -> str:

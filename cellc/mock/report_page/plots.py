@@ -23,7 +23,7 @@ from cellc.mock.report_page.axes import (
     ticks,
     time_labels,
 )
-from cellc.mock.report_page.html import seconds, small, span, svg, tag
+from cellc.mock.report_page.html import PREFIXES, seconds, small, span, svg, tag
 
 _TOP = 8.0
 # Of a joint: positions between _TOP and _MIDDLE, its error between _LOWER and _ERROR_BOTTOM.
@@ -32,7 +32,6 @@ _MIDDLE, _LOWER, _ERROR_BOTTOM, _JOINT_HEIGHT = 112.0, 128.0, 178.0, 196.0
 _BOTTOM, _HEIGHT = 84.0, 102.0
 _LEAST_JOINT_RANGE, _LEAST_STATE_RANGE, _LEAST_ERROR = 0.02, 0.01, 1e-6
 """rad or m that the axes span at least, so that rounding does not look like motion."""
-_PREFIXES = ((1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"))
 
 
 def joint_plot(
@@ -79,7 +78,7 @@ def _gauge(lower: float, upper: float, least: float, greatest: float) -> Iterato
 def _errors(trace: JointTrace, tolerance: float | None, time: TimeAxis) -> Iterator[Element]:
     worst = max(trace.worst_error, _LEAST_ERROR)
     step = round_below(1.25 * worst)
-    factor, prefix = next((pair for pair in _PREFIXES if step * pair[0] >= 1.0), _PREFIXES[-1])
+    factor, prefix = next((pair for pair in PREFIXES if step * pair[0] >= 1.0), PREFIXES[-1])
     y = Scale(-1.25 * worst, 1.25 * worst, _ERROR_BOTTOM, _LOWER)
     yield from frame(time, y, [(value, f"{value * factor:.4g}") for value in (-step, 0.0, step)])
     for bound in () if tolerance is None or tolerance > 1.25 * worst else (-tolerance, tolerance):

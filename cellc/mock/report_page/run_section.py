@@ -9,25 +9,15 @@ from xml.etree.ElementTree import Element
 from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
+from cellc.contract.wording import count
 from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
-from cellc.mock.report_page.html import Child, at, cards, count, seconds, tag
+from cellc.mock.report_page.html import Child, at, cards, hint, seconds, tag
 from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
 from cellc.mock.sweep.sweep import SweepRun
-
-_WORDS = {
-    PacketStep.OBSERVED: "observed",
-    PacketStep.TRANSFORMED: "transformed",
-    PacketStep.PLANNED: "planned",
-    PacketStep.GOAL_SENT: "goal sent",
-    PacketStep.ACCEPTED: "accepted",
-    PacketStep.WRITTEN: "written",
-    PacketStep.DRIVEN: "driven",
-    PacketStep.RETURNED: "returned",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +103,8 @@ def packet(record: AttemptRecord) -> Element:
 
 def _steps(record: AttemptRecord) -> Iterator[Element]:
     made_steps = record.made
-    for number, (step, words) in enumerate(_WORDS.items(), start=1):
+    for number, step in enumerate(PacketStep, start=1):
+        words = step.name.lower().replace("_", " ")
         if step not in made_steps:
             yield _step(number, words, "–", "missing", f"step {step.value}: not made")
             continue
@@ -177,7 +168,7 @@ _Spans = tuple[tuple[str, int, int, bool], ...]
 def claims(trace: TraceResult, time: TimeAxis) -> Iterator[Element]:
     """Yield a lane for interfaces that were claimed alike, and the changes of controllers and hardware."""
     lanes = [_lane(interfaces, spans, time) for spans, interfaces in _alike(trace.claims).items()]
-    lanes = lanes or [tag("p", "no controller claimed a command interface", class_="hint")]
+    lanes = lanes or [hint("no controller claimed a command interface")]
     yield tag("div", tag("h3", "Claims of command interfaces"), *lanes, axis(time), class_="lanes")
     if trace.changes:
         rows = [_change(change) for change in trace.changes]
@@ -228,7 +219,7 @@ def run_section(number: int, run: RunEvidence, contract: Contract) -> Element:
         tag("p", f"{stage.stage}: {text}", class_="note") for stage in result.bringup for text in stage.problems
     ]
     findings = [tag("p", f"finding: {text}", class_="note") for text in result.findings]
-    files = tag("p", "files: ", *_links(run.files), class_="hint")
+    files = hint("files: ", *_links(run.files))
     parts = [] if run.trace is None else list(_parts(run, run.trace, contract))
     return tag("section", title, files, *problems, *findings, *parts, id=f"run-{number}")
 

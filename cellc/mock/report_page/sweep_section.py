@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
 from cellc.mock.report_page.axes import Scale, line
-from cellc.mock.report_page.html import Child, cards, svg, tag
+from cellc.mock.report_page.html import Child, cards, hint, section, svg, tag
 from cellc.mock.sweep.margins import Margin, margins
 from cellc.mock.sweep.summary import count_lines, drawn_table, explained_table, margin_table, verdict_line
 from cellc.mock.sweep.sweep import Sweep
@@ -24,14 +24,14 @@ def sweep_section(sweep: Sweep, contract: Contract) -> Element:
         names, *rows = margin_table(ranked)
         drawn: list[tuple[Child, ...]] = [(*row, histogram(margin)) for row, margin in zip(rows, ranked, strict=True)]
         tables.insert(0, cards((*names, "best to worst"), drawn))
-    hint = (
+    legend = (
         "95 % of the runs are as good as the figure below it, or better. A drawing ends at the bound, or at a run "
         "beyond it. Clearance is what the planner knows: from an arm and what it carries to its surroundings, where "
         "the description has that. How a part slips or turns between the fingers is not simulated. The section of a "
         "run that missed its goal shows what the robot believed: that it succeeded."
     )
     lines = [tag("p", text) for text in count_lines(sweep)]
-    return tag("section", tag("h2", f"Sweep of {sweep.rehearsal}"), *lines, *tables, tag("p", hint, class_="hint"))
+    return section(f"Sweep of {sweep.rehearsal}", *lines, *tables, hint(legend))
 
 
 def sweep_verdict(sweep: Sweep) -> Element:

@@ -14,6 +14,7 @@ import click
 from cellc.compiler.link.reads import Reads, is_below, reads_of
 from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.printing import Stream, clear, show
+from cellc.contract.wording import count
 from cellc.tools.cli.batch import State, cell_files, matched, states
 from cellc.tools.cli.build import OUTPUT, summary_of, written
 from cellc.tools.cli.findings import IGNORE, SELECT, read_selection, selected, show_findings
@@ -63,7 +64,7 @@ def watch(files: tuple[str, ...], builds: bool, output: Path, select: tuple[str,
         empty = [text for text in watched.specs() if os.path.isdir(text)]
         show(*(f"there is no {SPEC_FILE} below `{folder}` yet" for folder in empty))
         number = len(watched.specs()) - len(empty)
-        show(f"watching {number} {'cell' if number == 1 else 'cells'}; Ctrl-C ends it", to=Stream.ERR)
+        show(f"watching {count(number, 'cell')}; Ctrl-C ends it", to=Stream.ERR)
         # Folders that a cell names only now have no past; what changed meanwhile has one.
         before, changed = watched.next_change({**watched.look(), **before})
 

@@ -17,6 +17,7 @@ from cellc.compiler.deploy.labels import real_driver, watchdog
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.versions import compatibility
 from cellc.contract.vocabulary import PASSIVE, UNKNOWN, CommandAuthority, Motion
+from cellc.contract.wording import count
 
 _NOT_STATED = "not stated"
 
@@ -168,8 +169,7 @@ def _records(cell: Cell) -> Iterator[str]:
 
 def _ownership(cell: Cell) -> Iterator[str]:
     for controller in _commanding(cell):
-        claims = len(controller.claims("real"))
-        counted = f"{claims} command interface{'s' if claims != 1 else ''}"
+        counted = count(len(controller.claims("real")), "command interface")
         yield f"{controller.label}: claims {counted}, commanded by {controller.client or 'no client'}"
     for device in _driven(cell):
         yield f"{device.name}: no controller claims it, {real_driver(device)} takes goals"

@@ -9,6 +9,7 @@ from pathlib import PurePosixPath
 
 from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.contract.wording import count
 from cellc.tools.review.edges import edge_changes, offers_less
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import moved_places
@@ -289,7 +290,7 @@ def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:
         return unit
     groups = (side.contract.groups.get(name) for side in (after, before) for name in names)
     wanted = {*names, *(joint for group in groups if group is not None for joint in group.joints)}
-    joints = (joint for side in (after, before) for joint in side.joints.values() if joint.name in wanted)
+    joints = (joint for side in (after, before) for joint in side.description.joints if joint.name in wanted)
     return unit.replace("joint", "m" if any(joint.type == "prismatic" for joint in joints) else "rad")
 
 
@@ -318,14 +319,13 @@ def _effects(before: Facts, after: Facts) -> Iterator[Change]:
 
 def _of_lines(left: LinesLeft) -> Change:
     area = area_of_file(left.file)
-    number = max(len(left.before), len(left.after))
-    count = f"{number} line{'s' if number != 1 else ''}"
+    text = count(max(len(left.before), len(left.after)), "line")
     return Change(
         area,
         left.file,
-        f"file {left.whole}" if left.whole else f"{count} (not classified)",
-        count if left.whole == "removed" else _some(left.before),
-        count if left.whole == "added" else _some(left.after),
+        f"file {left.whole}" if left.whole else f"{text} (not classified)",
+        text if left.whole == "removed" else _some(left.before),
+        text if left.whole == "added" else _some(left.after),
         Grade.REVIEW,
     )
 

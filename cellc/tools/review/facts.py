@@ -24,7 +24,7 @@ from cellc.contract.manifest import Manifest
 from cellc.contract.reading import FormatError, read_json
 from cellc.contract.rehearsals import Rehearsals
 from cellc.contract.transforms import identity
-from cellc.robot.description.model import Box, Collision, Cylinder, Description, Joint, Sphere
+from cellc.robot.description.model import Box, Collision, Cylinder, Description, Sphere
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xml_tree import read_xml
 from cellc.robot.description.yaml_values import load_values
@@ -52,7 +52,7 @@ class Facts:
     Attributes:
         leaves: every value of its data by path; the first part of a path is the file, or what several files make up.
         lines: lines of every file that is no data, by file.
-        joints: joints of the description for the real target, by the link that they carry.
+        description: that for the real target.
         edited: files that are not as the manifest has them.
         has_gates: whether it has the gates as data; a package of an older cellc has checklists alone.
         cell: what the package was made of, which says more than it (``OF_SPEC``); None where only the package is
@@ -63,7 +63,7 @@ class Facts:
     manifest: Manifest
     leaves: Leaves
     lines: Mapping[str, tuple[str, ...]]
-    joints: Mapping[str, Joint]
+    description: Description
     edited: frozenset[str]
     has_gates: bool
     cell: Cell | None
@@ -112,9 +112,8 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         known_files.get(path, path): _lines(files[path], is_srdf=path == named.srdf)
         for path in sorted(files.keys() - read)
     }
-    joints = {joint.child: joint for joint in real.joints}
     edited = {path for path, known in manifest.files.items() if path in files and _sha256(files[path]) != known}
-    return Facts(contract, manifest, leaves, lines, joints, frozenset(edited), gates is not None, cell)
+    return Facts(contract, manifest, leaves, lines, real, frozenset(edited), gates is not None, cell)
 
 
 def _sha256(text: str) -> str:

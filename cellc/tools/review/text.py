@@ -8,6 +8,7 @@ from itertools import groupby
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal
 from cellc.contract.vocabulary import Grade
+from cellc.contract.wording import count
 
 _STYLE = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
 _FEW = 4
@@ -47,8 +48,7 @@ def summed_up(review: Review) -> str:
     listed = ", ".join(f"{number} {grade}" for number, grade in counts if number)
     breaking = sum(change.breaking for change in review.changes)
     more = f"; {breaking} break{'s' if breaking == 1 else ''} consumers outside the cell" if breaking else ""
-    number = len(review.changes)
-    return f"{review.after.name}: {number} change{'s' if number != 1 else ''} ({listed}){more}"
+    return f"{review.after.name}: {count(len(review.changes), 'change')} ({listed}){more}"
 
 
 def subjects_of(change: ReviewChange) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradeParameter, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN
+from cellc.contract.wording import count
 from cellc.tools.review.markdown import LONGEST, as_code, folded, render_markdown
 from cellc.tools.review.text import finding_lines, gate_line, render_review
 
@@ -57,9 +58,8 @@ def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
 def summed_up(upgrade: Upgrade) -> str:
     """Return one line: how many pins change, and how much is asked."""
     pins = sum(pin.before != pin.after for pin in upgrade.pins)
-    asked = len(upgrade.questions)
-    text = f"{pins} pin{'s' if pins != 1 else ''} change{'s' if pins == 1 else ''}"
-    return f"{upgrade.cell}: {upgrade.before} to {upgrade.after}: {text}, {asked} question{'s' if asked != 1 else ''}"
+    text = f"{count(pins, 'pin')} change{'s' if pins == 1 else ''}, {count(len(upgrade.questions), 'question')}"
+    return f"{upgrade.cell}: {upgrade.before} to {upgrade.after}: {text}"
 
 
 def _moved(pin: UpgradePin) -> str:

@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.contract.diagnostics.diagnostic import counted
 from cellc.contract.store.regular_file import own_bytes, own_text
-from cellc.mock.report_page.html import Child, tag, to_page
+from cellc.mock.report_page.html import Child, pairs, section, tag, to_page
 from cellc.tools.view.content import Content
 from cellc.tools.view.scene import Scene
 from cellc.tools.view.sections import (
@@ -27,7 +27,6 @@ from cellc.tools.view.sections import (
     gates_section,
     interfaces_section,
     rehearsals_section,
-    section,
 )
 
 _SCRIPTS = ("orbit.js", "scene.js", "page.js")
@@ -162,7 +161,7 @@ def _header(content: Content) -> Element:
         tag("p", "Robot cell", class_="kicker"),
         tag("h1", subject.name),
         *([] if contract is None else [tag("p", contract.summary, class_="summary")]),
-        tag("dl", *(tag("div", tag("dt", name), tag("dd", value)) for name, value in facts), class_="facts"),
+        pairs(facts, "facts"),
         *(tag("p", tag("b", "Note: "), note, class_="note") for note in notes),
         tag("nav", *(tag("a", words, href=f"#{id_}") for id_, words in _places(content))),
     )
@@ -198,7 +197,7 @@ def _pictures(pictures: Mapping[str, str]) -> Iterator[Element]:
         id_, title, words = _CAPTIONS[file]
         # As a picture, nothing in it runs, even in an untrusted file.
         source = f"data:image/svg+xml;base64,{base64.b64encode(text.encode()).decode()}"
-        yield section(id_, title, tag("figure", tag("div", tag("img", src=source, alt=words), class_="wide")))
+        yield section(title, tag("figure", tag("div", tag("img", src=source, alt=words), class_="wide")), id_=id_)
 
 
 def _stage(scene: Scene, *, compared: bool) -> Element:

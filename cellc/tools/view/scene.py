@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from cellc.compiler.cell.device import FieldOfView
 from cellc.contract.transforms import Pose
+from cellc.contract.wording import count
 from cellc.robot.description.model import Box, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 from cellc.tools.view.meshes import DrawnMesh, Meshes, meshes_at_hand, meshes_of
 from cellc.tools.view.skeleton import Held, Skeleton
@@ -159,8 +160,7 @@ def _left_out(links: Iterable[Link], owners: Mapping[str, str], meshes: Meshes) 
     for owner, bare_links in bare.items():
         named = [mesh for link in bare_links for mesh in (*meshes_of(link.visuals), *link.collision_meshes())]
         why = next((meshes.absent[mesh] for mesh in named if mesh in meshes.absent), "")
-        links_ = f"{len(bare_links)} {'link' if len(bare_links) == 1 else 'links'}"
-        yield f"shapes of {links_} of {owner or 'the cell'}", why
+        yield f"shapes of {count(len(bare_links), 'link')} of {owner or 'the cell'}", why
 
 
 def _owners(standing: Standing) -> dict[str, str]:

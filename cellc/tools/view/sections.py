@@ -13,8 +13,9 @@ from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.contract.review import Review
 from cellc.contract.vocabulary import Grade
+from cellc.contract.wording import count
 from cellc.mock.bus.qos import unmatched_pairs
-from cellc.mock.report_page.html import Child, cards, count, tag
+from cellc.mock.report_page.html import Child, cards, hint, section, tag
 from cellc.tools.report.snippet import excerpt
 from cellc.tools.view.playback import Run
 
@@ -22,17 +23,12 @@ _OPEN = (Severity.ERROR, Severity.WARNING)
 """Severities whose findings are shown immediately; the others are one click away."""
 
 
-def section(id_: str, title: str, *children: Child) -> Element:
-    """Return a section that the page's head leads to."""
-    return tag("section", tag("h2", title), *children, id=id_)
-
-
 def findings_section(findings: Findings) -> Element:
     """Return every finding, the worst first, at its place in the spec."""
     ordered = sorted(findings.diagnostics, key=lambda one: (one.severity.rank, one.sort_key()))
     if not ordered:
-        return section("findings", "Findings", tag("p", "None."))
-    return section("findings", "Findings", *_by_severity(ordered, findings.texts))
+        return section("Findings", tag("p", "None."), id_="findings")
+    return section("Findings", *_by_severity(ordered, findings.texts), id_="findings")
 
 
 def _by_severity(ordered: Sequence[Diagnostic], texts: Mapping[str, str]) -> Iterator[Element]:
@@ -51,7 +47,7 @@ def _finding(found: Diagnostic, texts: Mapping[str, str]) -> Element:
         for related in found.related
         for part in (_place(related.span, related.message), *_snippet(related.span, texts))
     ]
-    help_ = [tag("p", f"help: {found.help}", class_="hint")] if found.help else []
+    help_ = [hint(f"help: {found.help}")] if found.help else []
     return tag(
         "article",
         title,
@@ -64,7 +60,7 @@ def _finding(found: Diagnostic, texts: Mapping[str, str]) -> Element:
 
 
 def _place(span: Span, words: str = "") -> Element:
-    return tag("p", f"{span}{': ' if words else ''}{words}", class_="hint")
+    return hint(f"{span}{': ' if words else ''}{words}")
 
 
 def _snippet(span: Span, texts: Mapping[str, str]) -> Iterator[Element]:
@@ -82,7 +78,7 @@ def _snippet(span: Span, texts: Mapping[str, str]) -> Iterator[Element]:
 def absent_section(not_drawn: Sequence[tuple[str, str]]) -> Element:
     """Return what the cell names and the drawing does not have, each with the reason."""
     rows = [(tag("b", name), why) for name, why in not_drawn]
-    return section("absent", "Not drawn", cards(("what", "why"), rows))
+    return section("Not drawn", cards(("what", "why"), rows), id_="absent")
 
 
 def changes_section(review: Review) -> Element:
@@ -101,7 +97,7 @@ def changes_section(review: Review) -> Element:
     ]
     text = f"{review.before.name} → {review.after.name}. Gates to repeat: "
     gates = ", ".join(gate.code.value for gate in review.gates) or "none"
-    return section("changes", "What changed", tag("p", text, gates, class_="hint"), cards(names, rows))
+    return section("What changed", hint(text, gates), cards(names, rows), id_="changes")
 
 
 _GRADES = {Grade.SAFE: "good", Grade.REVIEW: "unknown", Grade.DANGEROUS: "bad"}
@@ -121,7 +117,7 @@ def rehearsals_section(runs: Sequence[Run]) -> Element:
         )
         for number, run in enumerate(runs)
     ]
-    return section("rehearsals", "Rehearsals on the mock", cards(names, rows))
+    return section("Rehearsals on the mock", cards(names, rows), id_="rehearsals")
 
 
 def interfaces_section(contract: Contract) -> Element:
@@ -129,7 +125,7 @@ def interfaces_section(contract: Contract) -> Element:
     broken = [tag("p", text, class_="note") for text in unmatched_pairs(contract)]
     names = ("interface", "type", "from", "to", "bounds", "owner")
     rows = [_interface(name, interface) for name, interface in contract.interfaces.items()]
-    return section("interfaces", "Interfaces and QoS", *broken, cards(names, rows))
+    return section("Interfaces and QoS", *broken, cards(names, rows), id_="interfaces")
 
 
 def _interface(name: str, one: ContractInterface) -> tuple[Child, ...]:
@@ -174,7 +170,7 @@ def gates_section(contract: Contract) -> Element:
     names = ("gate", "what it shows", "state", "evidence", "signed by")
     rows = [_gate(text, contract) for text in (*texts.promotion, *texts.network)]
     sentence = "Passed by people at the cell, in this order; G3 layer by layer. The package has the checks of each."
-    return section("gates", "Gates", tag("p", sentence, class_="hint"), cards(names, rows))
+    return section("Gates", hint(sentence), cards(names, rows), id_="gates")
 
 
 def _gate(text: GateText, contract: Contract) -> tuple[Child, ...]:

@@ -1,4 +1,4 @@
-"""Rows of texts in columns, for a terminal."""
+"""Texts that commands and pages make alike: columns of a terminal, and numbers with their nouns."""
 
 from __future__ import annotations
 
@@ -14,3 +14,8 @@ def aligned(rows: Iterable[Iterable[str]]) -> list[str]:
     table = [tuple(row) for row in rows]
     widths = [max(map(len, column)) for column in zip(*table, strict=True)]
     return ["  ".join(map(str.ljust, row, widths)).rstrip() for row in table]
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun, in the plural where there are several."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
