@@ -19,12 +19,11 @@ from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
 from cellc.mock.cell import MockCell, cell_of
 from cellc.mock.command.ending import refusing
-from cellc.mock.command.options import CampaignOptions, FolderOptions, ReplayOptions
+from cellc.mock.command.options import CampaignOptions, ReplayOptions
 from cellc.mock.command.records import refuse_foreign, write_records
-from cellc.mock.command.rehearsals import begin_evidence, load_seeded
+from cellc.mock.command.rehearsals import keep_evidence, load_seeded
 from cellc.mock.errors import MockError
 from cellc.mock.faults.registry import possible_faults
-from cellc.mock.sweep.sweep import Sweep
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 
@@ -39,7 +38,7 @@ def run_campaign(options: CampaignOptions) -> int:
     """
     cell = load_for_campaign(options)
     campaign = conduct_all(cell, options)
-    keep_evidence_of(cell, campaign, options)
+    keep_evidence(cell, dict.fromkeys(cell.rehearsals), options, campaign)
     if options.as_json:
         show_document(campaign_json(campaign, cell.notes, options.replayed_by))
     else:
@@ -56,8 +55,11 @@ def replay_runs(options: ReplayOptions) -> int:
 
     cell = load_seeded(options)
     campaign = _conduct(cell, named_runs, replace(options, fan=Fan(jobs=1)))
-    if options.evidence is not None:
-        _keep_evidence(cell, campaign, Path(options.evidence))
+    ended = tuple(
+        end.run.entry.model_copy(update={"expect": end.result.outcome} if end.named else {}) for end in campaign.ends
+    )
+    widened = cell_of(replace(cell.folder, rehearsals=(*cell.folder.rehearsals, *ended)))
+    keep_evidence(widened, dict.fromkeys(entry.name for entry in ended), options)
     if options.as_json:
         show_document(campaign_json(replace(campaign, baselines=()), cell.notes, options.replayed_by))
     else:
@@ -65,30 +67,6 @@ def replay_runs(options: ReplayOptions) -> int:
         lines = (line for end, replay in ends for line in end_lines(end, replay))
         show(*(f"note: {note}" for note in cell.notes), *lines)
     return 0 if all(end.passed for end in campaign.ends) else 1
-
-
-def keep_evidence_of(cell: MockCell, campaign: Campaign, options: FolderOptions, sweeps: Sequence[Sweep] = ()) -> None:
-    """Write bags of the declared rehearsals and a report over them and the campaign, where evidence is asked for."""
-    if options.evidence is None:
-        return
-    with begin_evidence(cell, Path(options.evidence), cell.rehearsals, campaign.seed) as collector:
-        for name in cell.rehearsals:
-            collector.run(name)
-        collector.settle(campaign, sweeps)
-
-
-def _keep_evidence(cell: MockCell, campaign: Campaign, folder: Path) -> None:
-    """Run the runs once more as rehearsals of the cell, and write what they leave."""
-    known = cell.folder.rehearsals
-    added = tuple(
-        end.run.entry.model_copy(update={"expect": end.result.outcome} if end.named else {}) for end in campaign.ends
-    )
-    widened = cell_of(replace(cell.folder, rehearsals=(*known, *added)))
-    names = [entry.name for entry in added]
-    with begin_evidence(widened, folder, names, campaign.seed) as collector:
-        for name in names:
-            collector.run(name)
-        collector.settle()
 
 
 @refusing

@@ -5,9 +5,10 @@ from __future__ import annotations
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.printing import show, show_document
 from cellc.mock.cell import in_turn
-from cellc.mock.command.campaign import conduct_all, keep_evidence_of, load_for_campaign
+from cellc.mock.command.campaign import conduct_all, load_for_campaign
 from cellc.mock.command.ending import refusing
 from cellc.mock.command.options import GatesOptions
+from cellc.mock.command.rehearsals import keep_evidence
 from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
 from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
@@ -26,7 +27,7 @@ def run_gates(options: GatesOptions) -> int:
     results = [cell.run(name, seed=options.seed) for name in in_turn(cell, cell.rehearsals)]
     campaign = conduct_all(cell, options)
     sweeps = () if wanted is None else tuple(sweep_entry(cell, entry, wanted) for entry in entries)
-    keep_evidence_of(cell, campaign, options, sweeps)
+    keep_evidence(cell, dict.fromkeys(cell.rehearsals), options, campaign, sweeps)
     runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
     gates = sign_gates(cell.folder, runs, options.seed, sweeps)
     if options.as_json:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,8 +20,10 @@ from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
 
 if TYPE_CHECKING:
+    from cellc.mock.campaign.campaign import Campaign
     from cellc.mock.command.evidence import EvidenceCollector
     from cellc.mock.command.live import LiveView
+    from cellc.mock.sweep.sweep import Sweep, SweepRun
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +137,29 @@ def begin_live(live: Live) -> AbstractContextManager[LiveView]:
     with gate(LIVE):
         from cellc.mock.command.live import live_view
     return live_view(live.address, live.speed)
+
+
+def keep_evidence(
+    cell: MockCell,
+    runs: Mapping[str, SweepRun | None],
+    options: FolderOptions,
+    campaign: Campaign | None = None,
+    sweeps: Sequence[Sweep] = (),
+) -> None:
+    """Run rehearsals and write what they leave, with a report over all, where evidence is asked for.
+
+    Args:
+        runs: names of rehearsals, each with the run of a sweep that it makes again.
+
+    Raises:
+        MissingExtraError, MockError: as ``begin_evidence``.
+    """
+    if options.evidence is None:
+        return
+    with begin_evidence(cell, Path(options.evidence), tuple(runs), options.seed) as collector:
+        for name, swept in runs.items():
+            collector.run(name, swept)
+        collector.settle(campaign, sweeps)
 
 
 def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> EvidenceCollector:

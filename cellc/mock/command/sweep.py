@@ -16,7 +16,7 @@ from cellc.mock.cell import MockCell
 from cellc.mock.command.campaign import executor, pace
 from cellc.mock.command.ending import refusing
 from cellc.mock.command.options import FolderOptions, ReplayOptions, SweepOptions
-from cellc.mock.command.rehearsals import begin_evidence, load_seeded
+from cellc.mock.command.rehearsals import keep_evidence, load_seeded
 from cellc.mock.errors import MockError
 from cellc.mock.sweep.figures import interval
 from cellc.mock.sweep.journal import Journal
@@ -48,9 +48,8 @@ def run_sweep(options: SweepOptions) -> int:
     """
     cell = load_seeded(options)
     sweeps = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
-    if options.evidence is not None:
-        failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
-        _write_evidence(cell, failed, options, sweeps)
+    failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
+    _keep_evidence(cell, failed, options, sweeps)
     if options.as_json:
         show_document(sweep_json(cell.contract, sweeps, cell.notes))
     else:
@@ -127,8 +126,7 @@ def replay_swept(options: ReplayOptions) -> int:
         Journal(Path(options.journal), cell.contract, entry.name, options.seed)  # or it refuses
     numbers = [_number(text) for text in dict.fromkeys(options.runs)]
     runs = [execute(cell, entry, uncertainty, options.seed, number) for number in numbers]
-    if options.evidence is not None:
-        _write_evidence(cell, [(entry, run) for run in runs], options)
+    _keep_evidence(cell, [(entry, run) for run in runs], options)
     if options.as_json:
         rate = interval(sum(run.passed for run in runs), len(runs), USUAL_CONFIDENCE)
         alone = Sweep(entry.name, options.seed, uncertainty, len(runs), tuple(runs), rate, None, None)
@@ -150,14 +148,13 @@ def _replay(options: SweepOptions, of: Sweep) -> Callable[[int], str]:
     return lambda number: options.replayed_by(f"{SWEPT}{number}", of.rehearsal)
 
 
-def _write_evidence(
+def _keep_evidence(
     cell: MockCell,
     runs: Sequence[tuple[RehearsalEntry, SweepRun]],
     options: FolderOptions,
     sweeps: Sequence[Sweep] = (),
 ) -> None:
-    """Run the runs once more as rehearsals of the cell, and write what they leave, with a report over the sweeps."""
-    assert options.evidence is not None  # asked for
+    """Make the runs rehearsals of the cell and run them once more, where evidence is asked for."""
     uncertainty = uncertainty_of(cell)
     added = {name_of(entry.name, run): (entry, run) for entry, run in runs}
     entries = tuple(entry.model_copy(update={"name": name}) for name, (entry, _) in added.items())
@@ -165,7 +162,4 @@ def _write_evidence(
     widened = cell.with_realities(
         folder, {name: reality(uncertainty, options.seed, run.number) for name, (_, run) in added.items()}
     )
-    with begin_evidence(widened, Path(options.evidence), tuple(added), options.seed) as collector:
-        for name, (_, run) in added.items():
-            collector.run(name, run)
-        collector.settle(sweeps=sweeps)
+    keep_evidence(widened, {name: run for name, (_, run) in added.items()}, options, sweeps=sweeps)
