@@ -103,7 +103,7 @@ class CampaignPlan:
 
     def __init__(self, cases: Sequence[FaultCase], baselines: Sequence[RunEnd]) -> None:
         self.rehearsals = tuple(baseline.run.entry for baseline in baselines)
-        self._cases = {_fault_name(case): case for case in cases}
+        self._cases = {case.name.replace(" ", ":"): case for case in cases}
         self._hits = {each.run.rehearsal: tuple(self._of_rehearsal(each.run.entry, each.result)) for each in baselines}
 
     def _of_rehearsal(self, entry: RehearsalEntry, result: RehearsalResult) -> Iterator[Hit]:
@@ -159,10 +159,6 @@ class CampaignPlan:
             "within_s": within_s,
         }
         return CampaignRun(entry.name, hits, entry.model_copy(update=changed), named, within_s)
-
-
-def _fault_name(case: FaultCase) -> str:
-    return case.name.replace(" ", ":")
 
 
 def _moves(result: RehearsalResult, step: int) -> bool:

@@ -10,7 +10,7 @@ from cellc.mock.command.ending import refusing
 from cellc.mock.command.options import GatesOptions
 from cellc.mock.command.rehearsals import keep_evidence
 from cellc.mock.command.sweep import entries_to_sweep, sweep_entry
-from cellc.mock.gates.gate import GateResult, Verdict, gate_lines, gates_as_data
+from cellc.mock.gates.gate import Verdict, gate_lines, gates_as_data
 from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
 from cellc.mock.gates.sign import sign_gates
 
@@ -35,8 +35,4 @@ def run_gates(options: GatesOptions) -> int:
         show_document(json_document(judged))
     else:
         show(*(f"note: {note}" for note in cell.notes), *list(gate_lines(gates))[:-1])
-    return 1 if any(_failed(gate) for gate in gates) else 0
-
-
-def _failed(gate: GateResult) -> bool:
-    return gate.verdict is Verdict.FAILED
+    return 1 if any(gate.verdict is Verdict.FAILED for gate in gates) else 0

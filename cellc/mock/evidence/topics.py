@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from cellc.contract.contract import Contract
-from cellc.contract.entities import ContractInterface, Qos
+from cellc.contract.entities import Qos
 from cellc.contract.qos import DEFAULT
 from cellc.mock.evidence.bag.bag_file import LATCHED
 from cellc.mock.evidence.bag.messages import (
@@ -91,11 +91,8 @@ def pose_topic(contract: Contract, frame: str) -> BagTopic | None:
 
 def _of_broadcasters(contract: Contract) -> Qos:
     """Return the profile of all publishers of ros2_controllers: SystemDefaults, as the contract resolved it."""
-    return next((each.sources[0].qos for each in contract.interfaces.values() if _publishes_states(each)), LATCHED)
-
-
-def _publishes_states(interface: ContractInterface) -> bool:
-    return interface.type == JOINT_STATE and bool(interface.sources)
+    publishing = (each for each in contract.interfaces.values() if each.type == JOINT_STATE and each.sources)
+    return next((each.sources[0].qos for each in publishing), LATCHED)
 
 
 def _qos(contract: Contract, topic: str, node: str, fallback: Qos) -> Qos:

@@ -153,7 +153,8 @@ def results(kind: Kind, tasks: Sequence[Task], fan: Fan = USUAL, *, full: bool =
     left = [task for number, task in enumerate(tasks) if number not in known]
     factory = fan.factory(number_of_workers(kind, len(left)), remark)
     shared = os.getcwd() if fan.cluster is not None else ""
-    computed = _computing(kind, left) if factory is None else in_workers(kind, left, factory, shared)
+    alone = (compute(kind, task) for task in left)
+    computed = alone if factory is None else in_workers(kind, left, factory, shared)
     earlier: dict[str, list[Presence]] = {}
     label = {"check": "checking", "compile": "building"}[kind]
     start, spent_s = monotonic(), 0.0
@@ -184,10 +185,6 @@ def _recalled(tasks: Sequence[Task]) -> dict[int, CellResult]:
 
     recalled = ((number, recall_build(task)) for number, task in enumerate(tasks))
     return {number: result for number, result in recalled if result is not None}
-
-
-def _computing(kind: Kind, tasks: Sequence[Task]) -> Generator[CellResult, None, None]:
-    yield from (compute(kind, task) for task in tasks)
 
 
 def compute(kind: Kind, task: Task) -> CellResult:

@@ -14,6 +14,7 @@ from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.errors import reason_of
 from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.printing import Line, Stream, Style, Styled, as_text, refuse, show, show_document, stage
+from cellc.contract.wording import count
 from cellc.tools.cli.batch import files_below
 from cellc.tools.cli.findings import show_findings
 
@@ -62,7 +63,8 @@ def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
         failed = writes and not refused and not _shown(done[0].after)
     else:
         failed = [_put(taken, writes=writes) for taken in changed].count(False) > 0
-        _tell_the_others(len(done) - len(changed) - len(refused))
+        if same := len(done) - len(changed) - len(refused):
+            show(f"{count(same, 'file')} {'is' if same == 1 else 'are'} in canonical form", to=Stream.ERR)
     if refused or failed or (check and changed):
         raise click.exceptions.Exit(1)
 
@@ -98,11 +100,6 @@ def _put(one: Taken, *, writes: bool) -> bool:
         return False
     show(f"{'formatted' if writes else 'would format'} {one.name}", to=Stream.ERR)
     return True
-
-
-def _tell_the_others(same: int) -> None:
-    if same:
-        show(f"{same} {'file is' if same == 1 else 'files are'} in canonical form", to=Stream.ERR)
 
 
 def _shown(text: str) -> bool:

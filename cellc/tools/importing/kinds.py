@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from cellc.contract.wording import count
 from cellc.robot.description.model import Description, Joint
 from cellc.robot.description.posture import posture
 
@@ -74,11 +75,11 @@ def _hand(shape: Shape) -> Kind | None:
 def _gripper(shape: Shape) -> Kind | None:
     if (shape.limbs and len(shape.limbs[0]) >= _LIMB) or not shape.fingers:
         return None
-    count = {2: "two fingers", 3: "three fingers"}.get(len(shape.fingers), f"{len(shape.fingers)} branches")
+    fingers = {2: "two fingers", 3: "three fingers"}.get(len(shape.fingers), f"{len(shape.fingers)} branches")
     if len(shape.driving) == 1:
         others = "one mimics the other" if len(shape.fingers) == 2 else f"all mimic `{shape.driving[0].name}`"
-        return Kind("gripper", f"{count}, {others}")
-    return Kind("gripper", f"{count}, and {len(shape.driving)} joints that mimic none", certain=False)
+        return Kind("gripper", f"{fingers}, {others}")
+    return Kind("gripper", f"{fingers}, and {len(shape.driving)} joints that mimic none", certain=False)
 
 
 def _named_gripper(shape: Shape) -> Kind | None:
@@ -108,8 +109,8 @@ def _arm(shape: Shape) -> Kind | None:
 
 
 def _anything(shape: Shape) -> Kind:
-    count = len(shape.limbs[0]) if shape.limbs else 0
-    return Kind("arm", f"a chain of {count} joint{'s' * (count != 1)}, and no sign of anything else", certain=False)
+    joints = len(shape.limbs[0]) if shape.limbs else 0
+    return Kind("arm", f"a chain of {count(joints, 'joint')}, and no sign of anything else", certain=False)
 
 
 _SIGNS: tuple[Callable[[Shape], Kind | None], ...] = (_base, _hand, _gripper, _named_gripper, _axis, _arm, _anything)

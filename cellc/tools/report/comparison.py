@@ -148,9 +148,10 @@ def _discovery(cell: Cell) -> Iterator[str]:
     network, count = cell.network, len(cell.interfaces)
     discovery = f"{network.discovery} discovery in domain {network.domain_id}"
     yield f"ROS 2: {count} interfaces with types, {discovery}, {cell.versions.rmw_name}"
-    for device in _directly(cell):
-        address = None if device.connection is None else device.connection.address
-        yield f"{device.name}: the application knows the address {address or _NOT_STATED}; no graph shows it"
+    for device in _moving(cell):
+        if device.architecture == "direct_sdk":
+            address = None if device.connection is None else device.connection.address
+            yield f"{device.name}: the application knows the address {address or _NOT_STATED}; no graph shows it"
 
 
 def _frames(cell: Cell) -> Iterator[str]:
@@ -162,8 +163,9 @@ def _frames(cell: Cell) -> Iterator[str]:
 def _records(cell: Cell) -> Iterator[str]:
     clocks = sorted({host.clock.domain for host in cell.hosts.values()})
     yield f"clocks {', '.join(clocks) or _NOT_STATED}; {len(cell.recording.attempt_fields)} fields of every attempt"
-    for device in _outside(cell):
-        yield f"{device.name}: what its own loop sees is in no bag; only its library can log it"
+    for device in _moving(cell):
+        if device.architecture != "ros2":
+            yield f"{device.name}: what its own loop sees is in no bag; only its library can log it"
     yield f"owner {cell.owners.responsibilities.logging}"
 
 
@@ -213,14 +215,6 @@ def _driven(cell: Cell) -> Iterator[Device]:
     """Yield the devices that a node of their vendor moves on real hardware."""
     adapted = {adapter.device for adapter in cell.adapters}
     return (device for device in _moving(cell) if device.driver is not None and device.name not in adapted)
-
-
-def _directly(cell: Cell) -> Iterator[Device]:
-    return (device for device in _moving(cell) if device.architecture == "direct_sdk")
-
-
-def _outside(cell: Cell) -> Iterator[Device]:
-    return (device for device in _moving(cell) if device.architecture != "ros2")
 
 
 _DUTIES = (

@@ -13,7 +13,7 @@ from pydantic import BaseModel
 
 from cellc.compiler.cell.cell import Cell
 from cellc.contract.base import Json
-from cellc.contract.bring_up import BringUp, BringUpStep
+from cellc.contract.bring_up import BringUp
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.entities import TARGETS, ContractInterface
@@ -154,11 +154,8 @@ def _loaded(path: str, text: str) -> Json:
     try:
         return _plain(load_values(text, most=limits().folder_values, aliases=False))
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise FactsError(f"{path}: is not YAML that cellc writes: {_first_line(error)}") from None
-
-
-def _first_line(error: Exception) -> str:
-    return str(error).partition("\n")[0]
+        reason = str(error).partition("\n")[0]
+        raise FactsError(f"{path}: is not YAML that cellc writes: {reason}") from None
 
 
 def _plain(value: object) -> Json:
@@ -255,15 +252,12 @@ def _of_bring_up(plan: BringUp) -> Iterator[tuple[Path, Leaf]]:
         for number, step in enumerate(steps):
             path = ("step", target, step.name)
             yield from flatten(_dumped(step.model_copy(update={"name": ""})), path)
-            earlier = tuple(sorted(before.name for before in steps[:number] if _feeds(before, step)))
+            feeding = (before for before in steps[:number] if any(proof in step.proof for proof in before.effect))
+            earlier = tuple(sorted(before.name for before in feeding))
             if earlier:
                 yield (*path, "after"), earlier
     for number, watch in enumerate(plan.watches):
         yield from flatten(_dumped(watch), ("watch", f"{watch.manager} {watch.while_holds.topic}", str(number)))
-
-
-def _feeds(before: BringUpStep, after: BringUpStep) -> bool:
-    return any(proof in after.proof for proof in before.effect)
 
 
 def _of_gates(gates: Gates, cell: str) -> Iterator[tuple[Path, Leaf]]:

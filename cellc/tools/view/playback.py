@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -115,7 +115,9 @@ def play(cell: MockCell, name: str, skeleton: Skeleton, seed: int) -> Run:
         return _run(entry.faults, result, (), [], 0.0)
     plant, end_ns = heard[0].plant, heard[0].plant.now_ns
     joints = _joints(heard[0])
-    times = _kept(joints, [at for name in plant.world.objects() for at in _handed_over(plant, name)], end_ns)
+    world = plant.world
+    handed_over = [placed.from_ns for name in world.objects() for placed in world.placements(name)[1:]]
+    times = _kept(joints, handed_over, end_ns)
     postures = [
         tuple(numbers(pose) for pose in skeleton.posture(_at(joints, time_ns), _carried(plant, time_ns)))
         for time_ns in times
@@ -159,10 +161,6 @@ def _kept(joints: Sequence[_Signal], handed_over: Sequence[int], end_ns: int) ->
     return sorted({*times[wanted].tolist(), *around})
 
 
-def _handed_over(plant: Plant, name: str) -> Iterator[int]:
-    return (placement.from_ns for placement in plant.world.placements(name)[1:])
-
-
 def _at(joints: Sequence[_Signal], time_ns: int) -> dict[str, float]:
     return {joint.name: float(np.interp(time_ns, joint.stamps_ns, joint.positions)) for joint in joints}
 
@@ -196,14 +194,13 @@ def _run(
         base=tuple(value for pose in first for value in pose),
         tracks=tuple(Track(number, tuple(value for row in postures for value in row[number])) for number in moving),
         moments=tuple(_moment(record) for record in result.attempts[:-1]),
-        faults=tuple(FaultMark(round(at, 3), _said(fault)) for at, fault in fault_times(faults, result.attempts)),
+        faults=tuple(
+            FaultMark(round(at, 3), f"{fault.kind.value.replace('_', ' ')} {fault.target}")
+            for at, fault in fault_times(faults, result.attempts)
+        ),
     )
 
 
 def _moment(record: AttemptRecord) -> Moment:
     from_s, until_s = record.started_ns / 1e9, record.ended_ns / 1e9
     return Moment(round(from_s, 3), round(until_s, 3), record.step, record.outcome.value, record.fault_code)
-
-
-def _said(fault: FaultEntry) -> str:
-    return f"{fault.kind.value.replace('_', ' ')} {fault.target}"
