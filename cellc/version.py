@@ -4,7 +4,7 @@ __version__ = "0.1.0"
 
 
 def installed(distribution: str) -> str:
-    """Return the version of an installed distribution; UNKNOWN where there is none."""
+    """Return the version of an installed distribution; UNKNOWN where it is not installed."""
     from importlib.metadata import PackageNotFoundError, version  # loads for longer than `cellc --help` needs
 
     try:

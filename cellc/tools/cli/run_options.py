@@ -57,7 +57,7 @@ EDITED = click.option(
 def options_as(kind: type[FolderOptions]) -> Callable[[Command], Command]:
     """Give what fields of ``kind`` are named after as one argument, ``options``.
 
-    Of a command that takes several folders it names none: which are meant is found out by the command.
+    Of a command that takes several folders it names none: the command finds those that are meant.
     """
     names = {each.name for each in fields(kind)}
 

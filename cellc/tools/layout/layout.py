@@ -1,7 +1,7 @@
 """One text into its canonical form, held against what it says.
 
-The round trip of ruamel.yaml 0.19.1 was tried instead (2026-11-24, on the 593 files that tests/layout formats): 19
-came out with other words and 2 with other comments. It drops a comment in braces, a comment above ``---`` and an
+The round trip of ruamel.yaml 0.19.1 is no replacement (tried 2026-11-24 on the 593 files that tests/layout formats):
+19 had other words afterwards and 2 other comments. It drops a comment in braces, a comment above ``---`` and an
 anchor without an alias, writes an empty value as ``null``, joins texts of several lines, and 10 of 28 results changed
 once more.
 """
