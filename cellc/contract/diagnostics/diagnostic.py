@@ -10,7 +10,7 @@ from typing import Generic, TypeVar, Union
 
 from cellc.contract.diagnostics.notebook import html_table
 from cellc.contract.diagnostics.unsafe_text import escaped
-from cellc.contract.wording import count
+from cellc.contract.diagnostics.wording import count
 
 T = TypeVar("T")
 YamlPath = tuple[Union[str, int], ...]

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 
 from cellc.contract.diagnostics.unsafe_text import json_document
+from cellc.contract.diagnostics.wording import aligned
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.contract.wording import aligned
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import CommandStep, LimitsReport
 from cellc.mock.campaign.plan import RunEnd

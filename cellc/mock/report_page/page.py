@@ -8,9 +8,9 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.store.regular_file import own_text
 from cellc.contract.vocabulary import UNKNOWN
-from cellc.contract.wording import count
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines

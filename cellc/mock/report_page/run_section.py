@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.contract.wording import count
 from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult

@@ -10,8 +10,8 @@ import numpy as np
 
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import json_document
+from cellc.contract.diagnostics.wording import aligned
 from cellc.contract.uncertainty import Uncertainty
-from cellc.contract.wording import aligned
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
 from cellc.mock.sweep.margins import Margin, margins

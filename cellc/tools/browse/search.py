@@ -11,8 +11,8 @@ from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.load import CatalogDevice, device_names, load_device
 from cellc.compiler.formats.markdown_table import Link, table
 from cellc.compiler.spec.quantity import Length, Mass, Quantity
+from cellc.contract.diagnostics.wording import aligned
 from cellc.contract.printing import Line, Style, Styled
-from cellc.contract.wording import aligned
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,8 +8,8 @@ import click
 
 from cellc.compiler.pages import all_codes, render_handbook, render_page
 from cellc.contract.code_page import meant_code, page_of
+from cellc.contract.diagnostics.wording import aligned
 from cellc.contract.printing import show, show_document
-from cellc.contract.wording import aligned
 from cellc.tools.cli.handbook import write_pages
 from cellc.tools.cli.words import complete_code
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import click
 
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.errors import reason_of
 from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.printing import Line, Stream, Style, Styled, as_text, refuse, show, show_document, stage
-from cellc.contract.wording import count
 from cellc.tools.cli.batch import files_below
 from cellc.tools.cli.findings import show_findings
 

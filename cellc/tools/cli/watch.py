@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import click
 
 from cellc.compiler.link.reads import Reads, is_below, reads_of
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.printing import Stream, clear, show
-from cellc.contract.wording import count
 from cellc.tools.cli.batch import State, cell_files, matched, states
 from cellc.tools.cli.build import OUTPUT, summary_of, written
 from cellc.tools.cli.findings import IGNORE, SELECT, read_selection, selected, show_findings

@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from cellc.contract.wording import count
+from cellc.contract.diagnostics.wording import count
 from cellc.robot.description.model import Description, Joint
 from cellc.robot.description.posture import posture
 

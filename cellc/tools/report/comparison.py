@@ -16,8 +16,8 @@ from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.deploy.labels import real_driver, watchdog
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.versions import compatibility
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.vocabulary import PASSIVE, UNKNOWN, CommandAuthority, Motion
-from cellc.contract.wording import count
 
 _NOT_STATED = "not stated"
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from cellc.contract.diagnostics import Severity
 from cellc.contract.diagnostics.diagnostic import Diagnostic, Findings
+from cellc.contract.diagnostics.wording import aligned
 from cellc.contract.fleet import FleetRow, FleetSweep
 from cellc.contract.printing import Line, Style, Styled
-from cellc.contract.wording import aligned
 from cellc.tools.report.text_report import render_text
 
 _COUNTED = {Severity.ERROR: "errors", Severity.BLOCKER: "blockers", Severity.WARNING: "warnings"}

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
-from cellc.contract.wording import count
 from cellc.tools.review.edges import edge_changes, offers_less
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import moved_places

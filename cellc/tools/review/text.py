@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby
 
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal
 from cellc.contract.vocabulary import Grade
-from cellc.contract.wording import count
 
 _STYLE = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
 _FEW = 4

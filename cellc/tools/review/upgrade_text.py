@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradeParameter, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN
-from cellc.contract.wording import count
 from cellc.tools.review.markdown import LONGEST, as_code, folded, render_markdown
 from cellc.tools.review.text import finding_lines, gate_line, render_review
 

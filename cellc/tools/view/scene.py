@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.compiler.cell.device import FieldOfView
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.transforms import Pose
-from cellc.contract.wording import count
 from cellc.robot.description.model import Box, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 from cellc.tools.view.meshes import DrawnMesh, Meshes, meshes_at_hand, meshes_of
 from cellc.tools.view.skeleton import Held, Skeleton

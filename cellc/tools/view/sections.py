@@ -10,10 +10,10 @@ from cellc.compiler.deploy.gates import GateText, gate_texts
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.contract.review import Review
 from cellc.contract.vocabulary import Grade
-from cellc.contract.wording import count
 from cellc.mock.bus.qos import unmatched_pairs
 from cellc.mock.report_page.html import Child, cards, hint, section, tag
 from cellc.tools.report.snippet import excerpt
