@@ -45,10 +45,11 @@ def enforced(keystore: Path) -> dict[str, str]:
     return on_loopback(ROS_SECURITY_KEYSTORE=str(keystore), **told)
 
 
-def make_keystore(folder: Path, policy: str) -> Path:
-    """Make the keystore of a policy as ``ros2 security generate_artifacts`` does."""
+def make_keystore(folder: Path, policy: str, common: str = "") -> Path:
+    """Make the keystore of a policy, and of what it includes, as ``ros2 security generate_artifacts`` does."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "policy.xml").write_text(policy, encoding="utf-8")
+    (folder / "common.xml").write_text(common, encoding="utf-8")
     words = [sys.executable, "-W", "ignore", "-c", _KEYS, str(folder / "keystore"), str(folder / "policy.xml")]
     subprocess.run(words, env=on_loopback(), check=True, stdout=subprocess.DEVNULL)
     return folder / "keystore"

@@ -6,11 +6,16 @@ enclave is one process, and has what all of its profiles grant; what nothing gra
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Literal
 from xml.etree.ElementTree import Element, fromstring
+
+from lxml import etree
 
 Right = Literal["publish", "subscribe", "reply", "request", "execute", "call"]
 _SERVICES = ("cancel_goal", "get_result", "send_goal")
@@ -53,10 +58,34 @@ def dds_topics(right: Right, name: str) -> tuple[list[str], list[str]]:
     return (said, heard) if right == "execute" else (heard, said)
 
 
-def permissions(policy: str) -> dict[str, Permissions]:
-    """Return the permissions of every enclave of a policy."""
+def policy_text(texts: Mapping[str, str]) -> str:
+    """Return the policy of a package with what it includes in its place, as sros2 loads it.
+
+    sros2 0.13.0, sros2/policy/__init__.py: ``etree.parse(path)``, then ``xinclude()``.
+    """
+    return _included(texts["security/policy.xml"], texts["security/common.xml"])
+
+
+@lru_cache(maxsize=64)
+def _included(policy: str, common: str) -> str:
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "policy.xml"
+        file.write_text(policy, encoding="utf-8")
+        file.with_name("common.xml").write_text(common, encoding="utf-8")
+        tree = etree.parse(str(file))
+        tree.xinclude()
+        return str(etree.tostring(tree, encoding="unicode"))
+
+
+def policy_of(texts: Mapping[str, str]) -> Element:
+    """Return the policy of a package as a tree, with what it includes in its place."""
+    return fromstring(policy_text(texts))
+
+
+def permissions(texts: Mapping[str, str]) -> dict[str, Permissions]:
+    """Return the permissions of every enclave of a package's policy."""
     found = {}
-    for enclave in fromstring(policy).iter("enclave"):
+    for enclave in policy_of(texts).iter("enclave"):
         ends = [dds_topics(right, name) for right, name in _grants(enclave)]
         found[enclave.attrib["path"]] = Permissions(
             frozenset(one for write, _ in ends for one in write), frozenset(one for _, read in ends for one in read)

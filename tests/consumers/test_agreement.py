@@ -238,7 +238,7 @@ _PARTS = {
     *("README.md", "audit.md", "CMakeLists.txt", "package.xml", "contract.json", "rehearsals.json", "manifest.json"),
     *(f"config/{name}.yaml" for name in ("frames", "recording_qos")),
     *("gates/promotion.md", "gates/network.md", "graph/responsibility.mmd", "graph/responsibility.svg"),
-    *("launch/cell.launch.xml", "launch/real_gate.launch.xml", "security/policy.xml"),
+    *("launch/cell.launch.xml", "launch/real_gate.launch.xml", "security/policy.xml", "security/common.xml"),
 }
 
 

@@ -17,6 +17,7 @@ import pytest
 
 from tests.cells import built
 from tests.consumers.matrix import Build, build, every_build
+from tests.consumers.permissions import policy_of
 from tests.consumers.stand_in_graph import StandIn, messages_of, program
 from tests.consumers.starting import (
     activated,
@@ -181,7 +182,7 @@ def _spawned(cell: str, distro: str, target: str, namespace: str) -> set[str]:
 
 @every_build
 def test_policy_lets_the_steps_ask_and_act(cell: str, distro: str) -> None:
-    policy = fromstring(build(cell, distro).texts["security/policy.xml"])
+    policy = policy_of(build(cell, distro).texts)
     (enclave,) = [one for one in policy.iter("enclave") if one.attrib["path"] == plan(cell, distro)["enclave"]]
     may = {entry.text for profile in enclave.iter("profile") for kind in profile for entry in kind}
     for proof in every_proof(cell, distro):

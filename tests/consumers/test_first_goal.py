@@ -18,6 +18,7 @@ import pytest
 
 from tests.cells import built
 from tests.consumers.matrix import Build, build
+from tests.consumers.permissions import policy_of
 from tests.consumers.starting import launched
 
 _START = {"arm_shoulder_pan_joint": 0.3, "arm_shoulder_lift_joint": -1.5, "arm_elbow_joint": 1.4}
@@ -326,6 +327,7 @@ def test_it_is_started_behind_the_proofs_of_every_motion_client() -> None:
     assert "default" not in arguments["confirm_goal"].attrib
     assert {choice.get("value") for choice in arguments["joint"]} == _START.keys() - {"finger"}
     (enclave,) = fromstring(package.texts["security/policy.xml"]).findall(".//enclave[@path='/ur5e_pick/first_goal']")
+from tests.consumers.permissions import policy_of
     called = [one.text for one in enclave.findall(".//actions[@call='ALLOW']/action")]
     assert called == ["/arm_trajectory/follow_joint_trajectory"]
 

@@ -100,14 +100,13 @@ def denied(cell: str, granted: dict[str, Permissions]) -> list[str]:
 
 @pytest.mark.parametrize("cell", CELLS)
 def test_whatever_a_real_node_opens_is_granted_to_it(cell: str) -> None:
-    policy = build(cell, _DISTRO).texts["security/policy.xml"]
     assert sum(map(len, opened(cell).values())) > 20
-    assert denied(cell, permissions(policy)) == []
+    assert denied(cell, permissions(build(cell, _DISTRO).texts)) == []
 
 
 def test_each_grant_that_is_missing_refuses_a_real_node(capsys: pytest.CaptureFixture[str]) -> None:
     # Each end alone: what the node opened is taken out of the permissions, and the node is refused just there.
-    granted = permissions(build("ur5e_pick", _DISTRO).texts["security/policy.xml"])
+    granted = permissions(build("ur5e_pick", _DISTRO).texts)
     refused = 0
     for node, found in opened("ur5e_pick").items():
         enclave = _enclave("ur5e_pick", node)

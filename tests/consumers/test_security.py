@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from xml.etree.ElementTree import Element, fromstring
+from xml.etree.ElementTree import Element
 
 import pytest
 
 from tests.consumers.matrix import build, every_build
-from tests.consumers.permissions import Permissions, Right, permissions
+from tests.consumers.permissions import Permissions, Right, permissions, policy_of
 from tests.consumers.starting import node_name, plan, processes, written_managers
 from tests.consumers.test_walk import commands, sections
 from tests.emit.cells import contract_data
@@ -16,7 +16,7 @@ from tests.emit.cells import contract_data
 
 def profiles(cell: str, distro: str) -> dict[str, Element]:
     """Return the profile of every node by its fully qualified name."""
-    policy = fromstring(build(cell, distro).texts["security/policy.xml"])
+    policy = policy_of(build(cell, distro).texts)
     return {f"{one.attrib['ns'].rstrip('/')}/{one.attrib['node']}": one for one in policy.iter("profile")}
 
 
@@ -28,7 +28,7 @@ def granted(profile: Element, plural: str, right: str) -> set[str]:
 
 @every_build
 def test_processes_start_in_enclaves_of_the_policy(cell: str, distro: str) -> None:
-    policy = fromstring(build(cell, distro).texts["security/policy.xml"])
+    policy = policy_of(build(cell, distro).texts)
     enclaves = {enclave.attrib["path"]: enclave for enclave in policy.iter("enclave")}
     for process in processes(cell, distro, "real"):
         flag, path = process.ros_arguments
@@ -178,7 +178,7 @@ def test_arm_of_one_side_is_not_commanded_from_the_other(side: str) -> None:
 
 
 def _typed(cell: str, distro: str, enclave: str = "people") -> Permissions:
-    return permissions(build(cell, distro).texts["security/policy.xml"])[f"/{cell}/{enclave}"]
+    return permissions(build(cell, distro).texts)[f"/{cell}/{enclave}"]
 
 
 @every_build

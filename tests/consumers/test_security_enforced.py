@@ -24,6 +24,7 @@ from tests.consumers.enforcing import (
     world,
 )
 from tests.consumers.matrix import build
+from tests.consumers.permissions import policy_text
 from tests.consumers.starting import launched
 
 CELL, _DISTRO = "ur5e_pick", "kilted"  # the distribution of the wheels
@@ -50,7 +51,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def keystore(folder: Path) -> Path:
-    return make_keystore(folder / "whole", build(CELL, _DISTRO).texts["security/policy.xml"])
+    texts = build(CELL, _DISTRO).texts
+    return make_keystore(folder / "whole", texts["security/policy.xml"], texts["security/common.xml"])
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,7 @@ def test_the_first_goal_ends_at_the_controller(rehearsed: Rehearsed) -> None:
 
 def test_a_node_is_refused_just_what_its_policy_lacks(folder: Path) -> None:
     built = build(CELL, _DISTRO)
-    policy, nodes = built.texts["security/policy.xml"], stand_ins(built)
+    policy, nodes = policy_text(built.texts), stand_ins(built)
     for home, rights in _MISSING.items():
         for right, name in rights:
             policy = without(policy, home, right, name)

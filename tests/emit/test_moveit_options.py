@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from tests.cells import spec_text
+from tests.consumers.permissions import policy_of
 from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load
 
@@ -105,7 +106,7 @@ def test_servo_is_started_by_a_person_and_told_the_robot(texts: dict[str, str]) 
 def test_the_policy_lets_servo_command_that_controller_and_the_audit_that_the_mock_does_not(
     texts: dict[str, str],
 ) -> None:
-    policy = ElementTree.fromstring(texts["security/policy.xml"])
+    policy = policy_of(texts)
     (enclave,) = (one for one in policy.iter("enclave") if one.get("path", "").endswith("/servo"))
     published = {topic.text for one in enclave.iter("topics") if one.get("publish") for topic in one.iter("topic")}
     assert "/arm_jog/commands" in {f"/{(name or '').lstrip('/')}" for name in published}

@@ -14,6 +14,7 @@ from cellc.compiler.catalog.load import load_device
 from cellc.contract.vocabulary import Distro
 from cellc.mock.control import ControllerManager, DeclaredInterfaces
 from tests.cells import diagnose, spec_text
+from tests.consumers.permissions import policy_of
 from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load
 from tests.oracles.parameters import declarations
@@ -122,7 +123,7 @@ def test_topics_and_services_are_promised_and_permitted() -> None:
     asked = interfaces["/activation/reactivate_gripper"]
     assert [end["full_name"] for end in asked["sinks"]] == ["/task"]
     assert asked["sources"][0]["targets"] == ["real"]
-    policy = ElementTree.fromstring(_artifacts("ur5e_pick")["security/policy.xml"])
+    policy = policy_of(_artifacts("ur5e_pick"))
     profiles = {profile.get("node"): profile for profile in policy.iter("profile")}
     assert "/scaling/speed_scaling" in [entry.text for entry in profiles["scaling"].iter("topic")]
     callers = {

@@ -8,12 +8,13 @@ import pytest
 import xmlschema
 
 from tests.cells import DISTROS
+from tests.consumers.permissions import policy_of, policy_text
 from tests.emit.cells import CELLS, artifacts_of
 from tests.oracles import UPSTREAM, needs_upstream
 
 
 def _policy(cell: str, distro: str = "jazzy") -> ElementTree.Element:
-    return ElementTree.fromstring(artifacts_of(cell, distro)["security/policy.xml"])
+    return policy_of(artifacts_of(cell, distro))
 
 
 def _holders(policy: ElementTree.Element, plural: str, right: str, name: str) -> set[str]:
@@ -35,7 +36,7 @@ def test_policy_is_what_sros2_declares(cell: str, distro: str) -> None:
     schema = xmlschema.XMLSchema(
         folder / "sros2_policy.xsd", locations={"http://www.w3.org/XML/1998/namespace": str(folder / "xml.xsd")}
     )
-    schema.validate(artifacts_of(cell, distro)["security/policy.xml"])
+    schema.validate(policy_text(artifacts_of(cell, distro)))
 
 
 def test_only_declared_clients_may_call_an_action() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from xml.etree import ElementTree
 
+from tests.consumers.permissions import policy_of
 from tests.emit.cells import contract_data, emitted
 from tests.foreign_yaml import safe_load
 
@@ -97,7 +98,7 @@ def test_descriptions_are_of_each_manager() -> None:
 
 
 def test_namesakes_have_rights_on_their_own_interfaces_alone() -> None:
-    policy = ElementTree.fromstring(_artifacts()["security/policy.xml"])
+    policy = policy_of(_artifacts())
     executed = {
         (profile.get("ns"), action.text)
         for profile in policy.iter("profile")

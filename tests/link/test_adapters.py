@@ -47,7 +47,7 @@ def test_an_adapter_has_a_node_that_is_started_on_the_real_target_alone(texts: d
 
 
 def test_an_adapter_may_say_its_states_and_take_its_goals_and_nothing_else_of_the_cell(texts: dict[str, str]) -> None:
-    may = permissions(texts["security/policy.xml"])["/hybrid_sdk/arm"]
+    may = permissions(texts)["/hybrid_sdk/arm"]
     assert may.allow("publish", "/joint_states")
     assert may.allow("execute", "/arm/follow_joint_trajectory")
     assert not may.allow("call", "/move_action")

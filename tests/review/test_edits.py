@@ -21,6 +21,8 @@ ARM = "arm_elbow_joint, arm_shoulder_lift_joint, arm_shoulder_pan_joint, arm_wri
 ARM += "arm_wrist_3_joint"
 OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", "))
 # The bring-up asks a node of a lifecycle, and what is asked must be there once.
+MANAGED = "/controller_manager/list_controllers, /controller_manager/list_hardware_components"
+LOOKED_AT = "/perception/get_available_transitions, /perception/get_state"
 ALONE = "only nodes /robot_state_publisher, /controller_manager"
 STATES = "controller /controller_manager joint_states inactive"
 STOPPED = "topic /arm_io/robot_program_running std_msgs/msg/Bool data value False"
@@ -236,9 +238,16 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review interfaces | /object_pose | interface removed | geometry_msgs/msg/PoseStamped -> None | breaks",
             "review interfaces | /joint_states move_group, /tf move_group, /tf_static move_group | subscriber "
             "removed | present -> None",
-            "review network | security/policy.xml | 5 lines (not classified) | "
-            "<service>~/change_state</service> / <service>~/get_available_states</service> / "
-            "<service>~/get_available_transitions</service> / and 2 more -> None",
+            "review network | /perception | right to reply | 12 entries -> 7 entries | lost /perception/change_state, "
+            "/perception/get_available_states, /perception/get_available_transitions, /perception/get_state, "
+            "/perception/get_transition_graph",
+            "review network | /bring_up | right to request | 7 entries -> "
+            f"{MANAGED}, /controller_manager/set_hardware_component_state, /controller_manager/switch_controller, "
+            "/robot_state_publisher/get_parameters | lost /perception/change_state, /perception/get_state",
+            f"review network | /commissioning | right to request | 12 entries -> 10 entries | lost {LOOKED_AT}",
+            f"review network | /people | right to request | 7 entries -> {MANAGED}, "
+            "/controller_manager/list_hardware_interfaces, /get_planning_scene, /robot_state_publisher/get_parameters "
+            f"| lost {LOOKED_AT}",
         ],
     ),
 }

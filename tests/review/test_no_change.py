@@ -75,7 +75,18 @@ def test_an_edit_by_hand_is_told_wherever_it_is(main: Package) -> None:
     for path, old, new, expected in (
         ("launch/cell.launch.xml", 'output="both"', 'output="log"', "review start order"),
         ("scripts/bring_up", "import sys", "import os", "review start order"),
-        ("security/policy.xml", "<topic>/tf</topic>", "<topic>/all</topic>", "review network"),
+        (
+            "security/policy.xml",
+            "<topic>/pipeline_state</topic>",
+            "<topic>/all</topic>",
+            "review network | /move_group",
+        ),
+        (
+            "security/common.xml",
+            "<topic>/display_planned_path",
+            "<topic>/all",
+            "review network | /commissioning, /people",
+        ),
         ("gates/promotion.md", "no person and no object is", "a person is", "review gates"),
         ("README.md", "generated from the spec", "not generated from the spec", "review documents"),
         ("graph/responsibility.svg", "<svg ", "<svg onload='' ", "review documents"),

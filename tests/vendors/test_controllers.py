@@ -60,7 +60,7 @@ def _told(case: Case, kind: str) -> Any:
 
 @cache
 def _policy(case: Case) -> dict[str, Permissions]:
-    return permissions(real_target(case).texts["security/policy.xml"])
+    return permissions(real_target(case).texts)
 
 
 @of_the_arm
@@ -173,7 +173,7 @@ def test_the_state_of_an_fr3_is_published_as_its_vendor_publishes_it(case: Case)
     given = controller.parameters_on("real")
     assert {name: given[name] for name in told["parameters"]} == told["parameters"]
     published = facts(case.release, "nodes")["franka_robot_state_broadcaster"]["publishes"]
-    enclave = permissions(target.texts["security/policy.xml"])["/fr3_hand/controller_manager"]
+    enclave = permissions(target.texts)["/fr3_hand/controller_manager"]
     for name in published:
         assert enclave.allow("publish", name.replace("~", "/arm_state")), name
 
@@ -188,7 +188,7 @@ def test_faults_of_a_gen3_are_told_and_reset_as_its_vendor_has_it(case: Case) ->
     assert list(controller.command_interfaces) == told["claims"]
     assert list(controller.state_interfaces) == told["reads"]
     ends = facts(case.release, "nodes")["fault_controller"]
-    enclave = permissions(target.texts["security/policy.xml"])[f"/{target.cell.name}/controller_manager"]
+    enclave = permissions(target.texts)[f"/{target.cell.name}/controller_manager"]
     rights: dict[str, Right] = {"publishes": "publish", "services_served": "reply"}
     for key, right in rights.items():
         (name,) = ends[key]

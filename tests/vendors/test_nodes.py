@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from tests.consumers.permissions import policy_of
 from tests.oracles import here
 from tests.vendors.oracle import facts
 from tests.vendors.packages import CASES, Case, RealTarget, real_target
@@ -76,7 +77,7 @@ def test_a_node_is_given_only_parameters_that_its_program_reads(case: Case) -> N
 @every_case
 def test_the_policy_grants_a_node_everything_that_its_program_has(case: Case) -> None:
     target = real_target(case)
-    policy = ElementTree.fromstring(target.texts["security/policy.xml"])
+    policy = policy_of(target.texts)
     for node in _started(target):
         told = _told(case)[node.get("exec", "")]
         (profile,) = (one for one in policy.iter("profile") if one.get("node") == node.get("name"))

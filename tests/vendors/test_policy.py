@@ -42,7 +42,7 @@ def _facts(path: str) -> Any:
 
 @cache
 def _granted(cell: str, distro: str) -> dict[str, Permissions]:
-    return permissions(build(cell, distro).texts["security/policy.xml"])
+    return permissions(build(cell, distro).texts)
 
 
 def _ends(listed: Any, node: str) -> Iterator[tuple[Right, str]]:

@@ -153,12 +153,10 @@ def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
 
 
 def _ids(facts: Facts) -> frozenset[str]:
-    """Return what follows from reported changes: ids, names of files, and of spawners after their first controller."""
-    names = (name for manager in facts.contract.managers.values() for name in manager.controllers)
-    inputs = facts.manifest.configuration_inputs
+    """Return what follows from reported changes: ids, and names of files."""
+    inputs, files = facts.manifest.configuration_inputs, facts.contract.files
     ids = (facts.contract.configuration_id, inputs.urdf_sha256, inputs.cell_sha256)
-    files = (facts.contract.files.urdf_mock, facts.contract.files.urdf_real, facts.contract.files.srdf or "")
-    return frozenset((*ids, *files, *(f"spawner_{name}" for name in names)))
+    return frozenset((*ids, files.urdf_mock, files.urdf_real, files.srdf or ""))
 
 
 def _known(reported: Iterable[Change], ids: frozenset[str]) -> Known:

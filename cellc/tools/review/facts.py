@@ -26,9 +26,10 @@ from cellc.contract.rehearsals import Rehearsals
 from cellc.contract.transforms import identity
 from cellc.robot.description.model import Box, Collision, Cylinder, Description, Sphere
 from cellc.robot.description.urdf_reader import read_urdf
-from cellc.robot.description.xml_tree import read_xml
+from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.robot.description.yaml_values import load_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
+from cellc.tools.review.rights import COMMON, POLICY, rights
 from cellc.tools.review.units import shown
 
 CONTRACT, MANIFEST = "contract.json", "manifest.json"
@@ -84,7 +85,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
     gates = _model(files, GATES, Gates) if GATES in files else None
     named = contract.files
     real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
-    read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up}
+    read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up, POLICY, COMMON}
     leaves: dict[Path, Leaf] = {}
     for facts in (
         _of_contract(contract),
@@ -98,6 +99,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         () if gates is None else _of_gates(gates, contract.cell),
         _of_middleware(files),
         _of_pairs(files, named.srdf),
+        _of_policy(files, contract.cell),
         () if cell is None else _of_spec(cell),
         _of_excuses(excused),
     ):
@@ -282,12 +284,21 @@ def _of_middleware(files: Mapping[str, str]) -> Iterator[tuple[Path, Leaf]]:
 def _of_pairs(files: Mapping[str, str], srdf: str | None) -> Iterator[tuple[Path, Leaf]]:
     if srdf is None:
         return
-    read = read_xml(_text(files, srdf), srdf)
-    if read.value is None:
-        raise FactsError(f"{srdf}: line {read.diagnostics[0].span.line}: {read.diagnostics[0].message}")
-    for pair in read.value.all("disable_collisions"):
+    for pair in _xml(files, srdf).all("disable_collisions"):
         names = sorted(pair.attributes.get(key, "") for key in ("link1", "link2"))
         yield ("pair", " and ".join(names)), pair.attributes.get("reason", "")
+
+
+def _of_policy(files: Mapping[str, str], cell: str) -> Iterator[tuple[Path, Leaf]]:
+    if POLICY in files:
+        yield from rights(_xml(files, POLICY), _xml(files, COMMON) if COMMON in files else None, cell)
+
+
+def _xml(files: Mapping[str, str], path: str) -> XmlElement:
+    read = read_xml(_text(files, path), path)
+    if read.value is None:
+        raise FactsError(f"{path}: line {read.diagnostics[0].span.line}: {read.diagnostics[0].message}")
+    return read.value
 
 
 def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:

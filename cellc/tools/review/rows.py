@@ -212,6 +212,7 @@ ROWS: Sequence[Row] = (
     Row("middleware {host} ROS_DOMAIN_ID", _A.NETWORK, "ROS_DOMAIN_ID", Rule.REVIEW, breaking=True),
     Row("middleware {host} RMW_IMPLEMENTATION", _A.NETWORK, "middleware", Rule.REVIEW, breaking=True),
     Row("middleware {host} {what}", _A.NETWORK, "variable", Rule.REVIEW),
+    Row("right {enclave} ...", _A.NETWORK, "right to", Rule.REVIEW, ordered=False),
     Row("spec network ...", _A.NETWORK, "network", Rule.REVIEW),
     Row("spec hosts {host} ...", _A.NETWORK, "host", Rule.REVIEW),
     Row("spec nodes {node} {what}", _A.CONTROL, "node", Rule.REVIEW),
@@ -310,6 +311,7 @@ FOLLOWS: Sequence[str] = (
     "file config/moveit/controllers.yaml ...",
     "file config/moveit/controllers.mock.yaml ...",
     "file config/moveit/controllers.real.yaml ...",
+    "right ...",
     "spec ...",
 )
 """Values that repeat others: listed where no other change explains them, by their row or without one."""

@@ -9,12 +9,13 @@ from pathlib import Path
 
 from cellc.compiler.catalog.tables import DistroFacts
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.bringup import bring_up
+from cellc.compiler.emit.security.policy import granted
 from cellc.compiler.pipeline import Checked, check
 from cellc.contract.diagnostics import Severity
 from cellc.contract.errors import reason_of
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN, Distro, ReviewArea
-from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.tools.edit.rewrite import Edit, rewrite
 from cellc.tools.report.json_report import as_review_finding
 from cellc.tools.review.declared import NodeParameters, parameter_changes
@@ -24,9 +25,6 @@ from cellc.tools.review.moved_spec import UpgradeError, edited_check, facts_of_d
 from cellc.tools.review.review import gates_again, review
 from cellc.tools.review.sides import Package, SideError, package_of
 from cellc.tools.review.tuples import PinMove, moved_pins
-
-_POLICY = "security/policy.xml"
-_RIGHTS = ("publish", "subscribe", "reply", "request", "execute", "call")
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +94,7 @@ def _upgrade(
         facts=tuple(_of_distro(facts_of_distro(target))),
         pins=tuple(_pin(cell, move) for move in moves),
         parameters=parameters,
-        interfaces=() if after is None else tuple(_interfaces(before.files[_POLICY], after.files[_POLICY])),
+        interfaces=() if after is None or moved.graph is None else tuple(_interfaces(cell, moved.graph.cell)),
         review=compared,
         errors=() if after is not None else tuple(map(as_review_finding, errors)),
         gates=gates_again((ReviewArea.VERSIONS,)) if compared is None else compared.gates,
@@ -143,37 +141,13 @@ def _given(facts: Facts) -> NodeParameters:
     return given
 
 
-def _interfaces(before: str, after: str) -> Iterator[UpgradeInterface]:
+def _interfaces(before: Cell, after: Cell) -> Iterator[UpgradeInterface]:
     """Yield the names at the graph that one side's policy grants alone, those of several nodes once."""
-    was, now = _granted(before), _granted(after)
+    was, now = (granted(cell, bring_up(cell)) for cell in (before, after))
     changes: dict[tuple[str, str, str], list[str]] = {}
     for change, some, others in (("gained", now, was), ("lost", was, now)):
-        for node, granted in some.items():
-            for right, name in sorted(granted - others.get(node, frozenset())):
+        for node, rights in some.items():
+            for right, name in sorted(rights - others.get(node, frozenset())):
                 changes.setdefault((change, right, name), []).append(node)
     for (change, right, name), nodes in changes.items():
         yield UpgradeInterface.model_validate({"nodes": nodes, "right": right, "name": name, "change": change})
-
-
-def _granted(policy: str) -> Mapping[str, frozenset[tuple[str, str]]]:
-    """Return what each node of a policy may do, by its full name."""
-    root = read_xml(policy, _POLICY).value
-    assert root is not None  # our own emitter wrote it
-    granted: dict[str, frozenset[tuple[str, str]]] = {}
-    for enclave in _below(root, "enclaves", "enclave"):
-        for profile in _below(enclave, "profiles", "profile"):
-            node = f"{profile.attributes['ns'].rstrip('/')}/{profile.attributes['node']}"
-            granted[node] = granted.get(node, frozenset()) | frozenset(_rights(profile))
-    return granted
-
-
-def _below(element: XmlElement, group: str, tag: str) -> Iterator[XmlElement]:
-    for item in element.all(group):
-        yield from item.all(tag)
-
-
-def _rights(profile: XmlElement) -> Iterator[tuple[str, str]]:
-    for group in profile.children:
-        for right in _RIGHTS:
-            if right in group.attributes:
-                yield from ((right, child.text.strip()) for child in group.children)

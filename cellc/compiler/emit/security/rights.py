@@ -6,10 +6,11 @@ The bring-up may see what it waits for, configure, observe and claim; it may nev
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
-from functools import reduce
-from xml.etree.ElementTree import Element
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+from itertools import chain
+from typing import NamedTuple
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
@@ -18,7 +19,6 @@ from cellc.compiler.cell.interface import InnerNode, Node, NodeEndpoints, NodeSo
 from cellc.compiler.deploy.files import plans
 from cellc.compiler.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.compiler.deploy.recording import recorded_topics
-from cellc.compiler.formats.xml_text import element
 from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.bring_up import BringUp, TopicProof
 from cellc.contract.entities import TARGETS
@@ -35,7 +35,8 @@ _LISTED = ("list_controllers", "list_hardware_components", "list_hardware_interf
 _ACTED_ON = ("set_hardware_component_state", "switch_controller")
 _LOOKED_AT = ("get_available_transitions", "get_state")
 # The names that they give their nodes: ros2cli (and its daemon), tf2_ros, rosbag2_transport.
-_TYPED = ("_ros2cli_*", "tf2_echo", "tf2_monitor*", "rosbag2_recorder", "transform_listener_impl_*")
+_RECORDER = "rosbag2_recorder"
+_TYPED = ("_ros2cli_*", "tf2_echo", "tf2_monitor*", _RECORDER, "transform_listener_impl_*")
 # RViz's node and, of MoveIt's displays, those of the scene monitor and of who waits for a description; rviz 14.3,
 # rviz_common/src/rviz_common/visualizer_app.cpp:151; moveit2 2.14.3, planning_scene_monitor.cpp:116 and
 # synchronized_string_parameter.cpp:123.
@@ -43,12 +44,9 @@ _RVIZ = ("rviz", "rviz_private_*", "rviz_ssp_*")
 _OF_RECORDER = ("is_paused", "pause", "record", "resume", "snapshot", "split_bagfile", "stop")
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
-    """Rights of one node; names are absolute, or ``~/…`` below the node's own."""
+class Rights(NamedTuple):
+    """Names that may be used, by right: absolute, ``~/…`` below a node's own, or else below its namespace."""
 
-    namespace: str
-    node: str
     publish: tuple[str, ...] = ()
     subscribe: tuple[str, ...] = ()
     reply: tuple[str, ...] = ()
@@ -57,91 +55,118 @@ class Profile:
     call: tuple[str, ...] = ()
 
 
-def profile_element(profile: Profile) -> Element:
-    """Return ``<profile>`` with one list a right; a name is once in each, in alphabetical order."""
-    return element("profile", {"ns": profile.namespace or "/", "node": profile.node}, _lists(profile))
+class Kind(str, Enum):
+    """What gives several nodes the same rights."""
+
+    NODE = "node"
+    NODE_WITHOUT_PARAMETERS = "node_without_parameters"
+    LIFECYCLE_NODE = "lifecycle_node"
+    TRANSFORM_LISTENER = "transform_listener"
+    CONTROLLER = "controller"
+    HARDWARE_COMPONENT = "hardware_component"
+    BRING_UP = "bring_up"
+    PEOPLE = "people"
+    RECORDER = "recorder"
+    RVIZ = "rviz"
+    COMMISSIONING = "commissioning"
 
 
-def _lists(profile: Profile) -> Iterator[Element]:
-    for plural, right, names in (
-        ("topics", "publish", profile.publish),
-        ("topics", "subscribe", profile.subscribe),
-        ("services", "reply", profile.reply),
-        ("services", "request", profile.request),
-        ("actions", "execute", profile.execute),
-        ("actions", "call", profile.call),
-    ):
-        if names:
-            entries = (element(plural[:-1], text=name) for name in sorted(set(names)))
-            yield element(plural, {right: "ALLOW"}, entries)
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """The rights of one node: those of its kinds, and its own beside them."""
+
+    full_name: str
+    kinds: tuple[Kind, ...]
+    own: Rights
+
+    def all_rights(self, shared: Mapping[Kind, Rights]) -> Rights:
+        """Return its own rights with those of its kinds."""
+        return _together(self.own, *(shared[kind] for kind in self.kinds))
+
+
+def rights_of_kinds(cell: Cell, plan: BringUp) -> dict[Kind, Rights]:
+    """Return the rights that each kind gives."""
+    node, looking = _rights(cell.implied.node), _of_people(cell)
+    return {
+        Kind.NODE: node,
+        Kind.NODE_WITHOUT_PARAMETERS: node._replace(reply=()),
+        Kind.LIFECYCLE_NODE: _rights(cell.implied.lifecycle),
+        Kind.TRANSFORM_LISTENER: _rights(cell.implied.transforms),
+        Kind.CONTROLLER: _rights(cell.implied.controller)._replace(
+            publish=(*cell.implied.controller.publishes, _CONTROLLER_STATE)
+        ),
+        Kind.HARDWARE_COMPONENT: _rights(cell.implied.component),
+        Kind.BRING_UP: _of_bring_up(cell, plan),
+        Kind.PEOPLE: looking,
+        Kind.RECORDER: _of_recorder(cell, looking),
+        Kind.RVIZ: _of_rviz(cell),
+        Kind.COMMISSIONING: _of_commissioning(cell),
+    }
+
+
+def _together(*several: Rights) -> Rights:
+    return Rights(*(tuple(chain.from_iterable(names)) for names in zip(*several, strict=True)))
+
+
+def _rights(own: NodeEndpoints) -> Rights:
+    return Rights(own.publishes, own.subscribes, own.serves, own.requests, own.executes)
 
 
 def node_profiles(cell: Cell, node: Node) -> Iterator[Profile]:
     """Yield the rights of a node with a process of its own, and of the further nodes in it."""
-    implied = cell.implied
-    kinds = (implied.lifecycle,) if node.lifecycle else ()
-    granted = _with(_granted(cell, node.full_name, *kinds), _renamed(node, node.endpoints))
-    if node.source is NodeSource.DEVICE:
-        yield _with(granted, _offered(cell, node))
-    else:
-        granted = _silenced(node, granted)
-        yield _with(granted, implied.transforms) if _hears_transforms(node, granted) else granted
+    offered = _offered(cell, node) if node.source is NodeSource.DEVICE else _unheard(node)
+    profile = _profile(cell, node.full_name, Kind.NODE, own=_together(_renamed(node), offered))
+    kinds = ((Kind.LIFECYCLE_NODE, node.lifecycle), (Kind.TRANSFORM_LISTENER, _hears_transforms(node, profile.own)))
+    yield replace(profile, kinds=(*profile.kinds, *(kind for kind, given in kinds if given)))
     yield from (_inner(cell, item.full_name, item) for item in node.inside)
 
 
-def _offered(cell: Cell, node: Node) -> NodeEndpoints:
+_NONE = Rights()
+
+
+def _profile(cell: Cell, full_name: str, *kinds: Kind, own: Rights = _NONE) -> Profile:
+    """Return the rights of a node: by its kinds, by the interfaces of the cell that it is at, and others of its own."""
+    return Profile(full_name, kinds, _together(_at_interfaces(cell, full_name), own))
+
+
+def _offered(cell: Cell, node: Node) -> Rights:
     """Return what the catalog says that a driver's node offers: it fails where one of these is denied to it."""
     device = cell.device(node.device or "")
 
     def own(kind: InterfaceKind) -> tuple[str, ...]:
         return tuple(offer.name for offer in device.offers if offer.kind is kind and offer.node == node.full_name)
 
-    return NodeEndpoints(
-        publishes=own(InterfaceKind.TOPIC), serves=own(InterfaceKind.SERVICE), executes=own(InterfaceKind.ACTION)
-    )
+    return Rights(publish=own(InterfaceKind.TOPIC), reply=own(InterfaceKind.SERVICE), execute=own(InterfaceKind.ACTION))
 
 
-def _renamed(node: Node, own: NodeEndpoints) -> NodeEndpoints:
-    """Return endpoints under the names that they have in the cell."""
-
-    def remapped(names: tuple[str, ...]) -> tuple[str, ...]:
-        return tuple(node.remaps.get(name, name) for name in names)
-
-    return NodeEndpoints(**{field.name: remapped(getattr(own, field.name)) for field in fields(NodeEndpoints)})
+def _renamed(node: Node) -> Rights:
+    """Return the endpoints of a program under the names that they have in the cell."""
+    return Rights(*(tuple(node.remaps.get(name, name) for name in names) for names in _rights(node.endpoints)))
 
 
-def _with(granted: Profile, own: NodeEndpoints) -> Profile:
-    return replace(
-        granted,
-        publish=(*granted.publish, *own.publishes),
-        subscribe=(*granted.subscribe, *own.subscribes),
-        reply=(*granted.reply, *own.serves),
-        request=(*granted.request, *own.requests),
-        execute=(*granted.execute, *own.executes),
-    )
-
-
-def _hears_transforms(node: Node, granted: Profile) -> bool:
+def _hears_transforms(node: Node, own: Rights) -> bool:
     # A buffer of tf2 in a node of the cell serves what it holds; a program that the catalog knows says so itself.
-    return node.source is NodeSource.SPEC and not node.inside and "/tf" in granted.subscribe
+    return node.source is NodeSource.SPEC and not node.inside and "/tf" in own.subscribe
 
 
-def _silenced(node: Node, granted: Profile) -> Profile:
-    """Add the topics to which a node's transforms go unheard, and from which it hears no joint states."""
-    said = (target for name, target in node.remaps.items() if name in ("/tf", "/tf_static"))
-    heard = (target for name, target in node.remaps.items() if name not in ("/tf", "/tf_static"))
-    return replace(granted, publish=(*granted.publish, *said), subscribe=(*granted.subscribe, *heard))
+def _unheard(node: Node) -> Rights:
+    """Return the topics to which a node's transforms go unheard, and from which it hears no joint states."""
+    transforms = ("/tf", "/tf_static")
+    return Rights(
+        publish=tuple(target for name, target in node.remaps.items() if name in transforms),
+        subscribe=tuple(target for name, target in node.remaps.items() if name not in transforms),
+    )
 
 
-def _inner(cell: Cell, full_name: str, one: InnerNode) -> Profile:
-    granted = _with(_granted(cell, full_name), one.endpoints)
-    return granted if one.parameters else replace(granted, reply=one.endpoints.serves)
+def _inner(cell: Cell, full_name: str, inner: InnerNode) -> Profile:
+    kind = Kind.NODE if inner.parameters else Kind.NODE_WITHOUT_PARAMETERS
+    return _profile(cell, full_name, kind, own=_rights(inner.endpoints))
 
 
 def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]:
     """Yield the rights of the manager, its controllers and the nodes of its hardware."""
     (node,) = (node for node in cell.nodes if node.full_name == manager.node)
-    yield _with(_granted(cell, manager.node), _renamed(node, node.endpoints))
+    yield _profile(cell, manager.node, Kind.NODE, own=_renamed(node))
     yield from (_inner(cell, item.full_name, item) for item in node.inside)
     for controller in manager.controllers:
         yield _controller(cell, controller)
@@ -150,7 +175,7 @@ def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]
             continue
         if Feature.HARDWARE_NODES in features(cell.distro):
             name = device.hardware.name.lower().replace("/", "_")
-            yield _granted(cell, f"{manager.namespace}/{name}", cell.implied.component)
+            yield _profile(cell, f"{manager.namespace}/{name}", Kind.NODE, Kind.HARDWARE_COMPONENT)
         for item in device.hardware.nodes:
             # The namespace of the process is that of every node in it.
             bare = item.full_name.rpartition("/")[2]
@@ -162,20 +187,16 @@ def _controller(cell: Cell, controller: Controller) -> Profile:
 
     A subscriber gets no right to publish on the same topic unless an interface of the cell says so.
     """
-    granted = _granted(cell, controller.full_name, cell.implied.controller)
     kind = controller.declared
     topics = (
         () if kind is None else tuple(topic for topic in kind.topics if not topic.only or cell.distro in topic.only)
     )
-    said = tuple(_own(controller, topic.name) for topic in topics if topic.direction == "publish")
-    heard = tuple(_own(controller, topic.name) for topic in topics if topic.direction == "subscribe")
-    served = () if kind is None else tuple(_own(controller, service.name) for service in kind.services)
-    return replace(
-        granted,
-        publish=(*granted.publish, _CONTROLLER_STATE, *said),
-        subscribe=(*granted.subscribe, *heard),
-        reply=(*granted.reply, *served),
+    declared = Rights(
+        publish=tuple(_own(controller, topic.name) for topic in topics if topic.direction == "publish"),
+        subscribe=tuple(_own(controller, topic.name) for topic in topics if topic.direction == "subscribe"),
+        reply=() if kind is None else tuple(_own(controller, service.name) for service in kind.services),
     )
+    return _profile(cell, controller.full_name, Kind.NODE, Kind.CONTROLLER, own=declared)
 
 
 def _own(controller: Controller, name: str) -> str:
@@ -187,56 +208,63 @@ def _own(controller: Controller, name: str) -> str:
 def manager_client(cell: Cell, manager: ControllerManager, node: str) -> Profile:
     """Return the rights of a spawner that loads and configures: it can activate nothing, and sets no parameters."""
     asked = tuple(f"{manager.node}/{service}" for service in _OF_SPAWNER)
-    return replace(_granted(cell, f"{manager.namespace}/{node}"), request=asked)
+    return _profile(cell, f"{manager.namespace}/{node}", Kind.NODE, own=Rights(request=asked))
 
 
-def _granted(cell: Cell, full_name: str, *kinds: NodeEndpoints) -> Profile:
-    """Return what a node has by what it is, and by the interfaces at which it is."""
+def _at_interfaces(cell: Cell, full_name: str) -> Rights:
+    """Return what a node has by the interfaces at which it is."""
 
-    def names(kind: InterfaceKind, side: str) -> tuple[str, ...]:
-        return tuple(_names(cell, full_name, kind, side))
+    def names(kind: InterfaceKind, *, serves: bool) -> tuple[str, ...]:
+        ends = cell.ends_of.get(full_name, ())
+        found = (end.interface.name for end in ends if end.interface.kind is kind and end.serves == serves)
+        return tuple(dict.fromkeys(found))
 
-    namespace, _, name = full_name.rpartition("/")
-    granted = Profile(
-        namespace=namespace,
-        node=name,
-        publish=names(InterfaceKind.TOPIC, "sources"),
-        subscribe=names(InterfaceKind.TOPIC, "sinks"),
-        reply=names(InterfaceKind.SERVICE, "sources"),
-        request=names(InterfaceKind.SERVICE, "sinks"),
-        execute=names(InterfaceKind.ACTION, "sources"),
-        call=names(InterfaceKind.ACTION, "sinks"),
+    return Rights(
+        publish=names(InterfaceKind.TOPIC, serves=True),
+        subscribe=names(InterfaceKind.TOPIC, serves=False),
+        reply=names(InterfaceKind.SERVICE, serves=True),
+        request=names(InterfaceKind.SERVICE, serves=False),
+        execute=names(InterfaceKind.ACTION, serves=True),
+        call=names(InterfaceKind.ACTION, serves=False),
     )
-    return reduce(_with, (cell.implied.node, *kinds), granted)
-
-
-def _names(cell: Cell, full_name: str, kind: InterfaceKind, side: str) -> Iterator[str]:
-    """Yield the interfaces of one kind at whose side a node is."""
-    serves = side == "sources"
-    ends = cell.ends_of.get(full_name, ())
-    yield from dict.fromkeys(end.interface.name for end in ends if end.interface.kind is kind and end.serves == serves)
 
 
 def bring_up_process(cell: Cell, plan: BringUp) -> Iterator[Profile]:
     """Yield the rights of the program that takes the steps of the bring-up, under each name that it gives its node."""
+    for node in bring_up_nodes(plan):
+        yield _profile(cell, f"/{node}", Kind.NODE, Kind.BRING_UP)
+
+
+def _of_bring_up(cell: Cell, plan: BringUp) -> Rights:
     managed = (f"{node.full_name}/{text}" for node in cell.nodes if node.lifecycle for text in _OF_MANAGED)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
     managers = (f"{manager.node}/{name}" for manager in cell.managers for name in _OF_MANAGER)
     proofs = [proof for target in TARGETS for step in plan.steps(target) for proof in step.proof]
     watched = (watch.while_holds for watch in plan.watches)
     heard = (proof.topic for proof in (*proofs, *watched) if isinstance(proof, TopicProof))
-    asks = NodeEndpoints(subscribes=(*heard, "/tf", "/tf_static"), requests=(*managed, *managers, *described))
-    for node in bring_up_nodes(plan):
-        yield _with(_granted(cell, f"/{node}"), asks)
+    return Rights(subscribe=(*heard, "/tf", "/tf_static"), request=(*managed, *managers, *described))
 
 
 def sender(cell: Cell, node: str, action: str, states: str) -> Profile:
     """Return the rights of what sends one goal that a person releases."""
-    return replace(_with(_granted(cell, node), NodeEndpoints(subscribes=(states,))), call=(action,))
+    return _profile(cell, node, Kind.NODE, own=Rights(subscribe=(states,), call=(action,)))
 
 
-def people(cell: Cell) -> Iterator[Profile]:
-    """Yield the rights of manual commands: to read everything, and to activate the managed nodes that move.
+def people(cell: Cell, *more: Kind) -> Iterator[Profile]:
+    """Yield the rights of manual commands, under each name that these programs give their nodes.
+
+    Args:
+        more: kinds besides, such as that of the command with which a person acts.
+    """
+    for name in _TYPED:
+        recorder = (Kind.RECORDER,) if name == _RECORDER else ()
+        yield _profile(cell, f"/{name}", Kind.NODE, Kind.PEOPLE, *recorder, *more)
+    for name in _RVIZ if plans(cell) else _RVIZ[:1]:
+        yield _profile(cell, f"/{name}", Kind.NODE, Kind.PEOPLE, Kind.RVIZ, *more)
+
+
+def _of_people(cell: Cell) -> Rights:
+    """Return the rights to read everything, and to activate the managed nodes that move.
 
     A shell may not publish, call an action or switch a controller.
     """
@@ -247,35 +275,34 @@ def people(cell: Cell) -> Iterator[Profile]:
     managed = (f"{node.full_name}/{text}" for node in cell.nodes if node.lifecycle for text in _LOOKED_AT)
     moving = (f"{node.full_name}/change_state" for node in motion_clients(cell) if node.lifecycle)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
-    asks = NodeEndpoints(
-        subscribes=(*topics, *hidden, "/rosout", "/tf", "/tf_static"),
-        requests=(*managers, *managed, *moving, *described),
+    return Rights(
+        subscribe=(*topics, *hidden, "/rosout", "/tf", "/tf_static"),
+        request=(*managers, *managed, *moving, *described),
     )
-    recorder = NodeEndpoints(
-        publishes=("/events/write_split",),
-        subscribes=tuple(recorded_topics(cell)),
-        serves=tuple(f"~/{text}" for text in _OF_RECORDER),
-    )
-    for name in _TYPED:
-        profile = _granted(cell, f"/{name}")
-        yield _with(_with(profile, asks), recorder) if name == "rosbag2_recorder" else _with(profile, asks)
-    for name in _RVIZ if plans(cell) else _RVIZ[:1]:
-        yield _with(_with(_granted(cell, f"/{name}"), asks), _shown(cell))
 
 
-def _shown(cell: Cell) -> NodeEndpoints:
+def _of_recorder(cell: Cell, looking: Rights) -> Rights:
+    """Return what the recorder has beside the rights to look."""
+    return Rights(
+        publish=("/events/write_split",),
+        subscribe=tuple(topic for topic in recorded_topics(cell) if topic not in looking.subscribe),
+        reply=tuple(f"~/{text}" for text in _OF_RECORDER),
+    )
+
+
+def _of_rviz(cell: Cell) -> Rights:
     """Return what RViz has for the displays of ``config/cell.rviz``, and its service that begins its views again."""
     place = next((node.namespace for node in cell.planners), "")
     planned = ("monitored_planning_scene", "display_planned_path", "robot_description_semantic")
-    return NodeEndpoints(
-        subscribes=("/robot_description", *(f"{place}/{text}" for text in planned if plans(cell))),
-        requests=(f"{place}/get_planning_scene",) if plans(cell) else (),
-        serves=("~/reset_time",),
+    return Rights(
+        subscribe=("/robot_description", *(f"{place}/{text}" for text in planned if plans(cell))),
+        request=(f"{place}/get_planning_scene",) if plans(cell) else (),
+        reply=("~/reset_time",),
     )
 
 
-def commissioning(cell: Cell) -> Iterator[Profile]:
-    """Yield the rights of the command with which a person acts: to end motion and release claims, beside looking.
+def _of_commissioning(cell: Cell) -> Rights:
+    """Return the rights with which a person acts: to end motion and release claims.
 
     And to call what a vendor's procedure names. A goal is sent by none of it but where that procedure says so.
     """
@@ -284,16 +311,16 @@ def commissioning(cell: Cell) -> Iterator[Profile]:
         for interface in cell.interfaces
         if interface.kind is InterfaceKind.ACTION and "real" in interface.targets
     )
-    managers = tuple(f"{manager.node}/{name}" for manager in cell.managers for name in _ACTED_ON)
+    managers = (f"{manager.node}/{name}" for manager in cell.managers for name in _ACTED_ON)
     named = [procedure for device in cell.devices for procedure in _in_procedures(cell, device)]
-    requests = (
-        *(f"{name}/_action/cancel_goal" for name in actions),
-        *managers,
-        *(name for kind, name in named if kind is InterfaceKind.SERVICE),
+    return Rights(
+        request=(
+            *(f"{name}/_action/cancel_goal" for name in actions),
+            *managers,
+            *(name for kind, name in named if kind is InterfaceKind.SERVICE),
+        ),
+        call=tuple(name for kind, name in named if kind is InterfaceKind.ACTION),
     )
-    calls = tuple(name for kind, name in named if kind is InterfaceKind.ACTION)
-    for profile in people(cell):
-        yield replace(profile, request=(*profile.request, *requests), call=(*profile.call, *calls))
 
 
 def _in_procedures(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:

@@ -1,0 +1,63 @@
+"""The rights that the access policy of a package grants to each enclave, as sros2 reads it.
+
+An enclave is a process: it has what all of its profiles grant. What a profile includes of ``security/common.xml`` is
+resolved here, for fragments of the form that cellc writes; anything else in a profile is reported as it is written.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+
+from cellc.robot.description.xml_tree import XmlElement
+from cellc.tools.review.leaves import Leaf, Path
+
+POLICY, COMMON = "security/policy.xml", "security/common.xml"
+_FRAGMENT = re.compile(r"xpointer\(/common/(\w+)/\*\)")
+_GROUPS = ("topics", "services", "actions")
+_OTHER = "other"
+# A spawner names itself after the first of its controllers, whose order says nothing.
+_SPAWNER = re.compile(r"^spawner_.+")
+
+
+def rights(policy: XmlElement, common: XmlElement | None, cell: str) -> Iterator[tuple[Path, Leaf]]:
+    """Yield the names that each enclave may use, by right, such as ``publish``; a denied right begins with ``DENY``.
+
+    Args:
+        common: what the policy includes; None in a package that has no such file.
+        cell: name of the cell, with which each enclave begins.
+    """
+    kinds = {} if common is None else {kind.tag: kind.children for kind in common.children}
+    for enclave in (child for group in policy.all("enclaves") for child in group.children):
+        found: dict[str, set[str]] = {}
+        for profile in (child for group in enclave.children for child in group.children):
+            for right, name in _of_profile(profile, kinds):
+                found.setdefault(right, set()).add(name)
+        path = enclave.attributes.get("path", "").removeprefix(f"/{cell}")
+        yield from ((("right", path, right), tuple(sorted(names))) for right, names in found.items())
+
+
+def _of_profile(profile: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> Iterator[tuple[str, str]]:
+    home = profile.attributes.get("ns", "").rstrip("/")
+    node = f"{home}/{_SPAWNER.sub('spawner', profile.attributes.get('node', ''))}"
+    for group in (group for child in profile.children for group in _included(child, kinds)):
+        if group.tag not in _GROUPS:
+            yield _OTHER, " ".join((group.tag, *group.attributes.values()))
+            continue
+        for right, qualifier in group.attributes.items():
+            told = right if qualifier == "ALLOW" else f"{qualifier} {right}"
+            yield from ((told, _full(entry.text.strip(), home, node)) for entry in group.children)
+
+
+def _included(child: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> list[XmlElement]:
+    """Return what stands for a child of a profile: itself, or the fragment that it includes."""
+    fragment = _FRAGMENT.fullmatch(child.attributes.get("xpointer", ""))
+    if child.tag != "xi:include" or child.attributes.get("href") != "common.xml" or fragment is None:
+        return [child]
+    return kinds.get(fragment[1], [child])
+
+
+def _full(name: str, home: str, node: str) -> str:
+    if name.startswith("~"):
+        return node + name[1:]
+    return name if name.startswith("/") else f"{home}/{name}"
