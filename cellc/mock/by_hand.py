@@ -9,7 +9,7 @@ from cellc.contract.uncertainty import UNCERTAINTY_FILE
 from cellc.mock.errors import MockError
 from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, named_files
 
-FOR_PEOPLE = (".md", ".mmd", ".svg")
+FOR_PEOPLE = (".md", ".svg")
 """How files end that no program reads; an edit of one is a note."""
 
 _SHOWN = 12

@@ -326,8 +326,7 @@ def test_it_is_started_behind_the_proofs_of_every_motion_client() -> None:
     arguments = {one.get("name"): one for one in fromstring(package.texts["launch/goal.launch.xml"]).findall("arg")}
     assert "default" not in arguments["confirm_goal"].attrib
     assert {choice.get("value") for choice in arguments["joint"]} == _START.keys() - {"finger"}
-    (enclave,) = fromstring(package.texts["security/policy.xml"]).findall(".//enclave[@path='/ur5e_pick/first_goal']")
-from tests.consumers.permissions import policy_of
+    (enclave,) = policy_of(package.texts).findall(".//enclave[@path='/ur5e_pick/first_goal']")
     called = [one.text for one in enclave.findall(".//actions[@call='ALLOW']/action")]
     assert called == ["/arm_trajectory/follow_joint_trajectory"]
 

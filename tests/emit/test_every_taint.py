@@ -87,7 +87,6 @@ def test_every_generated_file_has_a_foreign_reader() -> None:
         ("a.json", '{{"a": "{}"}}'),
         ("a.bash", "echo {}\n"),
         ("README.md", "# a\n\nb {} c\n"),
-        ("graph/a.mmd", 'flowchart LR\n  a["{}"]\n'),
         ("graph/a.svg", '<svg xmlns="http://www.w3.org/2000/svg"><text>{}</text></svg>'),
     ],
 )

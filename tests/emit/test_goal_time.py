@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from xml.etree.ElementTree import fromstring
 
 import pytest
 
@@ -17,7 +18,7 @@ ACTION = "/arm_trajectory/follow_joint_trajectory"
 DIRECT = CORPUS / "valid" / "direct_sdk_arm.yaml"
 
 
-@pytest.mark.parametrize("file", ["graph/responsibility.mmd", "graph/responsibility.svg", "audit.md"])
+@pytest.mark.parametrize("file", ["graph/responsibility.svg", "audit.md"])
 def test_action_of_a_controller_has_no_timeout(file: str) -> None:
     # `goal_time: 1 s` in the spec; its goals take three seconds and more.
     text = built("ur5e_pick").texts[file]
@@ -26,10 +27,10 @@ def test_action_of_a_controller_has_no_timeout(file: str) -> None:
 
 
 def test_picture_says_how_late_a_trajectory_may_end() -> None:
-    texts = built("ur5e_pick").texts
-    lines = [line for line in texts["graph/responsibility.mmd"].splitlines() if ACTION in line]
-    assert lines
-    assert all("no timeout stated, ends at most 1 s after its trajectory" in line for line in lines)
+    sheet = fromstring(built("ur5e_pick").texts["graph/responsibility.svg"])
+    said = [text.text or "" for text in sheet.iter("{http://www.w3.org/2000/svg}text")]
+    below = " ".join(said[said.index(ACTION) :][:5])
+    assert "no timeout stated, ends at most 1 s after its trajectory" in below
 
 
 def test_contract_keeps_goal_time_and_timeout_apart() -> None:

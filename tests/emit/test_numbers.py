@@ -9,7 +9,7 @@ from pathlib import Path
 from tests.cells import ROOT
 
 EMIT = ROOT / "cellc" / "compiler" / "emit"
-DRAWN = {"node_graph.py", "picture.py", "rviz.py"}
+DRAWN = {"node_graph.py", "responsibility_graph.py", "rviz.py"}
 """Sizes and gaps of what is drawn."""
 STATED = {
     "contract/uncertainty.py": {3, 8},  # ISO 9283, and the three axes

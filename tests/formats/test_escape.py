@@ -7,7 +7,7 @@ import re
 import pytest
 from markdown_it import MarkdownIt
 
-from cellc.compiler.formats.escape import code, markdown, mermaid
+from cellc.compiler.formats.escape import code, markdown
 
 _PAGES = MarkdownIt("commonmark").enable(["table", "strikethrough"])
 
@@ -33,22 +33,6 @@ def test_a_backslash_before_a_bar_does_not_end_a_cell_of_a_table() -> None:
     cell = markdown(code("a\\| b")).replace("|", "\\|")
     cells = re.findall("<td>(.*?)</td>", _PAGES.render(f"| x | y |\n|---|---|\n| {cell} | z |"))
     assert cells == ["a\\| b", "z"]
-
-
-@pytest.mark.parametrize(
-    ("text", "label"),
-    [
-        ('a "b"', "a #quot;b#quot;"),
-        ("a &lt; b", "a #amp;lt; b"),
-        ("#quot; #35;", "#35;quot; #35;35;"),
-        ("%%{init: {}}%%", "#37;#37;{init: {}}#37;#37;"),
-        ("$$x$$ $", "#36;#36;x#36;#36; $"),
-        ("a\\nb", "a#92;nb"),
-    ],
-)
-def test_a_label_of_mermaid_holds_no_entity_directive_formula_or_line_break(text: str, label: str) -> None:
-    # Mermaid 11: encodeEntities takes `#name;` and `#number;`, directives are found anywhere, `\n` breaks a line.
-    assert mermaid(text) == label
 
 
 def _html(text: str) -> str:

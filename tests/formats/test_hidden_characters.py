@@ -10,7 +10,7 @@ import yaml
 from pydantic import BaseModel
 
 from cellc.compiler.formats import json_text, xml_text, yaml_text
-from cellc.compiler.formats.escape import markdown, mermaid, shell_quoted, shell_word
+from cellc.compiler.formats.escape import markdown, shell_quoted, shell_word
 from cellc.mock.report_page.html import tag, to_page
 from tests.printing.payloads import PAYLOADS, hides
 
@@ -47,7 +47,7 @@ def test_xml_shows_it_and_means_it_where_xml_can(text: str) -> None:
 
 @each
 def test_text_for_people_shows_it_as_an_escape(text: str) -> None:
-    for write in (markdown, mermaid, shell_quoted, shell_word):
+    for write in (markdown, shell_quoted, shell_word):
         assert not hides(write(f"a {text} b").replace("\n", ""))
     assert not hides(to_page(text, "", tag("p", text, tag("b", text), text, title=text)))
     assert "\\u202e" in to_page("", "", tag("p", "a\u202eb"))

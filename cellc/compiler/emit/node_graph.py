@@ -15,13 +15,13 @@ from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.arrows import ArrowKind, drives, exchanges, stop
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.labels import unused
 from cellc.compiler.formats.escape import one_line
 from cellc.compiler.formats.layered import Box, Columns, Layout, Line, Point, layout
+from cellc.compiler.formats.svg import arrow_head, rectangle, sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.vocabulary import InterfaceKind
 
 _SIZE, _LINE = 13, 17  # height of letters, and of a line of text
 _BOX, _CHARACTERS = 126, 17  # width of a box, and how many characters it holds
@@ -40,7 +40,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 class Exchange:
     """Interfaces of one kind between the same ends, which share an arrow; data or goals go from starts to ends."""
 
-    kind: InterfaceKind
+    kind: ArrowKind
     starts: tuple[str, ...]
     ends: tuple[str, ...]
     names: tuple[str, ...]
@@ -48,18 +48,16 @@ class Exchange:
     @property
     def commands(self) -> bool:
         """Whether it asks for something to be done."""
-        return self.kind is not InterfaceKind.TOPIC
+        return self.kind != "topic"
 
 
 def _exchanges(cell: Cell) -> tuple[Exchange, ...]:
-    alone = {interface.name for group in unused(cell) for interface in group}
-    interfaces: dict[tuple[InterfaceKind, tuple[str, ...], tuple[str, ...]], list[str]] = {}
-    for interface in cell.interfaces:
-        ends = [tuple(dict.fromkeys(end.node for end in side)) for side in (interface.sources, interface.sinks)]
-        if interface.name not in alone and all(ends):
-            starts, ends_ = ends if interface.kind is InterfaceKind.TOPIC else ends[::-1]
-            interfaces.setdefault((interface.kind, starts, ends_), []).append(interface.name)
-    return tuple(Exchange(*key, tuple(names)) for key, names in interfaces.items())
+    found: dict[tuple[ArrowKind, tuple[str, ...], tuple[str, ...]], list[str]] = {}
+    for arrow in exchanges(cell):
+        if arrow.starts and arrow.ends:
+            ends = tuple(dict.fromkeys(arrow.starts)), tuple(dict.fromkeys(arrow.ends))
+            found.setdefault((arrow.kind, *ends), []).append(arrow.title)
+    return tuple(Exchange(*key, tuple(names)) for key, names in found.items())
 
 
 def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
@@ -110,74 +108,55 @@ def _depth(name: str, asks: Mapping[str, set[str]], above: tuple[str, ...]) -> i
     return max((_depth(ask, asks, inner) + 1 for ask in sorted(asks[name]) if ask not in inner), default=0)
 
 
-def _arrows(cell: Cell, exchanges: Sequence[Exchange]) -> Iterator[tuple[Line, str]]:
+def _arrows(cell: Cell, exchanged: Sequence[Exchange]) -> Iterator[tuple[Line, str]]:
     """Yield every line with what kind it is."""
-    for number, exchange in enumerate(exchanges, start=1):
-        for start in exchange.starts:
-            yield from ((Line(start, end, str(number)), "tells") for end in exchange.ends if end != start)
-    for controller in cell.controllers:
-        if controller.device is not None and controller.command_interfaces:
-            yield Line(controller.label, controller.device, "claims"), "claims"
-    for device in cell.devices:
-        if device.driver is not None:
-            yield Line(device.driver.node, device.name, "moves"), "moves"
-        if device.is_driven:
-            yield Line(_stop(cell), device.name, "stops"), "stops"
+    for order, one in enumerate(exchanged, start=1):
+        for start in one.starts:
+            yield from ((Line(start, end, str(order)), "tells") for end in one.ends if end != start)
+    for arrow in drives(cell):
+        yield Line(arrow.starts[0], arrow.ends[0], arrow.kind), arrow.kind
+    for arrow in stop(cell):
+        yield from ((Line(_stop(cell), end, arrow.kind), arrow.kind) for end in arrow.ends)
 
 
 def _sheet(cell: Cell) -> Element:
-    exchanges = _exchanges(cell)
-    layers = _layers(cell, exchanges)
+    exchanged = _exchanges(cell)
+    layers = _layers(cell, exchanged)
     count = max(layers.values()) + 1
-    columns = Columns(tuple(_BAND * 1.5 + number * (_BOX + _GAP) for number in range(count)), _BOX)
-    arrows = tuple(_arrows(cell, exchanges))
+    columns = Columns(tuple(_BAND * 1.5 + layer * (_BOX + _GAP) for layer in range(count)), _BOX)
+    arrows = tuple(_arrows(cell, exchanged))
     boxes = [Box(key, layer, len(_wrapped(key)) * _LINE + 9.0) for key, layer in layers.items()]
     placed = layout(boxes, [line for line, _ in arrows], columns)
     width = columns.lefts[-1] + _BOX + _BAND * 1.5
     bottom = _MARGIN + _TITLE + placed.height + _MARGIN
-    listed, below = _list(exchanges, width, bottom + 2 * _MARGIN + _LINE)
+    listed, below = _list(exchanged, width, bottom + 2 * _MARGIN + _LINE)
+    graph = [*_lines(arrows, placed, layers), *_boxes(placed, layers, columns)]
+    heads = (("ink", _INK), ("back", _BACK), ("stop", _STOP))
     drawn = [
+        element("defs", children=[arrow_head(*head) for head in heads]),
         *_bands(cell, layers, columns, bottom),
-        element(
-            "g",
-            {"transform": f"translate(0 {_MARGIN + _TITLE})"},
-            [*_lines(arrows, placed, layers), *_boxes(placed, layers, columns)],
-        ),
+        element("g", {"transform": f"translate(0 {_MARGIN + _TITLE})"}, graph),
         *_legend(bottom + _MARGIN + 6),
         *listed,
     ]
-    attributes = {
-        "xmlns": "http://www.w3.org/2000/svg",
-        "viewBox": f"0 0 {width:g} {below:g}",
-        "font-family": "sans-serif",
-        "font-size": str(_SIZE),
-    }
-    background = element("rect", {"width": "100%", "height": "100%", "fill": "#ffffff"})
-    return element("svg", attributes, [_heads(), background, *drawn])
+    return sheet(width, below, _SIZE, drawn)
 
 
 def _bands(cell: Cell, layers: Mapping[str, int], columns: Columns, bottom: float) -> Iterator[Element]:
     """Draw the boundaries: what software of the cell is, what the vendor's control is, and what stops physically."""
     owners = cell.owners.responsibilities
-    stop = layers[_stop(cell)]
-    devices = stop - 1
+    last = layers[_stop(cell)]
     titles = (
-        (0, devices - 1, "ROS 2 graph", ""),
-        (devices, devices, "Vendor control", f"owner {owners.vendor_safety}"),
-        (stop, stop, "Physical safety", f"owner {owners.physical_stop}"),
+        (0, last - 2, "ROS 2 graph", ""),
+        (last - 1, last - 1, "Vendor control", f"owner {owners.vendor_safety}"),
+        (last, last, "Physical safety", f"owner {owners.physical_stop}"),
     )
-    for first, last, title, owner in titles:
-        left, right = columns.lefts[first] - _BAND, columns.lefts[last] + columns.width + _BAND
-        place = {
-            "x": f"{left:g}",
-            "y": f"{_MARGIN / 2:g}",
-            "width": f"{right - left:g}",
-            "height": f"{bottom - _MARGIN / 2:g}",
-        }
+    for first, end, title, owner in titles:
+        left, right = columns.lefts[first] - _BAND, columns.lefts[end] + columns.width + _BAND
         line = {"rx": "6", "fill": "none", "stroke": "#000000", "stroke-width": "4" if owner else "1"}
-        yield element("rect", place | line)
-        yield _text(left + 12, _MARGIN + 16, title, {"font-weight": "bold"})
-        yield _text(left + 12, _MARGIN + 32, owner, {})
+        yield rectangle(left, _MARGIN / 2, right - left, bottom - _MARGIN / 2, line)
+        yield text(left + 12, _MARGIN + 16, title, {"font-weight": "bold"})
+        yield text(left + 12, _MARGIN + 32, owner)
 
 
 _HALO = {"stroke": "#ffffff", "stroke-width": "3", "paint-order": "stroke"}
@@ -201,7 +180,7 @@ def _lines(arrows: Sequence[tuple[Line, str]], placed: Layout, layers: Mapping[s
                 numbers[at] = (line.group, _BACK if back else _INK, right)
     for (x, y), (number, color, right) in numbers.items():
         style = {"font-size": "10", "fill": color, "text-anchor": "start" if right else "end"} | _HALO
-        yield _text(x + (9 if right else -9), y - 2, number, style)
+        yield text(x + (9 if right else -9), y - 2, number, style)
 
 
 def _path(route: Sequence[Point]) -> str:
@@ -222,14 +201,13 @@ def _path(route: Sequence[Point]) -> str:
 
 def _boxes(placed: Layout, layers: Mapping[str, int], columns: Columns) -> Iterator[Element]:
     for key, (center, height) in placed.boxes.items():
-        left, top = columns.lefts[layers[key]], center - height / 2
-        place = {"x": f"{left:g}", "y": f"{top:.1f}", "width": f"{columns.width:g}", "height": f"{height:.1f}"}
-        yield element("rect", place | {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"})
+        left = columns.lefts[layers[key]]
+        outline = {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"}
+        yield rectangle(left, center - height / 2, columns.width, height, outline)
         lines = _wrapped(key)
         first = center - (len(lines) - 1) * _LINE / 2 + _SIZE / 3
-        for number, said in enumerate(lines):
-            style = {"text-anchor": "middle"}
-            yield _text(left + columns.width / 2, first + number * _LINE, said, style)
+        for order, line in enumerate(lines):
+            yield text(left + columns.width / 2, first + order * _LINE, line, {"text-anchor": "middle"})
 
 
 def _wrapped(name: str) -> list[str]:
@@ -255,7 +233,7 @@ def _legend(y: float) -> Iterator[Element]:
     }
     for kind, said in words.items():
         yield element("path", {"d": f"M{x:g} {y - 4:g}h34", "fill": "none"} | _STYLES[kind])
-        yield _text(x + 42, y, said, {})
+        yield text(x + 42, y, said)
         x += 60 + len(said) * 7.5
 
 
@@ -271,8 +249,8 @@ def _list(exchanges: Sequence[Exchange], width: float, top: float) -> tuple[list
             row, column = 0, 1
         x = _MARGIN + column * width / 2
         y = top + row * _LINE
-        drawn.append(_text(x + 20, y, number, {"text-anchor": "end", "font-weight": "bold"}))
-        drawn += [_text(x + 28, y + index * _LINE, line, {}) for index, line in enumerate(lines)]
+        drawn.append(text(x + 20, y, number, {"text-anchor": "end", "font-weight": "bold"}))
+        drawn += [text(x + 28, y + index * _LINE, line) for index, line in enumerate(lines)]
         row += len(lines)
         deepest = max(deepest, row)
     return drawn, top + deepest * _LINE + _MARGIN / 2
@@ -280,19 +258,3 @@ def _list(exchanges: Sequence[Exchange], width: float, top: float) -> tuple[list
 
 def _said(one: Exchange, room: int) -> list[str]:
     return textwrap.wrap(", ".join(map(one_line, one.names)), room, break_long_words=True, break_on_hyphens=False)
-
-
-def _text(x: float, y: float, said: str, style: Mapping[str, str]) -> Element:
-    """Return a line of text; ``y`` is its base line."""
-    return element("text", {"x": f"{x:g}", "y": f"{y:.1f}"} | dict(style), text=one_line(said))
-
-
-def _heads() -> Element:
-    return element("defs", children=[_head(*pair) for pair in (("ink", _INK), ("back", _BACK), ("stop", _STOP))])
-
-
-def _head(name: str, color: str) -> Element:
-    """Return the head of an arrow; its size does not follow the width of the line."""
-    size = {"markerWidth": "8", "markerHeight": "8", "markerUnits": "userSpaceOnUse", "orient": "auto"}
-    attributes = {"id": name, "viewBox": "0 0 8 8", "refX": "7", "refY": "4"} | size
-    return element("marker", attributes, [element("path", {"d": "M0 0 L8 4 L0 8 Z", "fill": color})])

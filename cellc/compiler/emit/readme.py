@@ -69,7 +69,7 @@ _FILES = (
     ("rehearsals.json", "runs of the mock, each with its expected outcome"),
     ("graph/cell.svg", "the cell from two sides"),
     ("graph/nodes.svg", "who talks to whom: each node once, with a list of the arrows"),
-    ("graph/responsibility.svg", "contract and owner of each arrow; `.mmd` is the same graph"),
+    ("graph/responsibility.svg", "contract and owner of each arrow"),
     ("gates/promotion.md", "checklist of gates G0 to G7 for one attempt; `gates/network.md` has layers L1 to L6"),
     ("gates/gates.json", "what the gates set in robots, and what is known of each version, for programs"),
     ("audit.md", "open questions, version tuple, command paths, expected nodes and interfaces, owners"),

@@ -1,146 +1,116 @@
-"""``graph/responsibility.mmd``: who tells what to whom, and its owner, on one page.
+"""``graph/responsibility.svg``: the cell on one sheet, every arrow labeled.
 
-Mermaid flowchart, for code hosts and editors that draw it. Every arrow carries type, frame, unit, rate, time source,
-owner and failure behavior; an interface with several ends carries them once, in a box between its ends, whose arrows
-tell the QoS. Vendor control and physical safety are boundaries of their own, drawn bold. Left out: what every ROS node
-has anyway, such as parameter services and ``/rosout``.
+SVG 1.1 without scripts, styles or fonts from elsewhere, for A4 upright: 13 units of 1000 are 7 points on the page, and
+10 pixels on a phone that is held sideways. One arrow a row, from left to right who, what, to whom, so that it needs no
+layout; vendor control and physical safety are boundaries of their own, drawn bold. Left out: the shape of the graph,
+which ``graph/nodes.svg`` has, and the QoS of each end, which ``audit.md`` lists.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+import textwrap
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import accumulate
+from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.compiler.deploy.arrows import Arrow, drives, exchanges, stop
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.labels import (
-    claim_facts,
-    driver_facts,
-    interface_facts,
-    stop_facts,
-    unused,
-    unused_facts,
-    unused_title,
-)
-from cellc.compiler.formats.escape import mermaid
+from cellc.compiler.formats.svg import arrow_head, rectangle, sheet, text
+from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.vocabulary import InterfaceKind
 
-_BOLD = "stroke-width:5px,stroke:#000,fill:none"
+_WIDTH = 1000
+_FONT_SIZE = 13
+_LINE = 18  # height of a line of text
+_MARGIN = 16  # between the edge of the sheet and what is drawn
+_GAP = 14  # between rows, and between boundaries
+_TITLE = 34  # height of a boundary's title
+_BOX = 190  # width of the boxes at both ends of an arrow
+_BOX_CHARACTERS = 24
+_CHARACTERS = 84
+_UNIT = re.compile(r"(?<=\d) (s|Hz)\b")
+_HELD = "\N{NO-BREAK SPACE}"
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
-    """Yield the diagram."""
-    lines = ["flowchart LR", *(f"  {line}" for line in _diagram(graph.cell))]
-    yield Artifact("graph/responsibility.mmd", plan.header.commented("%%") + "\n".join(lines) + "\n")
+    """Yield the picture."""
+    yield Artifact("graph/responsibility.svg", render(_sheet(_bands(graph.cell)), plan.header.text))
 
 
-def _diagram(cell: Cell) -> Iterator[str]:
-    yield from _ros_graph(cell)
-    yield from _vendor_control(cell)
-    yield from _physical_safety(cell)
-    groups = unused(cell)
-    alone = {interface.name for group in groups for interface in group}
-    for interface in cell.interfaces:
-        if interface.name not in alone:
-            yield from _arrows(cell, interface)
-    for group in groups:
-        yield from _unused(cell, group)
-    yield from _claims(cell)
-    yield from _drivers(cell)
-    yield f"style vendor {_BOLD}"
-    yield f"style safety {_BOLD}"
+@dataclass(frozen=True, slots=True)
+class Band:
+    """Arrows within one boundary; a bold one is not crossed by software of the cell."""
+
+    title: str
+    bold: bool
+    rows: tuple[Arrow, ...]
 
 
-def _ros_graph(cell: Cell) -> Iterator[str]:
-    yield 'subgraph ros["ROS 2 graph"]'
-    for node in cell.nodes:
-        yield f"  {_box('node', node.full_name[1:], f'{node.package}/{node.executable}', f'owner {node.owner}')}"
-    for controller in cell.controllers:
-        client = f"commanded by {controller.client}" if controller.client else "no client"
-        yield f"  {_box('node', controller.full_name[1:], controller.plugin, client)}"
-    yield "end"
+def _bands(cell: Cell) -> tuple[Band, ...]:
+    """Return the ROS graph, vendor control and physical safety, in the order in which a goal meets them."""
+    owners = cell.owners.responsibilities
+    return (
+        Band("ROS 2 graph", False, tuple(exchanges(cell))),
+        Band(f"Vendor control (owner {owners.vendor_safety})", True, tuple(drives(cell))),
+        Band(f"Physical safety (owner {owners.physical_stop})", True, tuple(stop(cell))),
+    )
 
 
-def _vendor_control(cell: Cell) -> Iterator[str]:
-    owner = cell.owners.responsibilities.vendor_safety
-    yield f'subgraph vendor["{_text(f"Vendor control: servo, limits, safety state; owner {owner}")}"]'
-    for device in cell.devices:
-        yield f"  {_box('device', device.name, device.model, device.architecture)}"
-    yield "end"
+def _sheet(bands: tuple[Band, ...]) -> Element:
+    """Return the picture on a sheet that is as high as it needs to be."""
+    heights = [_TITLE + sum(map(_height, band.rows)) + _GAP for band in bands]
+    tops = [_MARGIN, *(_MARGIN + total for total in accumulate(height + _GAP for height in heights))]
+    drawn = (_band(band, top, height) for band, top, height in zip(bands, tops, heights, strict=False))
+    head = element("defs", children=[arrow_head("head", "#000000")])
+    return sheet(_WIDTH, tops[-1] + _MARGIN - _GAP, _FONT_SIZE, [head, *(part for parts in drawn for part in parts)])
 
 
-def _physical_safety(cell: Cell) -> Iterator[str]:
-    stop = cell.safety.stop
-    owner = cell.owners.responsibilities.physical_stop
-    yield 'subgraph safety["Physical safety: outside of all software"]'
-    yield f"  {_box('stop', stop.authority, f'path {stop.path}', f'owner {owner}')}"
-    yield "end"
-    for device in cell.devices:
-        if device.is_driven:
-            label = _text("stops, independent of software", *stop_facts(cell))
-            yield f'{_id("stop", stop.authority)} == "{label}" ==> {_id("device", device.name)}'
+def _band(band: Band, top: int, height: int) -> Iterator[Element]:
+    line = {"rx": "6", "fill": "none", "stroke": "#000000", "stroke-width": "5" if band.bold else "1"}
+    yield rectangle(_MARGIN // 2, top, _WIDTH - _MARGIN, height, line)
+    yield text(_MARGIN + 4, top + 23, band.title, {"font-weight": "bold", "font-size": "16"})
+    tops = [0, *accumulate(map(_height, band.rows))]
+    for row, offset in zip(band.rows, tops, strict=False):
+        yield from _row(row, top + _TITLE + offset)
 
 
-def _arrows(cell: Cell, interface: Interface) -> Iterator[str]:
-    # A sample travels from the publisher to the subscriber, a goal or a request from the client to the server.
-    topic = interface.kind is InterfaceKind.TOPIC
-    starts, ends = (interface.sources, interface.sinks) if topic else (interface.sinks, interface.sources)
-    if len(starts) == len(ends) == 1:
-        label = _text(interface.name, *interface_facts(interface))
-        yield f'{_end(cell, starts[0])} -- "{label}" --> {_end(cell, ends[0])}'
-        return
-    yield _box("interface", interface.name, *interface_facts(interface))
-    hub = _id("interface", interface.name)
-    yield from (f'{_end(cell, start)} -- "{_qos(start)}" --> {hub}' for start in starts)
-    yield from (f'{hub} -- "{_qos(end)}" --> {_end(cell, end)}' for end in ends)
+def _height(row: Arrow) -> int:
+    ends = max(len(_names(names)) for names in (row.starts, row.ends))
+    return _LINE * max(1 + len(_wrapped(row.facts, _CHARACTERS)), ends) + _GAP
 
 
-def _unused(cell: Cell, group: tuple[Interface, ...]) -> Iterator[str]:
-    yield _box("interface", group[0].name, unused_title(group), *unused_facts(group))
-    hub, topic = _id("interface", group[0].name), group[0].kind is InterfaceKind.TOPIC
-    for source in group[0].sources:
-        start, end = (_end(cell, source), hub) if topic else (hub, _end(cell, source))
-        yield f"{start} --> {end}"
+def _row(row: Arrow, top: int) -> Iterator[Element]:
+    left, right = _MARGIN + _BOX, _WIDTH - _MARGIN - _BOX
+    yield from _box(_MARGIN + 4, top + 6, _names(row.starts))
+    yield from _box(right - 4, top + 6, _names(row.ends))
+    yield text(left + 14, top + 14, row.title, {"font-weight": "bold"})
+    yield _arrow(left + 8, right - 12, top + 20)
+    for number, line in enumerate(_wrapped(row.facts, _CHARACTERS)):
+        yield text(left + 14, top + 36 + _LINE * number, line, {"fill": "#333333"})
 
 
-def _qos(end: Endpoint) -> str:
-    history = f"last {end.qos.depth}" if end.qos.history == "keep_last" else "all"
-    return f"{end.qos.reliability}, {end.qos.durability}, {history}"
+def _names(ends: tuple[str, ...]) -> list[str]:
+    return _wrapped(ends or ("none",), _BOX_CHARACTERS)
 
 
-def _claims(cell: Cell) -> Iterator[str]:
-    for manager in cell.managers:
-        for controller in manager.controllers:
-            if controller.device is not None and controller.command_interfaces:
-                label = _text("claims", *claim_facts(cell, manager, controller))
-                arrow = "-->" if controller.active else "-.->"
-                start = _id("node", controller.full_name[1:])
-                yield f'{start} {arrow} |"{label}"| {_id("device", controller.device)}'
+def _arrow(left: int, right: int, y: int) -> Element:
+    """Return an arrow to the right."""
+    line = {"x1": str(left), "y1": str(y), "x2": str(right), "y2": str(y)}
+    return element("line", line | {"stroke": "#000000", "stroke-width": "1.5", "marker-end": "url(#head)"})
 
 
-def _drivers(cell: Cell) -> Iterator[str]:
-    for device in cell.devices:
-        if device.driver is not None:
-            label = _text("moves", *driver_facts(cell, device, device.driver))
-            yield f'{_id("node", device.driver.node[1:])} --> |"{label}"| {_id("device", device.name)}'
+def _box(x: int, y: int, lines: list[str]) -> list[Element]:
+    """Return a box that is as high as the names in it."""
+    outline = {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"}
+    names = (text(x + 8, y + 16 + _LINE * number, line) for number, line in enumerate(lines))
+    return [rectangle(x, y, _BOX, _LINE * len(lines) + 8, outline), *names]
 
 
-def _end(cell: Cell, end: Endpoint) -> str:
-    # Full names, because managers may have controllers of one name; an adapter's device has no node in the graph.
-    known = {node.full_name for node in cell.nodes} | {controller.full_name for controller in cell.controllers}
-    return _id("node", end.full_name[1:]) if end.full_name in known else _id("device", end.node)
-
-
-def _box(kind: str, name: str, *lines: str) -> str:
-    return f'{_id(kind, name)}["{_text(name, *lines)}"]'
-
-
-def _id(kind: str, name: str) -> str:
-    return f"{kind}_" + re.sub(r"\W", "_", name)
-
-
-def _text(*lines: str) -> str:
-    return "<br/>".join(map(mermaid, lines))
+def _wrapped(parts: Iterable[str], characters: int) -> list[str]:
+    """Return lines that are no longer than a number of characters; each part begins one, a unit stays at its number."""
+    held = (_UNIT.sub(f"{_HELD}\\1", part) for part in parts)
+    return [line.replace(_HELD, " ") for part in held for line in textwrap.wrap(part, characters)]

@@ -1,4 +1,4 @@
-"""Text as each format takes it for text alone: xacro, launch files, shells, Markdown and Mermaid.
+"""Text as each format takes it for text alone: xacro, launch files, shells and Markdown.
 
 XML, YAML and JSON are built as structures. Readers refuse most of what is escaped here; this holds without them.
 """
@@ -13,9 +13,6 @@ from cellc.contract.diagnostics.unsafe_text import escaped_within
 _SPACE = re.compile(r"\s+")
 _CODE = re.compile(r"((?<!`)(`+)(?!`).+?(?<!`)\2(?!`))")
 _MARKED = re.compile(r"[\\`*\[\]<~$]|&(?=[A-Za-z#])|(?<!\w)_+|_+(?!\w)")
-_ENTITIES = {'"': "#quot;", "<": "#lt;", ">": "#gt;", "&": "#amp;"}
-# Entities and quotes, a line break (`\\n`), a directive (`%%{`) and a formula (`$$`).
-_IN_LABEL = re.compile(r'["<>&#`\\]|%(?=%)|(?<=%)%|\$(?=\$)|(?<=\$)\$')
 _BLOCK = re.compile(r"[#>+=~-]|\d+(?=[.)](\s|$))")
 
 
@@ -78,11 +75,6 @@ def code(text: str) -> str:
     fence = "`" * (max(map(len, re.findall("`+", line)), default=0) + 1)
     apart = " " if line.startswith("`") or line.endswith("`") else ""
     return f"{fence}{apart}{line}{apart}{fence}"
-
-
-def mermaid(text: str) -> str:
-    """Return a text within the quotes of a label, with the entities of Mermaid."""
-    return _IN_LABEL.sub(lambda found: _ENTITIES.get(found[0], f"#{ord(found[0])};"), one_line(text))
 
 
 def markdown_comment(text: str) -> str:

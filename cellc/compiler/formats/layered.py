@@ -2,6 +2,7 @@
 
 After K. Sugiyama, S. Tagawa, M. Toda, IEEE Trans. Syst. Man Cybern. 11 (1981) 109, with given layers: a line across a
 layer has a place of its own there, the order in each layer follows the mean place of the neighbors, and so do heights.
+networkx (3.6, `multipartite_layout`) places boxes alone, in the order given: it neither sorts a layer nor routes lines.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A drawing of bodies and frames from two sides, as SVG 1.1 without scripts, styles or fonts from elsewhere.
+"""A drawing of bodies and frames from two sides.
 
 From the front the eye looks along y, from the side against x, where the drawing is much wider that way; from above it
 looks down. Units are millimeters, and each part and each frame is a group that is moved as a whole: what moves by a
@@ -15,6 +15,7 @@ from xml.etree.ElementTree import Element
 from cellc.compiler.formats.escape import one_line
 from cellc.compiler.formats.labels import Label, Placed, placed
 from cellc.compiler.formats.numbers import shortest
+from cellc.compiler.formats.svg import sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.contract.transforms import Pose, Vector3
 from cellc.robot.description.model import Box, Cylinder, Geometry, Sphere
@@ -129,20 +130,14 @@ def _sheet(drawing: Part, views: Sequence[_View]) -> Element:
     letter = _letter(size[0])
     title = 2.5 * letter
     width, height = size[0], size[1] + title * (1 if beside else 2)
-    attributes = {
-        "xmlns": "http://www.w3.org/2000/svg",
-        "viewBox": f"0 0 {width:g} {height:g}",
-        "font-family": "sans-serif",
-        "font-size": f"{letter:g}",
-    }
-    parts = [element("rect", {"width": "100%", "height": "100%", "fill": "#ffffff"})]
+    parts = list[Element]()
     x = y = 0.0
     for view in views:
         parts += _titled(view, x, y + 1.4 * letter, letter)
         shift = f"translate({x - view.left:g} {y + title - view.top:g})"
         parts.append(element("g", {"transform": shift}, [_bodies(view, drawing), _marks(view, drawing, letter)]))
         x, y = (x + view.width + gap, y) if beside else (x, y + title + view.height + gap)
-    return element("svg", attributes, parts)
+    return sheet(width, height, letter, parts)
 
 
 def _letter(width: float) -> float:
@@ -155,12 +150,12 @@ def _letter(width: float) -> float:
 def _titled(view: _View, x: float, y: float, letter: float) -> Iterator[Element]:
     """Yield the title of a view, and a length that is easy to compare with."""
     inset = x + letter / 2
-    yield element("text", {"x": f"{inset:g}", "y": f"{y:g}", "font-weight": "bold"}, text=view.title)
+    yield text(inset, y, view.title, {"font-weight": "bold"})
     start, line = inset + 9.0 * letter, y - letter / 3
     yield _line((start, line), (start + view.ruler, line), "#000000", letter / 8)
     meters = view.ruler / 1000.0
     said = f"{shortest(meters)} m" if meters >= 0.1 else f"{shortest(round(view.ruler, 3))} mm"
-    yield element("text", {"x": f"{start + view.ruler + letter / 2:g}", "y": f"{y:g}"}, text=said)
+    yield text(start + view.ruler + letter / 2, y, said)
 
 
 def _moved(view: _View, place: Vector3, origin: Vector3, children: Iterable[Element]) -> Element:
@@ -241,7 +236,7 @@ def _named(label: Placed | None, letter: float) -> Iterator[Element]:
     if label.far:
         yield _line((0.0, 0.0), label.foot, "#9aa3ad", letter / 14)
     halo = {"stroke": "#ffffff", "stroke-width": f"{letter / 5:g}", "stroke-opacity": "0.8", "paint-order": "stroke"}
-    yield element("text", {"x": f"{x:g}", "y": f"{y:g}", "text-anchor": label.anchor} | halo, text=label.label.text)
+    yield text(x, y, label.label.text, {"text-anchor": label.anchor} | halo)
 
 
 def _triad(view: _View, pose: Pose) -> Iterator[Element]:

@@ -7,7 +7,6 @@ for the text itself.
 from __future__ import annotations
 
 import ast
-import html
 import json
 import re
 import shlex
@@ -28,8 +27,6 @@ _SHARE = re.compile(r"\$\(find (\w+)\)")
 _COMMONMARK = MarkdownIt("commonmark").enable(["table", "strikethrough"])
 _SPACE = re.compile(r"\s+")
 _HASH = re.compile(r"\b(cfg-)?[0-9a-f]{12,64}\b")
-_BOX = re.compile(r'(\w+)\["(.*)"\]')
-_EDGE = re.compile(r'(\w+) (?:(--|==) "(.*)" (-->|==>)|(-->|-\.->) \|"(.*)"\|) (\w+)')
 
 # What launch splits into words as a shell does.
 _SPLIT = ("args", "cmd", "launch-prefix", "ros_args")
@@ -157,43 +154,6 @@ def github_pages(text: str) -> Reading:
     return re.findall(r"(?<!\\)\$|(?<!\\)~~", prose)
 
 
-def mermaid(text: str) -> Reading:
-    """Return boxes and arrows with their labels, and all other lines as they are."""
-    names: dict[str, str] = {}
-    return [list(_mermaid_line(line, names)) for line in text.splitlines()]
-
-
-def _mermaid_line(line: str, names: dict[str, str]) -> Iterator[Reading]:
-    stripped = line.strip()
-    box = _BOX.fullmatch(stripped.removeprefix("subgraph "))
-    edge = _EDGE.fullmatch(stripped)
-    if stripped.startswith("%%"):
-        yield line
-    elif box is not None:
-        yield names.setdefault(box[1], f"box {len(names)}")
-        yield _label(box[2])
-    elif edge is not None:
-        yield from (names.setdefault(end, f"box {len(names)}") for end in (edge[1], edge[7]))
-        yield edge[2] or edge[5]
-        yield _label(edge[3] or edge[6])
-    else:
-        yield line
-
-
-def _label(text: str) -> list[str]:
-    """Return the lines of a label as Mermaid shows it, which looks for directives and formulas everywhere."""
-    assert '"' not in text
-    assert "%%{" not in text
-    assert "$$" not in text
-    return [_shown(line) for line in text.split("<br/>")]
-
-
-def _shown(text: str) -> str:
-    """Return what a browser shows of text that Mermaid's encodeEntities and decodeEntities have turned into HTML."""
-    assert not re.search("[<>`]", text), text
-    return html.unescape(re.sub(r"#(\d+);", r"&#\1;", re.sub(r"#([A-Za-z]\w*);", r"&\1;", text)))
-
-
 def python(text: str) -> Reading:
     """Return the program and its comments."""
     return [ast.dump(ast.parse(text)), re.findall(r"^\s*#.*", text, re.M)]
@@ -218,7 +178,6 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     ".md": (commonmark, github_pages, fences),
     ".bash": (shell,),
     ".sh": (shell,),
-    ".mmd": (mermaid,),
     "CMakeLists.txt": (plain,),
     "scripts/bring_up": (python,),
     "scripts/first_goal": (python,),
