@@ -45,12 +45,12 @@ def _of_profile(profile: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> I
             yield _OTHER, " ".join((group.tag, *group.attributes.values()))
             continue
         for right, qualifier in group.attributes.items():
-            told = right if qualifier == "ALLOW" else f"{qualifier} {right}"
-            yield from ((told, _full(entry.text.strip(), home, node)) for entry in group.children)
+            kind = right if qualifier == "ALLOW" else f"{qualifier} {right}"
+            yield from ((kind, _full(entry.text.strip(), home, node)) for entry in group.children)
 
 
 def _included(child: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> list[XmlElement]:
-    """Return what stands for a child of a profile: itself, or the fragment that it includes."""
+    """Return a child of a profile, or the fragment that it includes."""
     fragment = _FRAGMENT.fullmatch(child.attributes.get("xpointer", ""))
     if child.tag != "xi:include" or child.attributes.get("href") != "common.xml" or fragment is None:
         return [child]
