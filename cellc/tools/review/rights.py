@@ -15,7 +15,6 @@ from cellc.tools.review.leaves import Leaf, Path
 POLICY, COMMON = "security/policy.xml", "security/common.xml"
 _FRAGMENT = re.compile(r"xpointer\(/common/(\w+)/\*\)")
 _GROUPS = ("topics", "services", "actions")
-_OTHER = "other"
 # A spawner names itself after the first of its controllers, whose order says nothing.
 _SPAWNER = re.compile(r"^spawner_.+")
 
@@ -42,11 +41,13 @@ def _of_profile(profile: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> I
     node = f"{home}/{_SPAWNER.sub('spawner', profile.attributes.get('node', ''))}"
     for group in (group for child in profile.children for group in _included(child, kinds)):
         if group.tag not in _GROUPS:
-            yield _OTHER, " ".join((group.tag, *group.attributes.values()))
+            yield "other", " ".join((group.tag, *group.attributes.values()))
             continue
+        names = [entry.text.strip() for entry in group.children]
+        full = [node + name[1:] if name.startswith("~") else name for name in names]
         for right, qualifier in group.attributes.items():
             kind = right if qualifier == "ALLOW" else f"{qualifier} {right}"
-            yield from ((kind, _full(entry.text.strip(), home, node)) for entry in group.children)
+            yield from ((kind, name if name.startswith("/") else f"{home}/{name}") for name in full)
 
 
 def _included(child: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> list[XmlElement]:
@@ -55,9 +56,3 @@ def _included(child: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> list[
     if child.tag != "xi:include" or child.attributes.get("href") != "common.xml" or fragment is None:
         return [child]
     return kinds.get(fragment[1], [child])
-
-
-def _full(name: str, home: str, node: str) -> str:
-    if name.startswith("~"):
-        return node + name[1:]
-    return name if name.startswith("/") else f"{home}/{name}"
