@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
@@ -19,20 +20,47 @@ _ROUNDING_KG = 0.05
 _EFFORT = "effort"
 
 
+@dataclass(frozen=True, slots=True)
+class _Commands:
+    """What moves joints: those that are moved on a path, and the first that commands each, with its interface."""
+
+    on_paths: frozenset[str]
+    first: Mapping[str, tuple[Controller, str]]
+    adapted: frozenset[str]
+
+
 def control_laws(cell: Cell) -> Mapping[str, ControlLaw]:
     """Return the law of every device that moves on a path, by its name."""
-    laws = ((device.name, _law(cell, device)) for device in cell.devices)
+    commands = _commands(cell)
+    laws = ((device.name, _law(cell, device, commands)) for device in cell.devices)
     return {name: law for name, law in laws if law is not None}
 
 
-def _law(cell: Cell, device: Device) -> ControlLaw | None:
+def _commands(cell: Cell) -> _Commands:
+    followed = {joint for one in cell.controllers if one.behavior in TRAJECTORIES for joint in one.joints}
+    followed |= {joint for group in cell.groups for joint in group.joints}
+    followed |= {joint for adapted in cell.adapters for joint in adapted.joints}
+    first: dict[str, tuple[Controller, str]] = {}
+    # Of the real target before that of the mock, a trajectory before others, what is active before what is not.
+    order = (
+        (("real" not in one.targets, one.behavior not in TRAJECTORIES, not one.active), one) for one in cell.controllers
+    )
+    for _, controller in sorted(order, key=lambda pair: pair[0]):
+        for claim in controller.claims(controller.targets[-1]):
+            joint, _, kind = claim.rpartition("/")
+            first.setdefault(joint, (controller, kind))
+    return _Commands(frozenset(followed), first, frozenset(adapted.device for adapted in cell.adapters))
+
+
+def _law(cell: Cell, device: Device, commands: _Commands) -> ControlLaw | None:
     """Return the law of what commands a device on the real target; None where nothing moves it on a path."""
     joints = tuple(joint.name for joint in device.actuated_joints if not _is_finger(device, joint.name))
-    if not set(joints) & _on_paths(cell):
+    if commands.on_paths.isdisjoint(joints):
         return None
-    if any(adapted.device == device.name for adapted in cell.adapters):
+    if device.name in commands.adapted:
         return _adapted(cell, device, joints)
-    controller, kind = _commanded(cell, joints)
+    commanded = [commands.first[joint] for joint in joints if joint in commands.first]
+    controller, kind = commanded[0] if commanded else (None, "")
     law = _of_kind(device.laws, kind)
     if law is None:
         by = f" for commands by `{kind}`" if device.laws else ""
@@ -40,30 +68,11 @@ def _law(cell: Cell, device: Device) -> ControlLaw | None:
     if law.loop is not Loop.SPRING:
         return ControlLaw(loop=law.loop, because=law.because if law.loop is Loop.UNKNOWN else "", held=law.held)
     springs = _springs(device, joints, law, controller, cell.distro)
-    if isinstance(springs, str):
-        return _unknown(springs)
-    return _spring(cell, device, law, springs)
+    return _unknown(springs) if isinstance(springs, str) else _spring(cell, device, law, springs)
 
 
 def _is_finger(device: Device, joint: str) -> bool:
     return device.gripper is not None and joint == device.gripper.joint
-
-
-def _on_paths(cell: Cell) -> set[str]:
-    followed = {joint for one in cell.controllers if one.behavior in TRAJECTORIES for joint in one.joints}
-    grouped = {joint for group in cell.groups for joint in group.joints}
-    return followed | grouped | {joint for adapted in cell.adapters for joint in adapted.joints}
-
-
-def _commanded(cell: Cell, joints: Sequence[str]) -> tuple[Controller | None, str]:
-    """Return what commands the joints first, of the real target where it is there, and by which interface."""
-    order = {one.label: (one.behavior not in TRAJECTORIES, not one.active) for one in cell.controllers}
-    for controller in sorted(cell.controllers, key=lambda one: ("real" not in one.targets, *order[one.label])):
-        for claim in controller.claims(controller.targets[-1]):
-            joint, _, kind = claim.rpartition("/")
-            if joint in joints:
-                return controller, kind
-    return None, ""
 
 
 def _of_kind(laws: Sequence[CommandLaw], kind: str) -> CommandLaw | None:

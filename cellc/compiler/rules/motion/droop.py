@@ -110,18 +110,27 @@ def droop_into_contact(graph: CellGraph) -> Findings:
 @rule(Severity.BLOCKER)
 def unknown_control_law(graph: CellGraph) -> Findings:
     """Yield devices that move on a path while nothing says how far a load moves their joints."""
+    adapted = {one.device for one in graph.cell.adapters}
+    resting = _resting(graph)
     for owner, law in control_laws(graph.cell).items():
         if law.loop is not Loop.UNKNOWN:
             continue
         device = graph.cell.device(owner)
-        joints = {joint.name for joint in device.joints}
-        resting = [f"`{one.path[-1]}` of `{one.owner}`" for one in _bounds(graph) if joints & set(one.joints)]
-        goals = {goal.name: goal.group for goal in graph.cell.goals}
-        groups = {group.name for group in graph.cell.groups if joints & set(group.joints)}
-        uncertainty = graph.cell.uncertainty
-        judged = () if uncertainty is None else uncertainty.tolerances_m
-        resting += [f"the tolerance of goal `{name}`" for name in judged if goals.get(name) in groups]
-        message = f"it is not known how far a load moves the joints of `{device.name}`: {law.because}"
-        rests = f"; on it rest {', '.join(resting)}" if resting else ""
-        key = "adapter" if any(adapted.device == device.name for adapted in graph.cell.adapters) else "model"
-        yield found(graph, (*device.path, key), message + rests)
+        names = dict.fromkeys(name for joint in device.joints for name in resting.get(joint.name, ()))
+        message = f"it is not known how far a load moves the joints of `{owner}`: {law.because}"
+        rests = f"; on it rest {', '.join(names)}" if names else ""
+        yield found(graph, (*device.path, "adapter" if owner in adapted else "model"), message + rests)
+
+
+def _resting(graph: CellGraph) -> Mapping[str, list[str]]:
+    """Return what rests on where a joint is, joint by joint: tolerances of joints, and those of goals."""
+    found: dict[str, list[str]] = {}
+    for bound in _bounds(graph):
+        for joint in bound.joints:
+            found.setdefault(joint, []).append(f"`{bound.path[-1]}` of `{bound.owner}`")
+    groups = {group.name: group for group in graph.cell.groups}
+    judged = {} if graph.cell.uncertainty is None else graph.cell.uncertainty.tolerances_m
+    for goal in graph.cell.goals:
+        for joint in groups[goal.group].joints if goal.name in judged and goal.group in groups else ():
+            found.setdefault(joint, []).append(f"the tolerance of goal `{goal.name}`")
+    return found
