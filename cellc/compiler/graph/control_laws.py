@@ -37,19 +37,20 @@ def control_laws(cell: Cell) -> Mapping[str, ControlLaw]:
 
 
 def _commands(cell: Cell) -> _Commands:
-    followed = {joint for one in cell.controllers if one.behavior in TRAJECTORIES for joint in one.joints}
+    followed = {joint for loop in cell.controllers if loop.behavior in TRAJECTORIES for joint in loop.joints}
     followed |= {joint for group in cell.groups for joint in group.joints}
     followed |= {joint for adapted in cell.adapters for joint in adapted.joints}
     first: dict[str, tuple[Controller, str]] = {}
-    # Of the real target before that of the mock, a trajectory before others, what is active before what is not.
-    order = (
-        (("real" not in one.targets, one.behavior not in TRAJECTORIES, not one.active), one) for one in cell.controllers
-    )
-    for _, controller in sorted(order, key=lambda pair: pair[0]):
+    for controller in sorted(cell.controllers, key=_rank):
         for claim in controller.claims(controller.targets[-1]):
             joint, _, kind = claim.rpartition("/")
             first.setdefault(joint, (controller, kind))
     return _Commands(frozenset(followed), first, frozenset(adapted.device for adapted in cell.adapters))
+
+
+def _rank(controller: Controller) -> tuple[bool, bool, bool]:
+    """Order what the real target has before the rest, trajectories before others, what is active before what is not."""
+    return "real" not in controller.targets, controller.behavior not in TRAJECTORIES, not controller.active
 
 
 def _law(cell: Cell, device: Device, commands: _Commands) -> ControlLaw | None:
@@ -137,7 +138,7 @@ def _number(value: object) -> float | None:
 
 
 def _adapted(cell: Cell, device: Device, joints: Sequence[str]) -> ControlLaw:
-    """Return the law of a loop on the vendor's library: what the spec says of it, against the gravity of the device."""
+    """Return the law of a loop on the vendor's library: what the spec states, against the gravity of the device."""
     stated, always = device.adapter or Adapter(), next((law for law in device.laws if not law.commands), None)
     if stated.stiffness is None:
         if always is not None and always.loop is Loop.POSITION:

@@ -50,7 +50,7 @@ def droop_beyond_tolerance(graph: CellGraph) -> Findings:
     answer, laws = motion_answer(graph), _laws(graph)
     for bound in _bounds(graph):
         places = answer.droops if bound.at_rest else (*answer.droops, *answer.on_paths)
-        beyond = [one for one in places if abs(one.droop) > bound.joints.get(one.joint, abs(one.droop))]
+        beyond = [place for place in places if abs(place.droop) > bound.joints.get(place.joint, abs(place.droop))]
         if not beyond:
             continue
         worst = max(beyond, key=lambda one: abs(one.droop) / bound.joints[one.joint])
@@ -96,10 +96,10 @@ def droop_into_contact(graph: CellGraph) -> Findings:
     """Yield poses and goals in which something touches because joints are not where they are commanded."""
     paths = {pose.name: pose.path for pose in graph.cell.poses}
     paths |= {goal.name: (*goal.path, "frame") for goal in graph.cell.goals}
-    told: set[tuple[BodyContact, ...]] = set()
+    seen: set[tuple[BodyContact, ...]] = set()
     for tip in motion_answer(graph).tips:
-        if tip.contacts and tip.contacts not in told:
-            told.add(tip.contacts)
+        if tip.contacts and tip.contacts not in seen:
+            seen.add(tip.contacts)
             loaded = " with a part" if tip.holding else ""
             message = f"in `{tip.posture}`{loaded} the arm droops until {named(tip.contacts)}:"
             yield found(
@@ -110,7 +110,7 @@ def droop_into_contact(graph: CellGraph) -> Findings:
 @rule(Severity.BLOCKER)
 def unknown_control_law(graph: CellGraph) -> Findings:
     """Yield devices that move on a path while nothing says how far a load moves their joints."""
-    adapted = {one.device for one in graph.cell.adapters}
+    adapted = {driven.device for driven in graph.cell.adapters}
     resting = _resting(graph)
     for owner, law in control_laws(graph.cell).items():
         if law.loop is not Loop.UNKNOWN:
