@@ -6,8 +6,9 @@ from pydantic import Field
 
 from cellc.contract.base import ContractModel
 from cellc.contract.entities import Target
+from cellc.contract.faults import FaultKind
 from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
-from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase
 
 
 class StepEntry(ContractModel):

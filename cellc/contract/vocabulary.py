@@ -141,39 +141,6 @@ class AttemptOutcome(Term):
     TIMEOUT = "timeout"
 
 
-class FaultKind(Term):
-    """What can be made to fail in a rehearsal."""
-
-    FREEZE = "freeze"
-    DELAY = "delay"
-    DROP_FRAME = "drop_frame"
-    DOUBLE_FRAME = "double_frame"
-    JUMP_CLOCK = "jump_clock"
-    MISMATCH_QOS = "mismatch_qos"
-    UNRESPONSIVE = "unresponsive"
-    UNREACHABLE = "unreachable"
-    REJECT = "reject"
-    CANCEL = "cancel"
-    SECOND_COMMANDER = "second_commander"
-    SWITCH = "switch"
-    STICK = "stick"
-    SLOW = "slow"
-    DISPLACE = "displace"
-    SCALE_SPEED = "scale_speed"
-    SKIP_CYCLES = "skip_cycles"
-    WRONG_PAYLOAD = "wrong_payload"
-    PROTECTIVE_STOP = "protective_stop"
-    EMERGENCY_STOP = "emergency_stop"
-    RESTART_DRIVER = "restart_driver"
-    CUT_NETWORK = "cut_network"
-    PROGRAM_STOP = "program_stop"
-    PROGRAM_START = "program_start"
-    JOG = "jog"
-    STALE_SET_POINTS = "stale_set_points"
-    BRAKES_CLOSED = "brakes_closed"
-    SILENT_SENSOR = "silent_sensor"
-
-
 class Moment(Term):
     """When a device may act in the world: a step of its hardware component, or what its own controller does."""
 
@@ -260,34 +227,6 @@ class Unmet(Term):
     UNNOTICED = "unnoticed"
     """It succeeds as if the need were met."""
     UNKNOWN = "unknown"
-
-
-class Loop(Term):
-    """What holds the joints of a real device at what they are commanded."""
-
-    POSITION = "position"
-    """A position loop of the device's own, whatever the joints carry."""
-    SPRING = "spring"
-    """A torque for each rad from the command: a load moves the joint."""
-    UNKNOWN = "unknown"
-
-
-class Gravity(Term):
-    """Who holds joints behind springs against gravity."""
-
-    SPRING = "spring"
-    """The springs alone: the arm droops under its own weight."""
-    COMPENSATED = "compensated"
-    """The device, for its own links and the payload that it is set to; the springs hold what differs from that."""
-
-
-class Held(Term):
-    """What stays in force when a goal is canceled or aborted."""
-
-    MEASURED = "measured"
-    """Where the joints are: behind springs, they sink once more by as much."""
-    COMMANDED = "commanded"
-    """The last set point."""
 
 
 class BringUpPhase(Term):

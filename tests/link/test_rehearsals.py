@@ -8,6 +8,7 @@ import pytest
 
 from cellc.compiler.cell.motion import Fault, Rehearsal, StepEvent
 from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.faults import FaultKind
 from tests.cells import linked, linking, spec_text, written
 
 
@@ -38,12 +39,12 @@ def refused(folder: Path, inject: str) -> Diagnostic:
 @pytest.mark.parametrize(
     ("inject", "kind", "name", "field", "value"),
     [
-        ("{jump_clock: control_pc, by: -250 ms, at: 1 s}", "jump_clock", "control_pc", "jump_s", -0.25),
-        ("{jump_clock: camera, by: 1 s, at: 1 s}", "jump_clock", "camera", "jump_s", 1.0),
-        ("{slow: arm/elbow_joint, to: 180 deg/s, at: 1 s}", "slow", "arm_elbow_joint", "velocity", 3.141592653589793),
-        ("{displace: arm/elbow_joint, by: 0.3 rad, at: 1 s}", "displace", "arm_elbow_joint", "displacement", 0.3),
-        ("{scale_speed: arm, to: 25 %, at: 1 s}", "scale_speed", "arm", "factor", 0.25),
-        ("{delay: camera, by: 300 ms, at: 1 s}", "delay", "camera", "delay_s", 0.3),
+        ("{jump_clock: control_pc, by: -250 ms, at: 1 s}", "jump_clock", "control_pc", "amount", -0.25),
+        ("{jump_clock: camera, by: 1 s, at: 1 s}", "jump_clock", "camera", "amount", 1.0),
+        ("{slow: arm/elbow_joint, to: 180 deg/s, at: 1 s}", "slow", "arm_elbow_joint", "amount", 3.141592653589793),
+        ("{displace: arm/elbow_joint, by: 0.3 rad, at: 1 s}", "displace", "arm_elbow_joint", "amount", 0.3),
+        ("{scale_speed: arm, to: 25 %, at: 1 s}", "scale_speed", "arm", "amount", 0.25),
+        ("{delay: camera, by: 300 ms, at: 1 s}", "delay", "camera", "amount", 0.3),
         ("{skip_cycles: 7, at: 1 s}", "skip_cycles", "", "cycles", 7),
         ("{restart_driver: arm, at: 1 s, lasting: 2 s}", "restart_driver", "arm", "lasting_s", 2.0),
         ("{double_frame: camera/color_optical, at: 1 s}", "double_frame", "camera_color_optical_frame", "at_s", 1.0),
@@ -86,6 +87,12 @@ def test_acknowledge_step_names_who_acknowledges(tmp_path: Path) -> None:
             "no device with speed scaling `gripper`",
             "`arm`",
         ),
+        (
+            "{stale_set_points: camera, at: 1 s}",
+            "unknown-device",
+            "there is no device with a program that set points pass through `camera`",
+            "one of the devices with a program that set points pass through of this cell: `arm`",
+        ),
         ("{wrong_payload: gripper, at: 1 s}", "unknown-device", "there is no arm `gripper`", ""),
         ("{switch: to_efort, at: 1 s}", "unknown-controller", "there is no switch or controller `to_efort`", ""),
         ("{freeze: camera, at: {step: 8}}", "event-never-comes", "there is no step 8: the rehearsal has 7", "1 to 7"),
@@ -114,6 +121,14 @@ def test_fault_that_cannot_happen_is_reported_with_what_can(
     assert found.code == code
     assert message in found.message
     assert help_ in found.help
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FaultKind if kind not in ("cancel", "skip_cycles")])
+def test_a_name_that_is_not_in_the_cell_is_reported_for_every_fault(tmp_path: Path, kind: FaultKind) -> None:
+    by = "" if kind.by is None else f", {kind.by.amount.key}: {kind.by.example}"
+    found = refused(tmp_path, f"{{{kind}: zzz{by}, at: 1 s}}")
+    assert (found.code.partition("-")[0], found.yaml_path[-1]) == ("unknown", kind)
+    assert f"there is no {kind.hits.target.noun} `zzz`" in found.message
 
 
 def test_the_only_gripper_needs_no_name(tmp_path: Path) -> None:

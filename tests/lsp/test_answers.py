@@ -35,6 +35,32 @@ def test_completion_in_a_text_that_is_being_written(place: str) -> None:
     assert expected in [one.word for one in completions(before + after, line, column, Known())]
 
 
+_HIT = {
+    "freeze": "camera",
+    "scale_speed": "arm",
+    "silent_sensor": "gripper",
+    "jog": "arm/elbow_joint",
+    "drop_frame": "object",
+    "mismatch_qos": "/object_pose",
+    "unreachable": "pick",
+    "second_commander": "arm_trajectory",
+    "unresponsive": "move_group",
+    "jump_clock": "control_pc",
+    "cancel": "grip",
+}
+
+
+@pytest.mark.parametrize("kind", _HIT)
+def test_completion_offers_what_a_fault_hits(kind: str) -> None:
+    spec = spec_of("ur5e_pick").as_posix()
+    cells = Cells()
+    cells.check(spec, {})
+    text = f"rehearsals:\n  a:\n    inject: {{{kind}: }}\n"
+    proposed = completions(text, 3, len(f"    inject: {{{kind}: ") + 1, cells.known(spec))
+    assert _HIT[kind] in [one.word for one in proposed]
+    assert "world" not in [one.word for one in proposed] or kind == "drop_frame"
+
+
 _WRITTEN = [
     ("parent: arm/too^l0", 'child="tool0"'),  # a macro makes the link, and its call has the name
     ("tip: arm/wrist_3^_link", '<link name="wrist_3_link"'),

@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import load
 from cellc.mock.cell import cell_of
 from cellc.mock.folder import GeneratedFolder

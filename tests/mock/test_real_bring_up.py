@@ -13,8 +13,9 @@ from dataclasses import replace
 import pytest
 
 from cellc.contract.bring_up import Activation, BringUpStep, HardwareActivation
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
-from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind, ManagerLock, Moment, Need, Unmet
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, ManagerLock, Moment, Need, Unmet
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.effects import Effects

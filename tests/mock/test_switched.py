@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.contract import ContractSwitched
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults

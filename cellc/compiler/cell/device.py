@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from cellc.compiler.catalog.version_rows import VersionRow
 from cellc.compiler.cell.entity import Entity
 from cellc.compiler.cell.frame import WORLD
-from cellc.compiler.cell.hardware import CommandLaw, Effect, HardwareComponent
+from cellc.compiler.cell.hardware import Effect, HardwareComponent
 from cellc.compiler.cell.kinematics import Kinematics, VendorDescription
 from cellc.compiler.cell.robot import (
     CollisionThresholds,
@@ -128,17 +128,12 @@ class Stamp:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Adapter:
-    """Watchdog, bounds and springs of a direct SDK; None where the spec leaves them to the default.
-
-    ``stiffness`` is in N m/rad and ``damping`` in N m s/rad, joint by joint.
-    """
+    """Watchdog and bounds of a direct SDK; None where the spec leaves them to the default."""
 
     command_timeout_s: float | None = None
     stop_time_s: float | None = None
     goal_time_s: float | None = None
     path_tolerance: JointFigure | None = None
-    stiffness: tuple[float, ...] | None = None
-    damping: tuple[float, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -267,7 +262,6 @@ class Device(Entity):
         kinematics: whose joints the description has; None where robots of the type do not differ.
         payload_limit_kg: what may hang on the flange, tool included.
         repeatability_m: pose repeatability of its tip (ISO 9283); None where the catalog has none.
-        laws: how the joints of the real one follow commands, by the command interface.
         update_rates_hz: those that the device accepts; any where empty.
         controller_kinds: kinds of controllers that only this device has.
         speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
@@ -323,7 +317,6 @@ class Device(Entity):
     optical_frames: tuple[str, ...] = ()
     payload_limit_kg: float | None = None
     repeatability_m: float | None = None
-    laws: tuple[CommandLaw, ...] = ()
     update_rates_hz: tuple[float, ...] = ()
     controller_kinds: tuple[str, ...] = ()
     speed_scaling: str | None = None

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from cellc.compiler.cell.interface import InnerNode
 from cellc.contract.entities import Target
-from cellc.contract.vocabulary import CommandAuthority, Gravity, Held, Loop, ManagerLock, Moment, Motion, Need, Unmet
+from cellc.contract.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,28 +61,6 @@ class NeedReport:
     type: str
     field: str
     value: bool | int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CommandLaw:
-    """How joints of a real device follow commands of some interfaces; without ``commands`` those of all others.
-
-    Args:
-        gains: where the figures of a spring are: controller, plugin or impedance; None of what is no spring.
-        stiffness, damping: parameters of the real plugin that have them, joint by joint.
-        lags: damping brakes the motion, not its error.
-        because: why the loop is not known.
-    """
-
-    commands: tuple[str, ...]
-    loop: Loop
-    gains: str | None
-    stiffness: tuple[str, ...]
-    damping: tuple[str, ...]
-    lags: bool
-    gravity: Gravity
-    held: Held
-    because: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from cellc.compiler.cell.entity import Entity
 from cellc.compiler.cell.interface import ParameterValue
+from cellc.contract.faults import FaultKind
 from cellc.contract.transforms import Pose, Vector3
 
 
@@ -146,20 +147,17 @@ class Fault(Entity):
     """One fault: ``kind`` as in the spec, ``name`` the ROS name of what it hits; times in simulated seconds.
 
     It begins at ``at_s``, with ``event`` or with ``phase`` of the bring-up; two of them are None.
+    ``amount`` is what its kind says beside the target, in SI; ``linear`` where that is in meters.
     """
 
-    kind: str
+    kind: FaultKind
     at_s: float | None
     event: StepEvent | None
     phase: str | None
     lasting_s: float | None
     cycles: int | None
-    delay_s: float | None
-    jump_s: float | None
-    displacement: float | None
-    velocity: float | None
+    amount: float | None
     linear: bool
-    factor: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -51,7 +51,7 @@ def _step(step: Step) -> StepEntry:
 
 
 def _fault(fault: Fault) -> FaultEntry:
-    event = fault.event
+    event, by = fault.event, fault.kind.by
     return FaultEntry.model_validate(
         {
             "kind": fault.kind,
@@ -61,10 +61,6 @@ def _fault(fault: Fault) -> FaultEntry:
             "phase": fault.phase,
             "lasting_s": fault.lasting_s,
             "cycles": fault.cycles,
-            "delay_s": fault.delay_s,
-            "jump_s": fault.jump_s,
-            "displacement": fault.displacement,
-            "velocity": fault.velocity,
-            "factor": fault.factor,
+            **({} if by is None else {by.amount.field: fault.amount}),
         }
     )

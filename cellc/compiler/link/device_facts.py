@@ -167,8 +167,6 @@ def _adapter(written: DeviceSpec) -> Adapter | None:
         stop_time_s=si(adapter.stop_time),
         goal_time_s=si(adapter.goal_time),
         path_tolerance=None if adapter.path_tolerance is None else joint_figure(adapter.path_tolerance),
-        stiffness=None if adapter.stiffness is None else adapter.stiffness.si,
-        damping=None if adapter.damping is None else adapter.damping.si,
     )
 
 

@@ -11,7 +11,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.motion import Fault, Rehearsal, Step
 from cellc.compiler.cell.switched import Switched
-from cellc.compiler.link.faults import Target, fault_targets, link_fault
+from cellc.compiler.link.faults import Names, fault_targets, link_fault
 from cellc.compiler.link.frames import FrameNames
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
@@ -30,6 +30,7 @@ from cellc.compiler.spec.rehearsals import (
     StepSpec,
 )
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.contract.faults import FaultTarget
 from cellc.contract.vocabulary import InterfaceKind
 
 _Bound = TypeVar("_Bound", Step, Fault)
@@ -48,7 +49,7 @@ class _Names:
     grippers: tuple[str, ...]
     switched: Mapping[str, Switched]
     services: tuple[str, ...]
-    faults: Mapping[str, Target]
+    faults: Mapping[FaultTarget, Names]
 
 
 def link_rehearsals(

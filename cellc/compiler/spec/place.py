@@ -10,6 +10,7 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 from pydantic import BaseModel, Discriminator, Tag
 from pydantic.fields import FieldInfo
 
+from cellc.compiler.spec.kinds import Kinds
 from cellc.contract.diagnostics import YamlPath
 
 _KEY_MARK = "[key]"  # how pydantic ends the location of an error in a key
@@ -64,11 +65,16 @@ def required(annotation: object) -> object:
 
 def is_tagged(annotation: object) -> bool:
     """Whether the annotation is a union whose branch is reported by a discriminator."""
-    return get_origin(annotation) is Annotated and any(isinstance(m, Discriminator) for m in get_args(annotation)[1:])
+    return get_origin(annotation) is Annotated and any(
+        isinstance(each, (Discriminator, Kinds)) for each in get_args(annotation)[1:]
+    )
 
 
 def branches(annotation: object) -> dict[str, object]:
     """Return the branches of a tagged union by tag, in the order of the union."""
+    kinds = _kinds(annotation)
+    if kinds is not None:
+        return {str(key): kinds.model(key) for key in kinds.keys}
     options = get_args(get_args(annotation)[0])
     return {entry.tag: option for option in options for entry in get_args(option)[1:] if isinstance(entry, Tag)}
 
@@ -82,11 +88,22 @@ def chosen(annotation: object, data: object) -> object:
     """Return the annotation that reads ``data``: of a tagged union the branch, of an optional one what is there."""
     annotation = required(annotation)
     while is_tagged(annotation):
-        discriminator = next(
-            argument for argument in get_args(annotation)[1:] if isinstance(argument, Discriminator)
-        ).discriminator
-        annotation = required(branch(annotation, str(discriminator(data)) if callable(discriminator) else ""))
+        annotation = required(_chosen(annotation, data))
     return annotation
+
+
+def _chosen(annotation: object, data: object) -> object:
+    """Return the branch of a tagged union that reads ``data``."""
+    kinds = _kinds(annotation)
+    if kinds is not None:
+        key = kinds.key_of(data)
+        return object if key is None else kinds.model(key)
+    tag = next(each for each in get_args(annotation)[1:] if isinstance(each, Discriminator)).discriminator
+    return branch(annotation, str(tag(data)) if callable(tag) else "")
+
+
+def _kinds(annotation: object) -> Kinds[str] | None:
+    return next((each for each in get_args(annotation)[1:] if isinstance(each, Kinds)), None)
 
 
 def bare(annotation: object) -> object:

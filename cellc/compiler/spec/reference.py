@@ -12,7 +12,7 @@ from pydantic import BaseModel
 
 from cellc.compiler.spec import base
 from cellc.compiler.spec.cell_spec import CellSpec
-from cellc.compiler.spec.place import keys_in_order
+from cellc.compiler.spec.place import branches, is_tagged, keys_in_order
 from cellc.compiler.spec.schema import cell_schema
 
 _INTRODUCTION = """\
@@ -198,7 +198,7 @@ def _models(annotation: Any) -> Iterator[type[BaseModel]]:
         yield annotation
         for field in annotation.model_fields.values():
             yield from _models(field.annotation)
-    for part in get_args(annotation):
+    for part in branches(annotation).values() if is_tagged(annotation) else get_args(annotation):
         yield from _models(part)
 
 

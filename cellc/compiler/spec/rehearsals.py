@@ -1,11 +1,13 @@
 """What the mock executes, what it must end in, what is measured and what is recorded."""
 
+from collections.abc import Mapping
 from typing import Annotated, Literal, Union
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from cellc.compiler.spec.base import MOST, Name, Pin, SpecModel, StandardOr, Text
-from cellc.compiler.spec.faults import FaultsSpec, first_key
+from cellc.compiler.spec.faults import FaultsSpec
+from cellc.compiler.spec.kinds import Kinds
 from cellc.compiler.spec.quantity import Confidence, Duration, PositiveDuration, Rate, Share
 from cellc.contract.entities import Target
 from cellc.contract.vocabulary import UNKNOWN, AttemptOutcome
@@ -65,29 +67,19 @@ class AcknowledgeStep(SpecModel):
     acknowledge: Literal["operator"] = Field(..., description="Who acknowledges.", examples=["operator"])
 
 
-_STEP_KEYS = ("move", "detect", "grip", "set", "sense", "call", "wait", "acknowledge")
-
-
-def _step_key(value: object) -> str | None:
-    return first_key(value, _STEP_KEYS)
-
-
+_STEPS: Mapping[str, type[SpecModel]] = {
+    "move": MoveStep,
+    "detect": DetectStep,
+    "grip": GripStep,
+    "set": SetStep,
+    "sense": SenseStep,
+    "call": CallStep,
+    "wait": WaitStep,
+    "acknowledge": AcknowledgeStep,
+}
 StepSpec = Annotated[
-    Union[
-        Annotated[MoveStep, Tag("move")],
-        Annotated[DetectStep, Tag("detect")],
-        Annotated[GripStep, Tag("grip")],
-        Annotated[SetStep, Tag("set")],
-        Annotated[SenseStep, Tag("sense")],
-        Annotated[CallStep, Tag("call")],
-        Annotated[WaitStep, Tag("wait")],
-        Annotated[AcknowledgeStep, Tag("acknowledge")],
-    ],
-    Discriminator(
-        _step_key,
-        custom_error_type="step-kind-missing",
-        custom_error_message="a step needs one of the keys " + ", ".join(f"`{key}`" for key in _STEP_KEYS),
-    ),
+    Union[MoveStep, DetectStep, GripStep, SetStep, SenseStep, CallStep, WaitStep, AcknowledgeStep],
+    Kinds("step", tuple(_STEPS), _STEPS.__getitem__),
 ]
 
 

@@ -8,9 +8,10 @@ from functools import partial
 from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractFrame
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.transforms import Pose
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, ends_in, fault_case, published_frames
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts

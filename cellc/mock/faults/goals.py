@@ -8,8 +8,9 @@ from functools import partial
 from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractController
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import TRAJECTORIES, AttemptOutcome, Behavior, FaultKind
+from cellc.contract.vocabulary import TRAJECTORIES, AttemptOutcome, Behavior
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, cell_steps, controllers, ends_in, fault_case
 from cellc.mock.faults.endings import Bounds

@@ -8,8 +8,9 @@ from functools import partial
 from typing import ClassVar
 
 from cellc.contract.contract import Contract
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome, Behavior, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome, Behavior
 from cellc.mock.faults.cases import (
     BORNE,
     CellStep,

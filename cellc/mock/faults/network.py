@@ -9,8 +9,9 @@ from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.entities import ContractInterface
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.bus.qos import served_actions
 from cellc.mock.faults.cases import (
     BORNE,

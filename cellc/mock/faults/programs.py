@@ -11,8 +11,9 @@ from functools import partial
 from typing import ClassVar, TypeVar
 
 from cellc.contract.contract import Contract
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind, Moment, Need, Unmet
+from cellc.contract.vocabulary import AttemptOutcome, Moment, Need, Unmet
 from cellc.mock.effects import JOGGED, REACTION_NS
 from cellc.mock.errors import FaultMissedError
 from cellc.mock.faults.cases import CellStep, Ending, FaultCase, ends_in, fault_case, joints_of_device

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from cellc.contract.contract import Contract
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import FaultKind
 from cellc.mock.errors import FaultMissedError, MockError
+from cellc.mock.faults import frames, goals, joints, network, programs, samples, sensors, stops
 from cellc.mock.faults.cases import FaultCase
-from cellc.mock.faults.frames import DoubleFrame, DropFrame, JumpClock
-from cellc.mock.faults.goals import Cancel, Reject, SecondCommander, Switch, Unreachable
-from cellc.mock.faults.joints import Displace, ScaleSpeed, SkipCycles, Slow, Stick
-from cellc.mock.faults.network import CutNetwork, MismatchQos, Unresponsive
 from cellc.mock.faults.ports import FaultPorts
-from cellc.mock.faults.programs import BrakesClosed, Jog, ProgramStart, ProgramStop, StaleSetPoints
-from cellc.mock.faults.samples import Delay, Freeze
-from cellc.mock.faults.sensors import SilentSensor
-from cellc.mock.faults.stops import EmergencyStop, ProtectiveStop, RestartDriver, WrongPayload
 
 
 class Fault(Protocol):
@@ -34,8 +27,9 @@ class Fault(Protocol):
         ...
 
 
+@runtime_checkable
 class FaultType(Protocol):
-    """What the class of a fault offers beside; ``registry.FAULTS`` names every class."""
+    """What the class of a fault offers beside: the kind that it plays, and its cases."""
 
     kind: FaultKind
 
@@ -114,37 +108,14 @@ def any_started(injections: Iterable[Injection]) -> bool:
     return any(injection.touched for injection in injections)
 
 
-FAULTS: tuple[FaultType, ...] = (
-    Delay,
-    Freeze,
-    DropFrame,
-    DoubleFrame,
-    JumpClock,
-    MismatchQos,
-    Unresponsive,
-    Unreachable,
-    Reject,
-    Cancel,
-    SecondCommander,
-    Switch,
-    Stick,
-    Slow,
-    Displace,
-    ScaleSpeed,
-    SkipCycles,
-    WrongPayload,
-    ProtectiveStop,
-    EmergencyStop,
-    RestartDriver,
-    CutNetwork,
-    ProgramStop,
-    ProgramStart,
-    Jog,
-    StaleSetPoints,
-    BrakesClosed,
-    SilentSensor,
-)
-_BY_KIND = {fault.kind: fault for fault in FAULTS}
+_MODULES = (samples, frames, network, goals, joints, stops, programs, sensors)
+FAULTS: Mapping[FaultKind, FaultType] = {
+    played.kind: played
+    for module in _MODULES
+    for played in vars(module).values()
+    if isinstance(played, FaultType) and getattr(played, "__module__", "") == module.__name__
+}
+"""The classes of these modules that have a kind."""
 
 
 def build_fault(entry: FaultEntry, contract: Contract) -> Fault:
@@ -152,7 +123,7 @@ def build_fault(entry: FaultEntry, contract: Contract) -> Fault:
     if [entry.at_s, entry.event, entry.phase].count(None) != 2:
         reason = f"fault `{entry.kind}` needs either a time or an event that begins it"
         raise MockError(contract.files.rehearsals, reason)
-    fault = _BY_KIND[entry.kind].of(entry, contract)
+    fault = FAULTS[entry.kind].of(entry, contract)
     if fault is None:
         reason = f"fault `{entry.kind}` names `{entry.target}`, which it cannot hit in this cell"
         raise MockError(contract.files.rehearsals, reason)
@@ -161,4 +132,4 @@ def build_fault(entry: FaultEntry, contract: Contract) -> Fault:
 
 def possible_faults(contract: Contract) -> tuple[FaultCase, ...]:
     """Return every fault that a cell can meet, with what each of its steps may make of it."""
-    return tuple(case for fault in FAULTS for case in fault.cases(contract))
+    return tuple(case for kind in FaultKind if kind in FAULTS for case in FAULTS[kind].cases(contract))

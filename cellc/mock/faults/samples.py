@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from cellc.contract.contract import Contract
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.bus.network import EdgeBehavior
 from cellc.mock.faults.cases import (
     CellStep,

@@ -8,8 +8,9 @@ from functools import partial
 from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractSwitched
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, ends_in, fault_case
 from cellc.mock.faults.endings import Bounds
 from cellc.mock.faults.ports import FaultPorts

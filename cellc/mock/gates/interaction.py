@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.contract.entities import ContractInterface
+from cellc.contract.faults import FaultKind, Interaction
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.gates.command_path import cancel_trace
@@ -18,8 +19,6 @@ from cellc.mock.gates.runs import GateEvidence, JudgedRun
 _IMAGE = "sensor_msgs/msg/Image"
 _JOINT_STATE = "sensor_msgs/msg/JointState"
 _TF = "tf2_msgs/msg/TFMessage"
-_LATE = ("freeze", "delay", "drop_frame", "cut_network")
-_SILENT = ("unresponsive", "reject", "mismatch_qos")
 
 
 def interaction_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
@@ -36,9 +35,8 @@ def interaction_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
 
 def _late_sample(evidence: GateEvidence, name: str, interface: ContractInterface) -> GateCheck:
     text = f"{name} (topic, {interface.wants or 'need not stated'}): a late sample ends in a visible, bounded state"
-    runs = [
-        run for run, fault in evidence.with_fault(*_LATE, "mismatch_qos") if _delays(evidence, fault, name, interface)
-    ]
+    late = evidence.with_fault(Interaction.LATE_SAMPLE)
+    runs = [run for run, fault in late if _delays(evidence, fault, name, interface)]
     return _bounded(text, runs, "a run in which its samples stay away")
 
 
@@ -51,7 +49,8 @@ def _missing_responder(evidence: GateEvidence, name: str, interface: ContractInt
         for controller, facts in manager.controllers.items()
         if facts.action == name
     }
-    runs = [run for run, fault in evidence.with_fault(*_SILENT) if fault.target in servers | {name}]
+    silent = evidence.with_fault(Interaction.MISSING_RESPONDER)
+    runs = [run for run, fault in silent if fault.target in servers | {name}]
     return _bounded(text, runs, "a run in which its server does not answer")
 
 
@@ -74,7 +73,7 @@ def _delays(evidence: GateEvidence, fault: FaultEntry, name: str, interface: Con
     contract = evidence.contract
     if fault.target == name:
         return True
-    if fault.kind == "drop_frame":
+    if fault.kind is FaultKind.DROP_FRAME:
         frame = contract.frames.get(fault.target)
         return frame is not None and name == ("/tf" if frame.moving else "/tf_static") and interface.type == _TF
     device = contract.devices.get(fault.target)
@@ -82,7 +81,7 @@ def _delays(evidence: GateEvidence, fault: FaultEntry, name: str, interface: Con
         return False
     if device.camera is not None:
         return device.camera.topic == name or _follows(interface, contract.interfaces.get(device.camera.topic))
-    return interface.type == _JOINT_STATE and fault.kind in ("freeze", "delay")
+    return interface.type == _JOINT_STATE and fault.kind in (FaultKind.FREEZE, FaultKind.DELAY)
 
 
 def _follows(interface: ContractInterface, images: ContractInterface | None) -> bool:

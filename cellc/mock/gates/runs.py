@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
+from cellc.contract.faults import Interaction
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import LimitsReport
@@ -69,11 +70,11 @@ class GateEvidence:
                 if attempt.controller_name == controller:
                     yield run, attempt
 
-    def with_fault(self, *kinds: str) -> Iterator[tuple[JudgedRun, FaultEntry]]:
-        """Yield the runs with a fault of one of these kinds, and the fault."""
+    def with_fault(self, case: Interaction) -> Iterator[tuple[JudgedRun, FaultEntry]]:
+        """Yield the runs with a fault that provokes a case of the S2 checklist, and the fault."""
         for run in self.runs:
             for fault in run.entry.faults:
-                if fault.kind in kinds:
+                if case in fault.kind.shows:
                     yield run, fault
 
 

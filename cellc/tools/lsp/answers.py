@@ -149,7 +149,7 @@ def _values(typed: Typed, known: Known) -> Iterator[Proposal]:
         yield from _models()
     elif key == "type" and "controllers" in typed.path:
         yield from _controller_types(known)
-    kinds = ("frame",) if takes_a_frame(annotation) else kinds_at(typed.path)
+    kinds = kinds_at(typed.path) or (("frame",) if takes_a_frame(annotation) else ())
     yield from (Proposal(name, kind) for name, kind in known.names.of(kinds))
 
 

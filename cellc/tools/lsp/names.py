@@ -9,6 +9,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.source.document import Plain, SourceDocument
 from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.faults import FaultKind, Reference
 
 _SECTIONS: Mapping[str, YamlPath] = {
     "device": ("devices",),
@@ -28,11 +29,10 @@ _SECTIONS: Mapping[str, YamlPath] = {
 _ENDS = ("node", "controller", "device")
 _KINDS: Mapping[str, tuple[str, ...]] = {
     **dict.fromkeys(("client", "server", "from", "to", "published_by"), _ENDS),
-    **dict.fromkeys(("device", "freeze", "delay", "through", "protective_stop", "emergency_stop"), ("device",)),
-    **dict.fromkeys(("program_stop", "program_start", "restart_driver", "brakes_closed", "grip"), ("device",)),
-    **dict.fromkeys(("joint", "joints", "stick", "jog"), ("joint",)),
+    **dict.fromkeys(("device", "through", "grip"), ("device",)),
+    **dict.fromkeys(("joint", "joints"), ("joint",)),
     **dict.fromkeys(("activate", "deactivate", "controller"), ("controller",)),
-    **dict.fromkeys(("parent", "frame", "tip", "base", "detect", "tcp", "drop_frame", "double_frame"), ("frame",)),
+    **dict.fromkeys(("parent", "frame", "tip", "base", "detect", "tcp"), ("frame",)),
     **dict.fromkeys(("call", "octomap"), ("interface",)),
     "calibration": ("calibration",),
     "group": ("group",),
@@ -44,6 +44,8 @@ _KINDS: Mapping[str, tuple[str, ...]] = {
     "poses": ("group",),
     "use": ("rehearsal",),
 }
+_REFERENCES = {Reference.NODE: ("node", "controller"), Reference.CLOCK: ("host", "device")}
+_FAULTS = {kind.value: kind.hits.target.reference for kind in FaultKind}
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +93,8 @@ def names_of(document: SourceDocument, cell: Cell | None) -> Names:
 def kinds_at(path: YamlPath) -> tuple[str, ...]:
     """Return what the value at a path names, by its key; nothing where it names nothing of the cell."""
     key = next((part for part in reversed(path) if isinstance(part, str)), "")
+    if "inject" in path and key in _FAULTS:
+        return _REFERENCES.get(_FAULTS[key], (_FAULTS[key].value,))
     return _KINDS.get(key, ())
 
 

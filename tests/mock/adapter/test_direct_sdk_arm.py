@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from cellc.contract.adapter import Phase
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
-from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.campaign.campaign import execute

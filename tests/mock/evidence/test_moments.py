@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent
-from cellc.contract.vocabulary import FaultKind
 from cellc.mock.evidence.envelope import Envelope
 from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.result import AttemptRecord, MadeStep, PacketStep, RehearsalResult, TracePoint, simulated_s

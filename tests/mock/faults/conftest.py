@@ -9,8 +9,8 @@ from typing import Any, Literal
 import numpy as np
 import pytest
 
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
-from cellc.contract.vocabulary import FaultKind
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, RehearsalResult

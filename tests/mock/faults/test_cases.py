@@ -10,8 +10,9 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell, load
 from cellc.mock.errors import MockError
 from cellc.mock.faults.cases import BORNE, CellStep, FaultCase, ends_in

@@ -6,8 +6,9 @@ from itertools import pairwise
 
 import pytest
 
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.result import to_json_lines

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.vocabulary import FaultKind
+from cellc.contract.faults import FaultKind
 from cellc.mock import MockCell
 from cellc.mock.faults.registry import possible_faults
 from tests.mock.faults.conftest import Rehearse, during

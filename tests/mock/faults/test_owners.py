@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.contract.vocabulary import FaultKind
+from cellc.contract.faults import FaultKind
 from cellc.mock.faults.goals import CLIENT
 from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wait
 

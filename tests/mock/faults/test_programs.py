@@ -14,8 +14,9 @@ from typing import Any
 import pytest
 
 from cellc.contract.bring_up import Watch
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry
-from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults

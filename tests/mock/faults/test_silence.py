@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from cellc.contract.vocabulary import FaultKind
+from cellc.contract.faults import FaultKind
 from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wait
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cellc.contract.vocabulary import FaultKind
+from cellc.contract.faults import FaultKind
 from cellc.mock import MockCell
 from cellc.mock.control import ControllerManager
 from tests.mock.faults.conftest import ACKNOWLEDGE, DETECT, HOME, PICK, Rehearse, during, wait

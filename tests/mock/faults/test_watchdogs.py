@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import FaultKind
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.faults.stops import RestartDriver
 from cellc.mock.nodes.observations import ObservationInbox

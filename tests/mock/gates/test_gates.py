@@ -7,8 +7,9 @@ from functools import partial
 
 import pytest
 
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome, FaultKind
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell
 from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder

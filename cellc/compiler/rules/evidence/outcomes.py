@@ -30,43 +30,11 @@ def kpi_without_target(graph: CellGraph) -> Findings:
         yield found(graph, ("kpis",), f"{names} {'have' if len(missing) > 1 else 'has'} no target")
 
 
-_LAYERS = {
-    "freeze": ("stale_state",),
-    "delay": ("stale_state",),
-    "drop_frame": ("tf_failure",),
-    "double_frame": ("tf_failure",),
-    "jump_clock": ("stale_state", "tf_failure"),
-    "mismatch_qos": ("stale_state", "tf_failure", "timeout"),
-    "unresponsive": ("timeout",),
-    "unreachable": ("planning_failure",),
-    "reject": ("goal_rejection", "stale_state"),  # the latter of a broadcaster
-    "cancel": ("canceled",),
-    "second_commander": ("wrong_owner",),
-    "switch": ("wrong_owner", "goal_rejection"),
-    "stick": ("tolerance_violation",),
-    "slow": ("tolerance_violation", "timeout"),
-    "displace": ("tolerance_violation",),
-    "scale_speed": ("timeout",),
-    "skip_cycles": ("missed_cycle",),
-    "wrong_payload": ("protective_stop",),
-    "protective_stop": ("protective_stop",),
-    "emergency_stop": ("emergency_stop",),
-    "restart_driver": ("hardware_fault",),
-    "cut_network": ("hardware_fault", "stale_state"),
-    "program_stop": ("claim_failure", "timeout"),  # the latter where nothing watches the program
-    "program_start": ("claim_failure", "uncommanded_motion"),
-    "jog": ("claim_failure", "uncommanded_motion"),
-    "stale_set_points": ("claim_failure", "uncommanded_motion"),
-    "brakes_closed": ("claim_failure", "protective_stop"),
-    "silent_sensor": ("timeout",),
-}
-
-
 @rule(Severity.ERROR)
 def merged_failure_layers(graph: CellGraph) -> Findings:
     """Yield rehearsals that expect a failure which belongs to none of their faults."""
     for rehearsal in graph.cell.rehearsals:
-        layers = [layer for fault in rehearsal.faults for layer in _LAYERS[fault.kind]]
+        layers = [layer for fault in rehearsal.faults for layer in fault.kind.layers]
         if layers and rehearsal.expect != "succeeded" and rehearsal.expect not in layers:
             faults = " and ".join(f"`{fault.kind}`" for fault in rehearsal.faults)
             message = f"`{rehearsal.name}` injects {faults} but expects `{rehearsal.expect}`"

@@ -120,9 +120,9 @@ def _of_one_joint(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
             yield (*first.path, key), joints.get(first.name, ""), figure.linear
     for rehearsal in cell.rehearsals:
         for fault in rehearsal.faults:
-            for key, moved in (("by", fault.displacement), ("to", fault.velocity)):
-                if moved is not None:
-                    yield (*fault.path, key), fault.name, fault.linear
+            by = fault.kind.by
+            if by is not None and by.amount.of_joint:
+                yield (*fault.path, by.amount.key), fault.name, fault.linear
 
 
 @rule(

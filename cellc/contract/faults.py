@@ -1,0 +1,328 @@
+"""Faults of rehearsals, each declared once: its word, what it does, what it hits, by how much, how a run ends.
+
+Models, schema and reference of the spec, linking, unknown names, completion, the layers of failures and the S2 gate
+follow from a member of ``FaultKind``. ``cellc.mock.faults`` plays each kind.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Literal, NamedTuple
+
+from cellc.contract.vocabulary import AttemptOutcome, Term
+
+GoalStep = Literal["move", "grip"]
+"""Kinds of steps that send a goal to a controller, so that joints move."""
+MOST_CYCLES = 100_000
+
+
+class Reference(Term):
+    """What the value of a fault's key names; ``unknown-REFERENCE`` is the code of a name that is not in the cell."""
+
+    DEVICE = "device"
+    JOINT = "joint"
+    CONTROLLER = "controller"
+    NODE = "node"
+    INTERFACE = "interface"
+    FRAME = "frame"
+    CLOCK = "clock"
+    GOAL = "goal"
+    STEP = "step"
+    """A kind of step: nothing of the cell."""
+    CYCLES = "cycles"
+    """A count."""
+
+
+class FaultTarget(Enum):
+    """Which devices, joints or controllers a fault may hit, with their noun in messages; ``link`` finds their names."""
+
+    STREAM = Reference.DEVICE, "camera or device with joints"
+    STOPPABLE = Reference.DEVICE, "device with hardware"
+    SCALED = Reference.DEVICE, "device with speed scaling"
+    ARM = Reference.DEVICE, "arm"
+    PROGRAMMED = Reference.DEVICE, "device with a program that set points pass through"
+    BRAKED = Reference.DEVICE, "device with brakes that a claim needs open"
+    SENSED = Reference.DEVICE, "device with sensors that are wired"
+    JOINT = Reference.JOINT, "joint"
+    PROGRAMMED_JOINT = Reference.JOINT, "joint with a program that set points pass through"
+    CONTROLLER = Reference.CONTROLLER, "controller"
+    COMMANDED = Reference.CONTROLLER, "controller with an action"
+    SWITCH = Reference.CONTROLLER, "switch or controller"
+    SERVER = Reference.NODE, "server"
+    INTERFACE = Reference.INTERFACE, "interface"
+    FRAME = Reference.FRAME, "frame"
+    CLOCK = Reference.CLOCK, "clock"
+    GOAL = Reference.GOAL, "goal"
+    STEP = Reference.STEP, "kind of step"
+    LOOP = Reference.CYCLES, "update loop"
+
+    def __init__(self, reference: Reference, noun: str) -> None:
+        self.reference = reference
+        self.noun = noun
+
+
+class Amount(Enum):
+    """What a fault says beside its target: the key in the spec, and the field of ``FaultEntry``, in SI."""
+
+    DELAY = "by", "delay_s"
+    JUMP = "by", "jump_s"
+    DISPLACEMENT = "by", "displacement"
+    VELOCITY = "to", "velocity"
+    FACTOR = "to", "factor"
+
+    def __init__(self, key: str, field: str) -> None:
+        self.key = key
+        self.field = field
+
+    @property
+    def of_joint(self) -> bool:
+        """Whether its unit is that of a joint: rad for one that turns, m for one that slides."""
+        return self in (Amount.DISPLACEMENT, Amount.VELOCITY)
+
+
+class Hits(NamedTuple):
+    """The key of a fault: what it names, its description and an example."""
+
+    target: FaultTarget
+    description: str
+    example: str | int
+
+
+class By(NamedTuple):
+    """The second key of a fault: its description and an example."""
+
+    amount: Amount
+    description: str
+    example: str
+
+
+class Interaction(Term):
+    """A case of the S2 checklist that a run with the fault is evidence of."""
+
+    LATE_SAMPLE = "late_sample"
+    MISSING_RESPONDER = "missing_responder"
+
+
+class Declared(NamedTuple):
+    """Everything about a kind of fault that both sides share.
+
+    Attributes:
+        word: the key in the spec, and the kind in ``rehearsals.json``.
+        meaning: what happens, as schema, reference and editors show it.
+        layers: outcomes of a run that the fault explains, its usual one first.
+        shows: cases of the S2 checklist that it provokes.
+    """
+
+    word: str
+    meaning: str
+    hits: Hits
+    layers: tuple[AttemptOutcome, ...]
+    by: By | None = None
+    shows: tuple[Interaction, ...] = ()
+
+
+_FRAME = Hits(FaultTarget.FRAME, "Frame.", "object")
+_JOINT = Hits(FaultTarget.JOINT, "Joint, as `device/joint`.", "arm/elbow_joint")
+_DEVICE = Hits(FaultTarget.STOPPABLE, "Device.", "arm")
+_PROGRAMMED = Hits(FaultTarget.PROGRAMMED, "Device whose set points pass through a program.", "arm")
+_LATE = (Interaction.LATE_SAMPLE,)
+_SILENT = (Interaction.MISSING_RESPONDER,)
+_CLAIM_OR_MOTION = (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.UNCOMMANDED_MOTION)
+
+
+class FaultKind(Term):
+    """What can be made to fail in a rehearsal."""
+
+    meaning: str
+    hits: Hits
+    layers: tuple[AttemptOutcome, ...]
+    by: By | None
+    shows: tuple[Interaction, ...]
+
+    def __new__(
+        cls,
+        word: str,
+        meaning: str,
+        hits: Hits,
+        layers: tuple[AttemptOutcome, ...],
+        by: By | None,
+        shows: tuple[Interaction, ...],
+    ) -> FaultKind:
+        """Make a member of the parts of its ``Declared``."""
+        kind = str.__new__(cls, word)
+        kind._value_ = word
+        kind.meaning, kind.hits, kind.layers, kind.by, kind.shows = meaning, hits, layers, by, shows
+        return kind
+
+    FREEZE = Declared(
+        "freeze",
+        "A device repeats its last sample with its old stamp: a camera its image, an arm its joint state.",
+        Hits(FaultTarget.STREAM, "Camera, or device with joints.", "camera"),
+        (AttemptOutcome.STALE_STATE,),
+        shows=_LATE,
+    )
+    DELAY = Declared(
+        "delay",
+        "The samples of a device arrive late: the images of a camera, the joint states of an arm.",
+        Hits(FaultTarget.STREAM, "Camera, or device with joints.", "arm"),
+        (AttemptOutcome.STALE_STATE,),
+        By(Amount.DELAY, "How late.", "300 ms"),
+        _LATE,
+    )
+    DROP_FRAME = Declared(
+        "drop_frame", "A frame is no longer published.", _FRAME, (AttemptOutcome.TF_FAILURE,), shows=_LATE
+    )
+    DOUBLE_FRAME = Declared(
+        "double_frame",
+        "A second node publishes a frame, and places it elsewhere.",
+        _FRAME,
+        (AttemptOutcome.TF_FAILURE,),
+    )
+    JUMP_CLOCK = Declared(
+        "jump_clock",
+        "A clock jumps, forwards, or back with a negative duration.",
+        Hits(FaultTarget.CLOCK, "Host, device with a clock of its own, or domain.", "ros"),
+        (AttemptOutcome.STALE_STATE, AttemptOutcome.TF_FAILURE),
+        By(Amount.JUMP, "How far.", "-1 s"),
+    )
+    MISMATCH_QOS = Declared(
+        "mismatch_qos",
+        "An endpoint comes back with a profile that its peers do not match: it is never connected again.",
+        Hits(FaultTarget.INTERFACE, "Interface.", "/object_pose"),
+        (AttemptOutcome.STALE_STATE, AttemptOutcome.TF_FAILURE, AttemptOutcome.TIMEOUT),
+        shows=_LATE + _SILENT,
+    )
+    UNRESPONSIVE = Declared(
+        "unresponsive",
+        "A server answers nothing: no goal response, no result, no answer to a cancel.",
+        Hits(FaultTarget.SERVER, "Controller with an action, or node that serves one.", "move_group"),
+        (AttemptOutcome.TIMEOUT,),
+        shows=_SILENT,
+    )
+    UNREACHABLE = Declared(
+        "unreachable",
+        "A goal moves out of the reach of its group.",
+        Hits(FaultTarget.GOAL, "Goal.", "pick"),
+        (AttemptOutcome.PLANNING_FAILURE,),
+    )
+    REJECT = Declared(
+        "reject",
+        "A controller is inactive when its goal arrives.",
+        Hits(FaultTarget.CONTROLLER, "Controller.", "arm_trajectory"),
+        (AttemptOutcome.GOAL_REJECTION, AttemptOutcome.STALE_STATE),  # the latter of a broadcaster
+        shows=_SILENT,
+    )
+    CANCEL = Declared(
+        "cancel",
+        "The client cancels the goal that is executing, or the first that executes after.",
+        Hits(FaultTarget.STEP, "Kind of step whose goal is canceled.", "move"),
+        (AttemptOutcome.CANCELED,),
+    )
+    SECOND_COMMANDER = Declared(
+        "second_commander",
+        "Another client sends a goal to the action of a controller.",
+        Hits(FaultTarget.COMMANDED, "Controller.", "arm_trajectory"),
+        (AttemptOutcome.WRONG_OWNER,),
+    )
+    SWITCH = Declared(
+        "switch",
+        "Somebody switches controllers: as a declared switch says, or one controller off and on again.",
+        Hits(FaultTarget.SWITCH, "Declared switch, or controller that is restarted.", "to_effort"),
+        (AttemptOutcome.WRONG_OWNER, AttemptOutcome.GOAL_REJECTION),
+    )
+    STICK = Declared("stick", "A joint no longer follows its command.", _JOINT, (AttemptOutcome.TOLERANCE_VIOLATION,))
+    SLOW = Declared(
+        "slow",
+        "A joint follows its command no faster than it can.",
+        _JOINT,
+        (AttemptOutcome.TOLERANCE_VIOLATION, AttemptOutcome.TIMEOUT),
+        By(Amount.VELOCITY, "Its speed.", "2 deg/s"),
+    )
+    DISPLACE = Declared(
+        "displace",
+        "A joint is offset from its command, as after a push or a slipped gear.",
+        _JOINT,
+        (AttemptOutcome.TOLERANCE_VIOLATION,),
+        By(Amount.DISPLACEMENT, "How far.", "0.3 rad"),
+    )
+    SCALE_SPEED = Declared(
+        "scale_speed",
+        "A device scales its speed, as with a slider or a safety function.",
+        Hits(FaultTarget.SCALED, "Device with speed scaling.", "arm"),
+        (AttemptOutcome.TIMEOUT,),
+        By(Amount.FACTOR, "Share of the programmed speed.", "0 %"),
+    )
+    SKIP_CYCLES = Declared(
+        "skip_cycles",
+        "The update loop misses cycles.",
+        Hits(FaultTarget.LOOP, "Number of cycles in a row.", 5),
+        (AttemptOutcome.MISSED_CYCLE,),
+    )
+    WRONG_PAYLOAD = Declared(
+        "wrong_payload",
+        "An arm carries another load than the one set in it: it stops itself whenever it moves.",
+        Hits(FaultTarget.ARM, "Arm.", "arm"),
+        (AttemptOutcome.PROTECTIVE_STOP,),
+    )
+    PROTECTIVE_STOP = Declared(
+        "protective_stop",
+        "A device goes into protective stop: state stays visible, commands are refused.",
+        _DEVICE,
+        (AttemptOutcome.PROTECTIVE_STOP,),
+    )
+    EMERGENCY_STOP = Declared(
+        "emergency_stop",
+        "A device loses the power of its drives: brakes hold it, state stays visible, commands are refused.",
+        _DEVICE,
+        (AttemptOutcome.EMERGENCY_STOP,),
+    )
+    RESTART_DRIVER = Declared(
+        "restart_driver",
+        "The driver of a device ends and comes back after ``lasting``: unconfigured, with an old goal waiting.",
+        _DEVICE,
+        (AttemptOutcome.HARDWARE_FAULT,),
+    )
+    CUT_NETWORK = Declared(
+        "cut_network",
+        "Nothing passes between a device and its host.",
+        Hits(FaultTarget.STREAM, "Device.", "arm"),
+        (AttemptOutcome.HARDWARE_FAULT, AttemptOutcome.STALE_STATE),
+        shows=_LATE,
+    )
+    PROGRAM_STOP = Declared(
+        "program_stop",
+        "The program on a device's own controller stops; it follows no set points until it starts, after ``lasting``.",
+        _PROGRAMMED,
+        (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.TIMEOUT),  # the latter where nothing watches the program
+    )
+    PROGRAM_START = Declared(
+        "program_start",
+        "Somebody starts the program on a device's own controller: from now on it follows set points.",
+        _PROGRAMMED,
+        _CLAIM_OR_MOTION,
+    )
+    JOG = Declared(
+        "jog",
+        "Somebody moves a joint by the pendant, which the robot lets them do while its program is stopped.",
+        Hits(FaultTarget.PROGRAMMED_JOINT, "Joint, as `device/joint`.", "arm/elbow_joint"),
+        _CLAIM_OR_MOTION,
+        By(Amount.DISPLACEMENT, "How far.", "5 deg"),
+    )
+    STALE_SET_POINTS = Declared(
+        "stale_set_points",
+        "The program of a device stops, somebody jogs its first joint, and the program starts again.",
+        _PROGRAMMED,
+        _CLAIM_OR_MOTION,
+    )
+    BRAKES_CLOSED = Declared(
+        "brakes_closed",
+        "The brakes of a device are closed; ``lasting`` until a person opens them.",
+        Hits(FaultTarget.BRAKED, "Device whose claim needs open brakes.", "arm"),
+        (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.PROTECTIVE_STOP),
+    )
+    SILENT_SENSOR = Declared(
+        "silent_sensor",
+        "The sensors of a switched device read for ever what they read now.",
+        Hits(FaultTarget.SENSED, "Device with sensors.", "gripper"),
+        (AttemptOutcome.TIMEOUT,),
+    )
