@@ -6,9 +6,11 @@ from dataclasses import fields, replace
 
 import pytest
 
+from cellc.compiler.cell.body import Body
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.device import EVERY_JOINT, Camera, CameraStream, Device, OfferedInterface, SimulatedJoint
-from cellc.compiler.cell.entity import Places
+from cellc.compiler.cell.device import EVERY_JOINT, Camera, CameraStream, Device, DeviceMock, Sensing, SimulatedJoint
+from cellc.compiler.cell.entity import Part, Places, members
+from cellc.compiler.cell.hardware import DeviceControl, OfferedInterface
 from cellc.compiler.cell.site import Host, NetworkCard, Safety, Stop, Versions
 from cellc.compiler.graph.cell_graph import build_graph
 from cellc.compiler.rules.safety.stop import dependent_stop
@@ -42,8 +44,7 @@ CAMERA = Device(
     model="demo",
     vendor="demo",
     kind="camera",
-    root_link="camera_base",
-    description=Description(name="demo", links=(), joints=()),
+    body=Body(root_link="camera_base", description=Description(name="demo", links=(), joints=())),
 )
 
 
@@ -83,13 +84,22 @@ def test_figures_without_a_target_are_named_by_their_keys() -> None:
     )
 
 
+def test_no_two_parts_of_a_device_have_a_field_of_one_name() -> None:
+    names = [name for name, _ in members(CAMERA)]
+    parts = [field.name for field in fields(CAMERA) if isinstance(getattr(CAMERA, field.name), Part)]
+    assert len(names) == len(set(names)) > 50
+    assert not {*parts} & {*names}
+
+
 def test_topics_of_a_device_are_those_of_its_driver_and_of_its_streams() -> None:
     stream = CameraStream(
         topic="/image", type="sensor_msgs/msg/Image", info_topic="/info", frame="optical", rate_hz=30.0
     )
     offered = OfferedInterface(kind=InterfaceKind.TOPIC, name="/state", type="std_msgs/msg/Bool", node="/driver")
     served = OfferedInterface(kind=InterfaceKind.SERVICE, name="/reset", type="std_srvs/srv/Trigger", node="/driver")
-    camera = replace(CAMERA, camera=Camera(streams=(stream,)), offers=(offered, served))
+    camera = replace(
+        CAMERA, sensing=Sensing(camera=Camera(streams=(stream,))), control=DeviceControl(offers=(offered, served))
+    )
     assert camera.topics == {
         "/state": "std_msgs/msg/Bool",
         "/image": "sensor_msgs/msg/Image",
@@ -100,7 +110,7 @@ def test_topics_of_a_device_are_those_of_its_driver_and_of_its_streams() -> None
 def test_what_is_simulated_of_one_joint_comes_before_what_is_of_all() -> None:
     every = SimulatedJoint(name=EVERY_JOINT, path=(), span=CELL, joints=("a", "b"), lag_s=0.1)
     one = SimulatedJoint(name="b", path=(), span=CELL, joints=("b",), lag_s=0.2)
-    arm = replace(CAMERA, simulated_joints=(every, one))
+    arm = replace(CAMERA, mock=DeviceMock(simulated_joints=(every, one)))
     assert (arm.simulated("a"), arm.simulated("b"), arm.simulated("c")) == ((every,), (one, every), ())
 
 

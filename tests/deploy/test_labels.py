@@ -128,9 +128,9 @@ def test_watched_stream_is_that_of_the_adapter_of_the_device() -> None:
 def test_driver_that_moves_a_hand_names_its_goals() -> None:
     """The catalog has the vendor's gripper node for the Franka Hand: no controller claims its fingers there."""
     cell = built("fr3_hand").graph.cell
-    (device,) = (each for each in cell.devices if each.driver is not None and each.driver.actions)
-    assert device.driver is not None
-    program, goals, owner, architecture = driver_facts(cell, device, device.driver)
+    (device,) = (each for each in cell.devices if each.control.driver is not None and each.control.driver.actions)
+    assert device.control.driver is not None
+    program, goals, owner, architecture = driver_facts(cell, device, device.control.driver)
     assert program == "franka_gripper/franka_gripper_node, on real hardware; no controller claims anything there"
     assert goals == "goals: /hand_gripper/gripper_action; frame joints, on request, time of the driver"
     assert owner.startswith(f"owner {cell.owners.responsibilities.vendor_safety}; watchdog: ")

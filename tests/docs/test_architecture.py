@@ -31,7 +31,7 @@ def test_mount_of_an_arm() -> None:
     assert mount.xyz is not None
     assert mount.xyz.si == (0.0, 0.0, 0.8)
     cell = linked(PICK)
-    assert cell.device("arm").transform_root_to_parent.position == (0.0, 0.0, 0.8)
+    assert cell.device("arm").mount.transform_root_to_parent.position == (0.0, 0.0, 0.8)
     urdf = built("ur5e_pick").texts["urdf/ur5e_pick.mock.urdf"]
     (joint,) = re.findall(r"<joint [^>]*>(?:(?!</joint>).)*<parent link=\"world\"/>.*?</joint>", urdf, re.DOTALL)[:1]
     assert '<origin xyz="0 0 0.8"/>' in joint

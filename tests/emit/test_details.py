@@ -67,13 +67,13 @@ def test_mock_begins_at_full_speed_scaling() -> None:
 def test_every_body_and_follower_is_that_of_the_devices(tmp_path: Path) -> None:
     urdf = yourdfpy.URDF.load(io.BytesIO(artifacts_of("ur5e_pick")["urdf/ur5e_pick.real.urdf"].encode()))
     devices = graph_of(written(tmp_path, spec_text("ur5e_pick"))).cell.devices
-    for link in (link for device in devices for link in device.description.links if link.inertial is not None):
+    for link in (link for device in devices for link in device.body.description.links if link.inertial is not None):
         body, read = link.inertial, urdf.link_map[link.name].inertial
         assert body is not None
         assert read.mass == body.mass
         tensor = [body.ixx, body.ixy, body.ixz, body.ixy, body.iyy, body.iyz, body.ixz, body.iyz, body.izz]
         assert read.inertia.flatten().tolist() == tensor
-    for joint in (joint for device in devices for joint in device.description.joints if joint.mimic is not None):
+    for joint in (joint for device in devices for joint in device.body.description.joints if joint.mimic is not None):
         mimic, read = joint.mimic, urdf.joint_map[joint.name].mimic
         assert mimic is not None
         assert (read.joint, read.multiplier, read.offset) == (mimic.joint, mimic.multiplier, mimic.offset)

@@ -64,7 +64,10 @@ def _launched_with(name: str) -> dict[str, str]:
         for node in graph.cell.nodes
     )
     devices = tuple(
-        replace(one, connection=one.connection and replace(one.connection, address=name)) for one in graph.cell.devices
+        replace(
+            one, site=replace(one.site, connection=one.site.connection and replace(one.site.connection, address=name))
+        )
+        for one in graph.cell.devices
     )
     changed: CellGraph = replace(graph, cell=replace(graph.cell, nodes=nodes, devices=devices))
     made = {artifact.path: artifact.text for artifact in emit(changed, plan_deployment(graph))}

@@ -45,16 +45,16 @@ def _arm() -> Device:
     [(1.0, 0.1), (2.5, 1.6), (0.9, None), (0.5, None)],  # the tool: gripper 0.8 kg + camera 0.1 kg = 0.9 kg
 )
 def test_arm_carries_its_payload_without_the_tools_that_are_described(payload_kg: float, rest_kg: float | None) -> None:
-    payload = _arm().payload
+    payload = _arm().robot.payload
     assert payload is not None
-    carried = _question(payload=replace(payload, mass_kg=payload_kg)).carried
+    carried = _question(robot=replace(_arm().robot, payload=replace(payload, mass_kg=payload_kg))).carried
     due = [] if rest_kg is None else [CarriedQuestion("arm_tool0", rest_kg, (0.0, 0.0, 0.058))]
     assert [replace(one, mass_kg=round(one.mass_kg, 9)) for one in carried] == due
 
 
 def test_arm_without_payload_or_without_a_place_for_it_carries_nothing() -> None:
-    assert _question(payload=None).carried == ()
-    assert _question(tool_frame=None).carried == ()
+    assert _question(robot=replace(_arm().robot, payload=None)).carried == ()
+    assert _question(body=replace(_arm().body, tool_frame=None)).carried == ()
 
 
 # The frame of a goal in the world, its z reversed by 180 degrees about x, and 10 mm above; the tip `tcp` is 162 mm

@@ -103,14 +103,18 @@ _OF_THE_DRIVER = re.compile(r"ros2 service|service_server|action_server|hardware
 
 def test_nobody_is_told_of_a_driver_that_does_not_run(cell: Cell) -> None:
     arm = cell.device("arm")
-    steps = [step.does for step in arm.commissioning] + [step for way in arm.safety.recovery for step in way.steps]
+    steps = [step.does for step in arm.procedures.commissioning] + [
+        step for way in arm.procedures.safety.recovery for step in way.steps
+    ]
     assert len(steps) > 20
     assert [step for step in steps if _OF_THE_DRIVER.search(step)] == []
 
 
 def test_a_driver_s_arm_has_no_step_of_an_adapter() -> None:
     arm = linked(spec_of("fr3_hand")).device("arm")
-    steps = [step.does for step in arm.commissioning] + [step for way in arm.safety.recovery for step in way.steps]
+    steps = [step.does for step in arm.procedures.commissioning] + [
+        step for way in arm.procedures.safety.recovery for step in way.steps
+    ]
     assert [step for step in steps if re.search(r"\badapter\b", step)] == []
     assert any("service_server" in step for step in steps)
 
@@ -123,7 +127,7 @@ def test_every_way_back_of_an_fr3_exists_for_its_driver_and_for_an_adapter() -> 
 
 
 def test_the_stop_reaches_an_arm_behind_an_adapter(cell: Cell) -> None:
-    assert all(device.is_driven for device in cell.devices)
+    assert all(device.control.is_driven for device in cell.devices)
 
 
 def test_what_is_no_program_is_refused_at_its_line(tmp_path: Path) -> None:
@@ -161,5 +165,5 @@ def test_a_controller_runs_where_something_moves_each_of_its_joints() -> None:
 
 def test_procedures_are_sorted_by_what_drives_a_device_also_where_no_adapter_is() -> None:
     cell = linked(spec_of("fr3_hand"))
-    assert {step.by for device in cell.devices for step in device.commissioning} == {None, "driver"}
-    assert {way.by for device in cell.devices for way in device.safety.recovery} == {None, "driver"}
+    assert {step.by for device in cell.devices for step in device.procedures.commissioning} == {None, "driver"}
+    assert {way.by for device in cell.devices for way in device.procedures.safety.recovery} == {None, "driver"}

@@ -113,9 +113,11 @@ def test_a_camera_stands_where_the_tool_has_measured_it(file: str, text: str, tm
     camera = found.value.device("camera")
     # The optical frame is 10.6, 32.5, 12.5 mm before, left of and above the screw (realsense-ros 4.58.2, d435), and its
     # axes are z forward, x right, y down: seen along them the screw is at 32.5, 12.5, -10.6 mm.
-    assert camera.transform_root_to_parent.position == pytest.approx((0.0175 + 0.0325, -0.07 + 0.0125, 0.05 - 0.0106))
-    x, y, z = camera.transform_root_to_parent.apply((1.0, 0.0, 0.0))
-    ahead = [one - base for one, base in zip((x, y, z), camera.transform_root_to_parent.position, strict=True)]
+    assert camera.mount.transform_root_to_parent.position == pytest.approx(
+        (0.0175 + 0.0325, -0.07 + 0.0125, 0.05 - 0.0106)
+    )
+    x, y, z = camera.mount.transform_root_to_parent.apply((1.0, 0.0, 0.0))
+    ahead = [one - base for one, base in zip((x, y, z), camera.mount.transform_root_to_parent.position, strict=True)]
     assert ahead == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)
     stated = found.value.calibrations["hand_eye"].file
     assert stated is not None
@@ -154,7 +156,9 @@ def test_frames_that_the_tool_named_otherwise_are_stated_in_the_spec(tmp_path: P
     found = cell(tmp_path, "file.json", text, more="parent: arm/tool0, child: camera/color_optical, ")
     assert found.diagnostics == ()
     assert found.value is not None
-    assert found.value.device("camera").transform_root_to_parent.position == pytest.approx((0.05, -0.0575, 0.0394))
+    assert found.value.device("camera").mount.transform_root_to_parent.position == pytest.approx(
+        (0.05, -0.0575, 0.0394)
+    )
 
 
 def test_a_spec_that_says_the_same_may_stay_and_the_file_counts(tmp_path: Path) -> None:
@@ -162,7 +166,7 @@ def test_a_spec_that_says_the_same_may_stay_and_the_file_counts(tmp_path: Path) 
     found = cell(tmp_path, "wrist.calib", EASY.format(kind="eye_in_hand"), same)
     assert found.diagnostics == ()
     assert found.value is not None
-    assert found.value.device("camera").transform_root_to_parent.position[0] == pytest.approx(0.05, abs=1e-9)
+    assert found.value.device("camera").mount.transform_root_to_parent.position[0] == pytest.approx(0.05, abs=1e-9)
 
 
 def test_the_difference_is_told_with_what_the_file_says(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.entity import Entity, members
 from tests.cells import CORPUS, graph_of
 from tests.foreign_yaml import safe_load
 
@@ -35,6 +36,8 @@ def _plain(value: Any) -> Any:
     """Return a part of a cell as plain data, a list of named things as a mapping."""
     if isinstance(value, Enum):
         return value.value
+    if isinstance(value, Entity):
+        return {name: _plain(one) for name, one in members(value)}
     if dataclasses.is_dataclass(value):
         return {one.name: _plain(getattr(value, one.name)) for one in dataclasses.fields(value)}
     if isinstance(value, Mapping):

@@ -41,5 +41,5 @@ def test_nothing_of_ros_loads_what_an_adapter_drives(hybrid: Cell) -> None:
         tags = robot_description(hybrid, target).findall("ros2_control")
         assert [tag.get("name") for tag in tags] == ["gripper_hardware"]
     arm = hybrid.device("arm")
-    assert (arm.hardware, arm.offers) == (None, ())
-    assert [one.controller_kind for one in arm.record] == [None] * len(arm.record)
+    assert (arm.control.hardware, arm.control.offers) == (None, ())
+    assert [one.controller_kind for one in arm.procedures.record] == [None] * len(arm.procedures.record)

@@ -118,7 +118,7 @@ def test_vendors_shapes_are_taken_from_a_named_folder(tmp_path: Path) -> None:
     text = CELL.partition("motion:")[0].replace("./arm", "./vendored_arm").partition("    arm_tra")[0]
     for places, found in (("", False), ("..", True)):
         (device,) = linked(written(tmp_path / "cell", text.replace("PLACES", places))).devices
-        vendor = device.vendor_description
+        vendor = device.body.vendor_description
         assert vendor is not None
         assert (vendor.description is not None) is found
 

@@ -51,7 +51,7 @@ def test_joints_have_the_names_of_the_vendor_where_the_prefix_is_empty(cell: Cel
         ("fr3_finger_joint1", None),
         ("fr3_finger_joint2", "fr3_finger_joint1"),
     ]
-    assert hand.parent_frame == "fr3_link8"
+    assert hand.mount.parent_frame == "fr3_link8"
     assert next(group for group in cell.groups if group.name == "arm").tip_frame == "fr3_hand_tcp"
 
 
@@ -92,7 +92,7 @@ def test_parameter_names_carry_the_prefix(tmp_path: Path) -> None:
     parameters = _controller(prefixed, "arm_trajectory").parameters_on("real")
     assert parameters["gains.left_fr3_joint4.p"] == 600.0
     assert not [name for name in parameters if "{" in name]
-    arm = prefixed.device("arm").hardware
+    arm = prefixed.device("arm").control.hardware
     assert arm is not None
     assert (arm.name, arm.parameters["real"]["prefix"]) == ("left_FrankaHardwareInterface", "left_")
 
@@ -119,7 +119,7 @@ def test_address_of_the_carrier_is_unknown_where_the_arm_has_none(tmp_path: Path
 
 
 def test_hand_has_hardware_on_the_mock_alone(cell: Cell) -> None:
-    hand, driver = cell.device("hand").hardware, cell.device("hand").driver
+    hand, driver = cell.device("hand").control.hardware, cell.device("hand").control.driver
     assert hand is not None
     assert driver is not None
     assert hand.targets == tuple(hand.plugins) == ("mock",)

@@ -30,7 +30,7 @@ def _spec(folder: Path, name: str = "vendored_arm") -> Path:
 
 def _shapes(spec: Path) -> list[type]:
     (device,) = linked(spec).devices
-    return [type(one.geometry) for link in device.description.links for one in link.collisions]
+    return [type(one.geometry) for link in device.body.description.links for one in link.collisions]
 
 
 def test_links_have_the_shapes_of_a_package_that_is_at_hand(tmp_path: Path) -> None:

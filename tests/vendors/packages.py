@@ -37,7 +37,7 @@ class RealTarget:
     def component(self) -> ElementTree.Element:
         """The ``<ros2_control>`` tag of the device in the description."""
         root = ElementTree.fromstring(self.texts[f"urdf/{self.cell.name}.real.urdf"])
-        hardware = self.cell.device(self.device).hardware
+        hardware = self.cell.device(self.device).control.hardware
         assert hardware is not None
         (tag,) = (tag for tag in root.findall("ros2_control") if tag.get("name") == hardware.name)
         return tag
@@ -45,7 +45,7 @@ class RealTarget:
     @property
     def prefix(self) -> str:
         """What stands before the ROS names of the device."""
-        return self.cell.device(self.device).prefix
+        return self.cell.device(self.device).body.prefix
 
 
 _EMITTERS = (description.emit, parameters.emit, launch.emit, policy.emit, package.emit)

@@ -153,7 +153,7 @@ def test_a_kind_that_moves_the_arm_starts_inactive_and_is_let_go_when_the_progra
 
 @of_the_arm
 def test_only_ways_of_commanding_that_the_driver_takes_at_once_are_let_through(case: Case) -> None:
-    hardware = real_target(case).cell.device("arm").hardware
+    hardware = real_target(case).cell.device("arm").control.hardware
     assert hardware is not None
     assert hardware.modes is not None
     pairs = facts(case.release, "hardware_interfaces")["modes_that_may_run_together"]["pairs"]

@@ -47,9 +47,9 @@ def test_a_need_is_answered_for_the_distribution_of_the_cell() -> None:
 
 def test_a_cell_has_the_effects_of_its_own_distribution() -> None:
     arm = built("fr3_hand").graph.cell.device("arm")
-    assert arm.hardware is not None
-    assert arm.hardware.effects[Moment.CLAIM].needs[Need.BRAKES_OPEN] is Unmet.ENDS_MANAGER
-    gripper = built("ur5e_pick").graph.cell.device("gripper").hardware
+    assert arm.control.hardware is not None
+    assert arm.control.hardware.effects[Moment.CLAIM].needs[Need.BRAKES_OPEN] is Unmet.ENDS_MANAGER
+    gripper = built("ur5e_pick").graph.cell.device("gripper").control.hardware
     assert gripper is not None
     assert (gripper.initial_state, gripper.direct_activation) == ("unconfigured", True)
     assert gripper.effects[Moment.ACTIVATE].motion is Motion.MOVES

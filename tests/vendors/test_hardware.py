@@ -56,7 +56,7 @@ def test_every_interface_of_the_description_is_one_that_the_plugin_exports(case:
 def test_every_interface_that_the_cell_counts_on_is_one_that_the_plugin_exports(case: Case) -> None:
     # Those that no description lists, too.
     target = real_target(case)
-    hardware = target.cell.device(target.device).hardware
+    hardware = target.cell.device(target.device).control.hardware
     assert hardware is not None
     for group in (*hardware.sensors, *hardware.gpios):
         for side, names in (("command", group.command_interfaces), ("state", group.state_interfaces)):

@@ -28,7 +28,7 @@ def test_the_plugin_gets_every_parameter_that_it_reads_with_tool_communication(
     release: Release, tmp_path: Path
 ) -> None:
     text = _spec().replace("ros: jazzy", f"ros: {release.distro}").replace("ur_robot_driver 3.8.0", release.driver)
-    hardware = graph_of(written(tmp_path, text)).cell.device("arm").hardware
+    hardware = graph_of(written(tmp_path, text)).cell.device("arm").control.hardware
     assert hardware is not None
     given = hardware.parameters["real"]
     read = facts(release, "hardware_parameters")["parameters"]

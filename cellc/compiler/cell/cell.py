@@ -129,7 +129,7 @@ class Cell:
     def signed_for_mock(self) -> Iterator[tuple[Device, str, HardwareStatement]]:
         """Yield the plugins and programs that devices run on the mock, of which somebody in the spec says something."""
         for device in self.devices:
-            plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
+            plugin = "" if device.control.hardware is None else device.control.hardware.plugins["mock"]
             if plugin in self.mock_plugins:
                 yield device, plugin, self.mock_plugins[plugin]
             for program in self.programs_on_mock(device):
@@ -217,7 +217,7 @@ class Cell:
 
     def carried_mass_kg(self, device: Device) -> float:
         """Return the mass of what a device carries, as the descriptions of those say; 0 where they say nothing."""
-        links = (link for name in device.carries for link in self.device(name).description.links)
+        links = (link for name in device.mount.carries for link in self.device(name).body.description.links)
         return sum(link.inertial.mass for link in links if link.inertial is not None)
 
     def device(self, name: str) -> Device:
@@ -230,11 +230,11 @@ class Cell:
 
     def stamp_of(self, name: str) -> Stamp | None:
         """Return what a device stamps; None of a node, which is no device."""
-        return self._devices[name].stamp if name in self._devices else None
+        return self._devices[name].sensing.stamp if name in self._devices else None
 
     def exposure_of(self, name: str) -> float:
         """Return the exposure time of a device, s; zero of a node, which is no device."""
-        return self._devices[name].exposure_s if name in self._devices else 0.0
+        return self._devices[name].sensing.exposure_s if name in self._devices else 0.0
 
     @cached_property
     def _devices(self) -> Mapping[str, Device]:

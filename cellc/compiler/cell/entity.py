@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
 from pathlib import PurePosixPath
 
 from cellc.contract.diagnostics import Span, YamlPath
@@ -22,6 +22,21 @@ class Entity:
     name: str
     path: YamlPath
     span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Fields of an entity that are read together; people see them as its own fields, so no two parts share a name."""
+
+
+def members(of: Entity | Part) -> Iterator[tuple[str, object]]:
+    """Yield the fields of an entity by name with their values, those of a part where the part is."""
+    for member in fields(of):
+        value = getattr(of, member.name)
+        if isinstance(value, Part):
+            yield from members(value)
+        else:
+            yield member.name, value
 
 
 @dataclass(frozen=True, slots=True)

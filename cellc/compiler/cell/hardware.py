@@ -1,13 +1,15 @@
-"""The hardware component of a device: its plugins and interfaces, and what it does in the world."""
+"""What commands a device: its hardware component, driver or adapter, and what these do in the world."""
 
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
 
+from cellc.compiler.cell.entity import Part
 from cellc.compiler.cell.interface import InnerNode
+from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import Target
-from cellc.contract.vocabulary import CommandAuthority, ManagerLock, Moment, Motion, Need, Unmet
+from cellc.contract.vocabulary import CommandAuthority, InterfaceKind, ManagerLock, Moment, Motion, Need, Unmet
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,3 +145,91 @@ class HardwareComponent:
         if effect is None:
             return not self.is_activation_known
         return effect.drops_part or effect.motion not in (Motion.NONE, Motion.HOLDS)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeviceDriver:
+    """The node that moves a device on the real target past ros2_control.
+
+    Args:
+        node: its fully qualified name.
+        program: ``package/executable``.
+        joint_states: the topic on which the program publishes the joints of the device, or None.
+        actions: kind of controller → the action, and its type, that takes such a controller's goals.
+        goal_unit: what the figures of these goals are; None where they are those of the joints.
+    """
+
+    node: str
+    program: str
+    joint_states: str | None
+    actions: Mapping[str, tuple[str, str]]
+    goal_unit: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Adapter:
+    """Watchdog and bounds of a direct SDK; None where the spec leaves them to the default."""
+
+    command_timeout_s: float | None = None
+    stop_time_s: float | None = None
+    goal_time_s: float | None = None
+    path_tolerance: JointFigure | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OfferedInterface:
+    """What a driver offers whether the spec names it or not; ``node`` is the full name of the node behind it.
+
+    ``effect`` is what a call does where it acts past every controller.
+    """
+
+    kind: InterfaceKind
+    name: str
+    type: str
+    node: str
+    effect: Effect | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeviceControl(Part):
+    """What commands a device, and what that offers.
+
+    Args:
+        driver: what moves it on the real target where no component of ros2_control does.
+        adapter: figures of the spec for an adapter on the vendor's library.
+        initial_state: the state that the spec states for the component.
+        offers: what the driver offers whether the spec names it or not.
+        starts: full name of a node of the driver → what the start of its process does.
+        speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
+        update_rates_hz: those that the device accepts; any where empty.
+        controller_kinds: kinds of controllers that only this device has.
+    """
+
+    hardware: HardwareComponent | None = None
+    driver: DeviceDriver | None = None
+    adapter: Adapter | None = None
+    initial_state: str | None = None
+    offers: tuple[OfferedInterface, ...] = ()
+    starts: Mapping[str, Effect] = field(default_factory=dict)
+    speed_scaling: str | None = None
+    update_rates_hz: tuple[float, ...] = ()
+    controller_kinds: tuple[str, ...] = ()
+
+    @property
+    def startup_state(self) -> str:
+        """Lifecycle state in which the controller manager starts its component, on every target."""
+        if self.initial_state is not None or self.hardware is None:
+            return self.initial_state or "active"
+        return "unconfigured" if self.hardware.moves_as_it_is_activated else self.hardware.initial_state
+
+    @property
+    def unknown_effects(self) -> tuple[str, ...]:
+        """The moments at which the real device starts, and with no statement of what they do in the world."""
+        activation = self.hardware is not None and not self.hardware.is_activation_known
+        start = self.driver is not None and self.driver.node not in self.starts
+        return (*(("the activation",) if activation else ()), *(("the start of the driver",) if start else ()))
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether hardware of ros2_control or a node of its own reaches its drives, which the stop cuts off."""
+        return self.hardware is not None or self.driver is not None

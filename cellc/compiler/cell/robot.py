@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from cellc.compiler.cell.entity import Part
 from cellc.contract.transforms import Vector3
 
 Moments6 = tuple[float, float, float, float, float, float]
@@ -169,3 +170,24 @@ class RobotFacts:
     load_service: bool = False
     impedance_facts: ImpedanceFacts | None = None
     tool_facts: ToolFacts | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotController(Part):
+    """What a robot's own controller gets, and who starts the program there; None where the spec says nothing.
+
+    Args:
+        tcp: the frame at which it holds its TCP.
+        tool_connector: what the connector at its tool frame supplies.
+        plug: what the device itself takes from the tool connector of a robot, where the catalog tells.
+        accepts: what the controller takes.
+    """
+
+    payload: Payload | None = None
+    tcp: str | None = None
+    program: RobotProgram | None = None
+    collision: CollisionThresholds | None = None
+    impedance: Impedance | None = None
+    tool_connector: ToolConnector | None = None
+    plug: Plug | None = None
+    accepts: RobotFacts = field(default_factory=RobotFacts)

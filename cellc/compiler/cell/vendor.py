@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from cellc.compiler.cell.entity import Part
 from cellc.contract.vocabulary import GateCode, RobotSetting
 
 
@@ -85,3 +86,19 @@ class RecordSource:
     topic: str | None
     field: str | None
     read: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Procedures(Part):
+    """What people do and read at the real device, by its vendor.
+
+    Args:
+        record: where the record of an attempt has fields from that the real one alone can tell.
+        jog: how people move one joint where the driver cannot run meanwhile; None where it can.
+        commissioning: steps in the vendor's order.
+    """
+
+    safety: VendorSafety = field(default_factory=VendorSafety)
+    record: tuple[RecordSource, ...] = ()
+    jog: str | None = None
+    commissioning: tuple[CommissioningStep, ...] = ()

@@ -70,14 +70,14 @@ def drives(cell: Cell) -> Iterator[Arrow]:
                 facts = tuple(claim_facts(cell, manager, controller))
                 yield Arrow("claims", (controller.label,), (controller.device,), "claims", facts)
     for device in cell.devices:
-        if device.driver is not None:
-            facts = tuple(driver_facts(cell, device, device.driver))
-            yield Arrow("moves", (device.driver.node,), (device.name,), "moves", facts)
+        if device.control.driver is not None:
+            facts = tuple(driver_facts(cell, device, device.control.driver))
+            yield Arrow("moves", (device.control.driver.node,), (device.name,), "moves", facts)
 
 
 def stop(cell: Cell) -> Iterator[Arrow]:
     """Yield the physical stop, where a device is driven."""
-    devices = tuple(device.name for device in cell.devices if device.is_driven)
+    devices = tuple(device.name for device in cell.devices if device.control.is_driven)
     if devices:
         title = "stops, independent of software"
         yield Arrow("stops", (cell.safety.stop.authority,), devices, title, tuple(stop_facts(cell)))

@@ -278,7 +278,7 @@ def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
     if nodes := tuple(dict.fromkeys((*describing, *asked))):
         yield AloneProof(kind="alone", nodes=nodes)
     if target == "mock":
-        hardware = (device.hardware for device in cell.devices if is_on(device, "mock"))
+        hardware = (device.control.hardware for device in cell.devices if is_on(device, "mock"))
         plugins = tuple(sorted({item.plugins["mock"] for item in hardware if item is not None}))
         yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in describing)
 
@@ -308,7 +308,7 @@ def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device,
     """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
     telling = manager.by_kind()
     for device in components_of(cell, manager, "real"):
-        for report in () if device.hardware is None else device.hardware.heard_before_a_claim:
+        for report in () if device.control.hardware is None else device.control.hardware.heard_before_a_claim:
             for controller in telling.get((report.controller_kind, device.name), ()):
                 topic = f"{controller.full_name}/{report.topic}"
                 proof = TopicProof(kind="topic", topic=topic, type=report.type, field=report.field, value=report.value)
@@ -325,7 +325,7 @@ def _heard(cell: Cell, manager: ControllerManager) -> Iterator[Proof]:
 
 def _silent(cell: Cell, device: Device) -> Iterator[TopicProof]:
     """Yield that no program plays which would end while a device holds up its controller manager."""
-    effect = None if device.hardware is None else device.hardware.effects.get(Moment.ACTIVATE)
+    effect = None if device.control.hardware is None else device.control.hardware.effects.get(Moment.ACTIVATE)
     if effect is not None and Need.PROGRAM_STOPPED in effect.needs:
         for manager in cell.managers:
             for _, proof in _listening(cell, manager) if device.name in manager.devices else ():
@@ -348,8 +348,8 @@ def watches(cell: Cell) -> Iterator[Watch]:
 
 
 def _component(device: Device) -> str:
-    assert device.hardware is not None
-    return device.hardware.name
+    assert device.control.hardware is not None
+    return device.control.hardware.name
 
 
 def _hardware(manager: ControllerManager, device: Device, state: HardwareState) -> HardwareProof:

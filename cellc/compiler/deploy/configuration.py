@@ -11,6 +11,7 @@ from typing import Any
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.entity import Part
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import rounded
@@ -77,7 +78,7 @@ def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> obj
             name: _settled(member) if name in _IN_ORDER else _unordered(_settled(member))
             for name, member in stated.items()
         }
-        return _as_first_taken(settled) if isinstance(value, Device) else settled
+        return _as_first_taken(settled, value) if isinstance(value, Device) else settled
     if isinstance(value, Mapping):
         return {str(name): _settled(member) for name, member in value.items()}
     if isinstance(value, frozenset):
@@ -91,8 +92,13 @@ def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> obj
     return value if isinstance(value, (str, int)) or value is None else str(value)
 
 
-def _as_first_taken(device: dict[str, object]) -> dict[str, object]:
+def _as_first_taken(composed: Mapping[str, object], of: Device) -> dict[str, object]:
     """Return a device in the form over which the first ids were taken: evidence of a cell rests on its id."""
+    device: dict[str, object] = {}
+    for name, value in composed.items():
+        device |= value if isinstance(value, dict) and isinstance(getattr(of, name), Part) else {name: value}
+    if (accepted := device.pop("accepts", None)) is not None:
+        device["robot"] = accepted
     exposure_s = device.pop("exposure_s", None)
     if isinstance(stamp := device.get("stamp"), dict):
         stamp["exposure_s"] = exposure_s
@@ -130,7 +136,7 @@ def version_tuple(cell: Cell) -> dict[str, str]:
     }
     for device in cell.devices:
         names = _OF_DEVICE[:2] if device.is_only_switched else _OF_DEVICE
-        parts |= {f"{device.name}.{name}": device.versions.part(name) for name in names}
+        parts |= {f"{device.name}.{name}": device.software.versions.part(name) for name in names}
     return parts
 
 
@@ -155,7 +161,7 @@ def _versions(cell: Cell) -> Iterator[OpenQuestion]:
             path = ("devices", of, part) if device else ("versions", *name.split("."))
             yield OpenQuestion(f"{part} of {of}" if of else name, path)
     for item in cell.devices:
-        if item.kinematics is not None and item.kinematics.calibration is None:
+        if item.body.kinematics is not None and item.body.kinematics.calibration is None:
             yield OpenQuestion(f"kinematic calibration of {item.name}", (*item.path, "calibration"))
 
 
@@ -174,7 +180,7 @@ def _safety(cell: Cell) -> Iterator[OpenQuestion]:
 
 def _effects(cell: Cell) -> Iterator[OpenQuestion]:
     for device in cell.devices:
-        if device.unknown_effects:
+        if device.control.unknown_effects:
             yield OpenQuestion(f"motion of {device.name} at its start", (*device.path, "model"))
 
 

@@ -26,7 +26,7 @@ def first_motion(graph: CellGraph) -> Iterator[Values]:
 def jogged(graph: CellGraph) -> Iterator[Values]:
     """Yield the first motions of robots whose driver reads on while a person moves them."""
     firsts = graph.cell.bringup.first_motions
-    return (_first_motion(graph, first) for first in firsts if graph.cell.device(first.device).jog is None)
+    return (_first_motion(graph, first) for first in firsts if graph.cell.device(first.device).procedures.jog is None)
 
 
 def jogging(graph: CellGraph) -> Iterator[Values]:
@@ -38,7 +38,7 @@ def guided(graph: CellGraph) -> Iterator[Values]:
     """Yield the first motions of robots whose driver cannot run meanwhile, with how their vendors have people move
     them."""
     for first in graph.cell.bringup.first_motions:
-        if jog := graph.cell.device(first.device).jog:
+        if jog := graph.cell.device(first.device).procedures.jog:
             yield *_first_motion(graph, first), jog
 
 

@@ -132,9 +132,9 @@ def _components(graph: CellGraph) -> Iterator[Values]:
     """Yield the startup state of each component of the real target, and who sets it."""
     for manager in graph.cell.managers:
         for device in map(graph.cell.device, manager.devices):
-            if device.hardware is not None and "real" in device.hardware.targets:
-                whose = "vendor default" if device.initial_state is None else "set in the spec"
-                yield device.hardware.name, device.startup_state, whose
+            if device.control.hardware is not None and "real" in device.control.hardware.targets:
+                whose = "vendor default" if device.control.initial_state is None else "set in the spec"
+                yield device.control.hardware.name, device.control.startup_state, whose
 
 
 def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
@@ -147,9 +147,12 @@ def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
 def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         for gate in GateCode:
-            stops = [state for state in device.safety.states if state.stops and state.gate is gate]
+            stops = [state for state in device.procedures.safety.states if state.stops and state.gate is gate]
             if stops:
-                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(topic)}" for topic in device.safety.topics)
+                echoes = (
+                    f"timeout 10 ros2 topic echo --once {shell_word(topic)}"
+                    for topic in device.procedures.safety.topics
+                )
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
                 yield device.name, states, "\n".join(echoes), gate
 
@@ -157,34 +160,34 @@ def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
 def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
     text = graph.cell.text
     for device in graph.cell.devices:
-        if device.payload is not None:
+        if device.robot.payload is not None:
             payload = (*device.path, "payload")
             moments = text(*payload, "inertia")
             said = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
             stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), moments, said
-            yield *stated, device.tool_frame or device.root_link, device.payload.set_by
+            yield *stated, device.body.tool_frame or device.body.root_link, device.robot.payload.set_by
 
 
 def _tool_centers(graph: CellGraph) -> Iterator[Values]:
     """Yield the TCP that the robot's own controller must have, and the command that shows it."""
     for device in graph.cell.devices:
-        if device.tcp is None or device.tool_frame is None:
+        if device.robot.tcp is None or device.body.tool_frame is None:
             continue
-        pose = graph.frames.pose_in(device.tcp, device.tool_frame)
+        pose = graph.frames.pose_in(device.robot.tcp, device.body.tool_frame)
         if pose is not None:
             xyz = _figures((1000.0 * value for value in pose.position), 2) + " mm"
             turn = _figures(pose.rotation_vector(), 4) + " rad"
             rpy = _figures(map(math.degrees, pose.rpy()), 2) + " deg"
-            yield device.name, device.tcp, device.tool_frame, xyz, turn, rpy, _shows_center(graph, device)
+            yield device.name, device.robot.tcp, device.body.tool_frame, xyz, turn, rpy, _shows_center(graph, device)
 
 
 def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
     tools: dict[str, list[str]] = {}
     for tool in graph.cell.devices:
-        if tool.connection is not None and tool.connection.through is not None:
-            tools.setdefault(tool.connection.through, []).append(tool.name)
+        if tool.site.connection is not None and tool.site.connection.through is not None:
+            tools.setdefault(tool.site.connection.through, []).append(tool.name)
     for device in graph.cell.devices:
-        if device.tool_connector is not None:
+        if device.robot.tool_connector is not None:
             voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
             yield device.name, voltage, ", ".join(tools.get(device.name, ())) or "every connected tool"
 
@@ -207,10 +210,10 @@ def _figures(values: Iterable[float], digits: int) -> str:
 
 def _shows_center(graph: CellGraph, device: Device) -> str:
     """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
-    broadcaster = graph.once(_active_by_kind).get((device.robot.tcp_kind, device.name))
+    broadcaster = graph.once(_active_by_kind).get((device.robot.accepts.tcp_kind, device.name))
     if broadcaster is None:
         return ""
-    return f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.tcp_topic}"
+    return f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.accepts.tcp_topic}"
 
 
 def _active_by_kind(graph: CellGraph) -> Mapping[tuple[str | None, str | None], Controller]:
@@ -225,14 +228,14 @@ def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) 
     Steps that power the drives are yielded separately: a stop is tested on powered drives.
     """
     for device in graph.cell.devices:
-        for step in device.commissioning:
+        for step in device.procedures.commissioning:
             if (step.shows, step.powers) == (shows, powers):
                 commands = (*(_addressed(device, command) for command in step.run), *_of_this_launch(step.log))
                 yield device.name, step.does, "\n".join(commands), step.gate, step.sets or ""
 
 
 def _addressed(device: Device, command: str) -> str:
-    address = UNKNOWN if device.connection is None else device.connection.address or UNKNOWN
+    address = UNKNOWN if device.site.connection is None else device.site.connection.address or UNKNOWN
     return command.replace("{address}", shell_word(address))
 
 
@@ -252,16 +255,16 @@ def _of_this_launch(lines: tuple[str, ...]) -> Iterator[str]:
 
 def _nominal_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
-        if device.kinematics is not None and device.kinematics.calibration is None:
+        if device.body.kinematics is not None and device.body.kinematics.calibration is None:
             file = f"{graph.cell.name}/{device.name}_calibration.yaml"
             target = f'"$(pwd)"/{shell_word(f"cells/{file}")}'
-            command = _addressed(device, device.kinematics.command).replace("FILE", target)
-            yield device.name, device.kinematics.state, f"cells/{file}", command
+            command = _addressed(device, device.body.kinematics.command).replace("FILE", target)
+            yield device.name, device.body.kinematics.state, f"cells/{file}", command
 
 
 def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
-        calibration = None if device.kinematics is None else device.kinematics.calibration
+        calibration = None if device.body.kinematics is None else device.body.kinematics.calibration
         if calibration is not None:
             path = f"cells/{graph.cell.name}/{calibration.name}"
             facts = (calibration.name, calibration.hash, calibration.measured, calibration.owner, calibration.sha256)
@@ -280,8 +283,8 @@ def _reached_devices(graph: CellGraph) -> Iterator[Values]:
 
 def _devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
-        safety = " and its safety state" if device.safety.states else ""
-        yield device.name, device.versions.serial, device.versions.firmware, safety
+        safety = " and its safety state" if device.procedures.safety.states else ""
+        yield device.name, device.software.versions.serial, device.software.versions.firmware, safety
 
 
 def _interfaces(graph: CellGraph) -> Iterator[Values]:

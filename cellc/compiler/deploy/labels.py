@@ -7,7 +7,8 @@ from itertools import groupby
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
-from cellc.compiler.cell.device import Device, DeviceDriver
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.hardware import DeviceDriver
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.formats.numbers import shortest
 from cellc.contract.vocabulary import PASSIVE, Behavior, InterfaceKind
@@ -160,7 +161,7 @@ def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[s
     goals = ", ".join(action for action, _ in driver.actions.values()) or "none declared"
     yield f"{driver.program}, on real hardware; no controller claims anything there"
     yield f"goals: {goals}; frame joints, on request, time of the driver"
-    watched = watched_stream(cell, device) or device.safety.watchdog or _NOT_STATED
+    watched = watched_stream(cell, device) or device.procedures.safety.watchdog or _NOT_STATED
     yield f"owner {cell.owners.responsibilities.vendor_safety}; watchdog: {watched}"
     yield f"architecture: {device.architecture}"
 
@@ -209,13 +210,15 @@ def folded(names: Iterable[str]) -> Iterator[str]:
 
 def watchdog(cell: Cell, controller: Controller) -> str:
     """Return the vendor's watchdog of the device, which stops it when commands stop arriving."""
-    stated = None if controller.device is None else cell.device(controller.device).safety.watchdog
+    stated = None if controller.device is None else cell.device(controller.device).procedures.safety.watchdog
     return stated or _NOT_STATED
 
 
 def real_driver(device: Device) -> str:
     """Return the plugin that moves a device on the real target, or the node with its program."""
-    plugin = None if device.hardware is None else device.hardware.plugins.get("real")
+    plugin = None if device.control.hardware is None else device.control.hardware.plugins.get("real")
     if plugin is not None:
         return plugin
-    return _NOTHING if device.driver is None else f"{device.driver.node} ({device.driver.program})"
+    return (
+        _NOTHING if device.control.driver is None else f"{device.control.driver.node} ({device.control.driver.program})"
+    )

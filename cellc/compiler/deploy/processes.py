@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
-from cellc.compiler.cell.device import Device, OfferedInterface
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.hardware import OfferedInterface
 from cellc.compiler.cell.interface import Node
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
@@ -63,7 +64,7 @@ def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str
     """
     named = {interface.name for interface in cell.interfaces}
     for device in cell.devices:
-        for offer in device.offers:
+        for offer in device.control.offers:
             if offer.effect is not None and offer.effect.motion is Motion.MOVES and offer.name not in named:
                 yield device, offer, offer.effect.does
 

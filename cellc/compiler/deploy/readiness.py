@@ -22,12 +22,12 @@ def components_of(cell: Cell, manager: ControllerManager, target: Target) -> Ite
 
 def is_on(device: Device, target: Target) -> bool:
     """Whether a target has the component of a device."""
-    return device.hardware is not None and target in device.hardware.targets
+    return device.control.hardware is not None and target in device.control.hardware.targets
 
 
 def activated_later(cell: Cell, manager: ControllerManager, target: Target) -> tuple[Device, ...]:
     """Return what does not start active: its activation moves something, or must be one call, or the spec says so."""
-    return tuple(device for device in components_of(cell, manager, target) if device.startup_state != "active")
+    return tuple(device for device in components_of(cell, manager, target) if device.control.startup_state != "active")
 
 
 def started_active(manager: ControllerManager, target: Target) -> Iterator[Controller]:
@@ -61,7 +61,7 @@ def is_exported(cell: Cell, manager: ControllerManager, reader: Controller, targ
     Source: https://github.com/ros-controls/ros2_controllers/blob/5.17.0/joint_state_broadcaster/src/joint_state_broadcaster.cpp
     """
     read = components_read(cell, manager, reader, target)
-    return not read or any(device.startup_state != "unconfigured" for device in read)
+    return not read or any(device.control.startup_state != "unconfigured" for device in read)
 
 
 def components_read(cell: Cell, manager: ControllerManager, reader: Controller, target: Target) -> tuple[Device, ...]:
@@ -96,7 +96,7 @@ def is_shown_late(cell: Cell, parent: str, child: str, target: Target = "real") 
 def _unconfigured(cell: Cell, target: Target) -> tuple[str, ...]:
     """Return the names of the devices whose components start unconfigured, without their interfaces."""
     devices = (device for manager in cell.managers for device in components_of(cell, manager, target))
-    return tuple(device.name for device in devices if device.startup_state == "unconfigured")
+    return tuple(device.name for device in devices if device.control.startup_state == "unconfigured")
 
 
 def silent_until_activation(cell: Cell) -> frozenset[str]:
@@ -121,7 +121,7 @@ def moved_with(cell: Cell, device: str | None) -> str:
     frames = {frame.name: frame for frame in cell.frames}
     holder = device or ""
     while holder in devices and devices[holder].kind != "arm":
-        below = frames.get(devices[holder].parent_frame)
+        below = frames.get(devices[holder].mount.parent_frame)
         while below is not None and below.device is None:
             below = frames.get(below.parent)
         if below is None or below.device is None:

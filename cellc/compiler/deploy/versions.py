@@ -79,7 +79,7 @@ def _is_on(cell: Cell, part: str, host: str) -> bool:
     """Tell whether a computer must show a part: drivers run where devices hang, real time has the kernel."""
     holder, _, name = part.rpartition(".")
     if holder:
-        return cell.device(holder).host in (host, "")
+        return cell.device(holder).site.host in (host, "")
     if name == "kernel":
         return cell.hosts[host].scheduling != _GENERIC
     if name == "ros2_control":

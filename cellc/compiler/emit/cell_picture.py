@@ -47,7 +47,7 @@ class _Standing:
         named = [pose for pose in cell.poses if pose.name == cell.poses[0].name]
         asked = {joint: value for pose in named for joint, value in zip(pose.joints, pose.positions, strict=True)}
         for device in cell.devices:
-            for link, pose in posture(device.description, {**device.home, **asked}).items():
+            for link, pose in posture(device.body.description, {**device.mock.home, **asked}).items():
                 self._links.setdefault(link, (device, pose))
         self._places: dict[str, _Place] = {}
 
@@ -56,7 +56,7 @@ class _Standing:
         return self._part("", self._cell.name)
 
     def _part(self, device: str, name: str) -> Part:
-        carried = [item for item in self._cell.devices if self._place(item.parent_frame).device == device]
+        carried = [item for item in self._cell.devices if self._place(item.mount.parent_frame).device == device]
         solids = [box for box in self._cell.scene if self._place(box.parent).device == device]
         parts = (
             *(self._solid(solid) for solid in solids),
@@ -69,14 +69,14 @@ class _Standing:
         poses = {link: self._place(link).pose for link, (holder, _) in self._links.items() if holder is placed}
         shapes = (
             (poses[link.name], collision)
-            for link in placed.description.links
+            for link in placed.body.description.links
             for collision in link.collisions
             if link.name in poses
         )
-        joints = (joint for joint in placed.description.joints if joint.parent in poses and joint.child in poses)
+        joints = (joint for joint in placed.body.description.joints if joint.parent in poses and joint.child in poses)
         return Part(
             name,
-            poses[placed.root_link].position,
+            poses[placed.body.root_link].position,
             tuple((pose @ shape.pose, shape.geometry) for pose, shape in shapes),
             tuple((poses[joint.parent].position, poses[joint.child].position) for joint in joints),
             frames,
@@ -105,7 +105,7 @@ class _Standing:
     def _found(self, name: str) -> _Place:
         if name in self._links:
             device, pose = self._links[name]
-            base = self._place(device.parent_frame).pose @ device.transform_root_to_parent
+            base = self._place(device.mount.parent_frame).pose @ device.mount.transform_root_to_parent
             return _Place(base @ pose, device.name)
         frame = self._frames.get(name)
         if frame is None or name == WORLD:

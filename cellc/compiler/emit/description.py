@@ -98,7 +98,7 @@ def _gripper(device: Device) -> Iterator[Element]:
         value = element("joint", {"name": joint, "value": shortest(position)})
         yield element("group_state", {"name": name, "group": group}, [value])
     if device.kind != "arm":  # fingers of an arm have no mount; a marker then is at the tip of the arm's group
-        yield element("end_effector", {"name": group, "group": group, "parent_link": device.parent_frame})
+        yield element("end_effector", {"name": group, "group": group, "parent_link": device.mount.parent_frame})
 
 
 def _hand_group(device: str, kind: str) -> str:

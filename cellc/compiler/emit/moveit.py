@@ -231,7 +231,7 @@ def _trajectory_execution(cell: Cell) -> Parameters:
     A device that slows trajectories down outlasts the planned duration: there MoveIt must not abort for it, and the
     controller's own tolerances watch instead.
     """
-    slowed = any(device.speed_scaling is not None for device in cell.devices)
+    slowed = any(device.control.speed_scaling is not None for device in cell.devices)
     return {
         # Switching is a declared step of the cell, never a side effect of planning.
         "moveit_manage_controllers": False,

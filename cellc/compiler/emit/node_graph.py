@@ -65,7 +65,7 @@ def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
     controllers = {controller.label for controller in cell.controllers}
     devices = [device.name for device in cell.devices]
     ends = dict.fromkeys(name for exchange in exchanges for name in (*exchange.starts, *exchange.ends))
-    drivers = dict.fromkeys(device.driver.node for device in cell.devices if device.driver is not None)
+    drivers = dict.fromkeys(device.control.driver.node for device in cell.devices if device.control.driver is not None)
     nodes = [name for name in (ends | drivers) if name not in controllers and name not in devices]
     asks: dict[str, set[str]] = {name: set() for name in nodes}
     for exchange in exchanges:

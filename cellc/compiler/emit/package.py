@@ -81,7 +81,7 @@ def _pinned(cell: Cell) -> dict[str, str]:
     parts: list[tuple[str | None, str]] = [(name, cell.versions.ros2_control) for name in _CONTROL]
     parts += [(name, cell.versions.moveit) for name in _of_moveit(cell)]
     for device in cell.devices:
-        packages, versions = device.packages, device.versions
+        packages, versions = device.software.packages, device.software.versions
         parts += [(packages.driver, versions.driver), (packages.sdk, versions.sdk)]
         parts += [(packages.description, versions.description)]
     return {name: number for name, text in parts if name and (number := version_number(text))}
@@ -98,13 +98,13 @@ def _of_moveit(cell: Cell) -> set[str]:
 def _dependencies(cell: Cell) -> tuple[str, ...]:
     """Return package names in alphabetical order, so that a new device shows as new lines alone."""
     controllers = (controller.package for controller in cell.controllers)
-    hardware = (device.packages.driver for device in cell.devices if device.hardware is not None)
+    hardware = (device.software.packages.driver for device in cell.devices if device.control.hardware is not None)
     names = {*_ALWAYS, *_BRING_UP, *_GATES, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
-    programs_of = (program for device in cell.devices for program in device.programs)
+    programs_of = (program for device in cell.devices for program in device.site.programs)
     names |= {name for program in programs_of for name in (program.package, *program.system)}
-    tools = (None if device.kinematics is None else device.kinematics.package for device in cell.devices)
+    tools = (None if device.body.kinematics is None else device.body.kinematics.package for device in cell.devices)
     names |= {package for package in tools if package is not None}
     if plans(cell):
         names |= {*_of_moveit(cell), *(group.solver.package for group in cell.groups)}

@@ -58,10 +58,12 @@ def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterVa
     for state in ("unconfigured", "inactive"):
         devices = (cell.device(name) for name in manager.devices)
         if named := tuple(
-            device.hardware.name for device in devices if device.hardware and device.startup_state == state
+            device.control.hardware.name
+            for device in devices
+            if device.control.hardware and device.control.startup_state == state
         ):
             rate[f"hardware_components_initial_state.{state}"] = named
-    hardware = [cell.device(name).hardware for name in manager.devices]
+    hardware = [cell.device(name).control.hardware for name in manager.devices]
     if Feature.LIMITED_COMMANDS in features(cell.distro) and any(
         item is not None and item.enforce_command_limits is False for item in hardware
     ):

@@ -273,7 +273,7 @@ def _managers(cell: Cell) -> Iterator[str]:
     for manager in cell.managers:
         for device in map(cell.device, manager.devices):
             through = real_driver(device)
-            if device.hardware is not None and "real" in device.hardware.targets:
+            if device.control.hardware is not None and "real" in device.control.hardware.targets:
                 yield f"controller manager {manager.name} writes to {device.name} through {through}"
             else:
                 yield f"no controller manager writes to {device.name} on real hardware, where {through} moves it"
@@ -281,7 +281,7 @@ def _managers(cell: Cell) -> Iterator[str]:
 
 def _drives(cell: Cell) -> Iterator[str]:
     for device in cell.devices:
-        if device.is_driven:
+        if device.control.is_driven:
             yield f"the vendor controller of {device.name} decides what reaches the drives"
 
 

@@ -45,7 +45,7 @@ def _with_allowed(graph: CellGraph) -> DisabledAnswer:
     allowed = {
         DisabledLinks(min(pair), max(pair), ALLOWED)
         for device in graph.cell.devices
-        for pair in device.allowed_collisions
+        for pair in device.body.allowed_collisions
         if frozenset(pair) not in known
     }
     return replace(answer, pairs=tuple(sorted({*answer.pairs, *allowed}))) if allowed else answer

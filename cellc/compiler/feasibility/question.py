@@ -117,7 +117,7 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
             for question in _goal(graph.frames, goal, tips[goal.group][1])
         ),
         views=tuple(_views(graph)),
-        allowed=tuple(pair for device in cell.devices for pair in device.allowed_collisions),
+        allowed=tuple(pair for device in cell.devices for pair in device.body.allowed_collisions),
         carried=tuple(_carried(cell)),
         held=tuple(joint.name for device in cell.devices for joint in device.joints if joint.effort),
         areas=tuple(_areas(graph)),
@@ -133,17 +133,17 @@ def _areas(graph: CellGraph) -> Iterator[AreaQuestion]:
 def _carried(cell: Cell) -> Iterator[CarriedQuestion]:
     """Yield what the payload of each arm has beyond the masses of its tools, where the payload has its center."""
     for device in cell.devices:
-        if device.payload is None or device.tool_frame is None:
+        if device.robot.payload is None or device.body.tool_frame is None:
             continue
-        rest_kg = device.payload.mass_kg - cell.carried_mass_kg(device)
+        rest_kg = device.robot.payload.mass_kg - cell.carried_mass_kg(device)
         if rest_kg > 0.0:
-            yield CarriedQuestion(device.tool_frame, rest_kg, device.payload.center_of_mass)
+            yield CarriedQuestion(device.body.tool_frame, rest_kg, device.robot.payload.center_of_mass)
 
 
 def _views(graph: CellGraph) -> Iterator[ViewQuestion]:
     """Yield each object that is detected in the frame of a camera, with where the arm is then."""
     cell = graph.cell
-    optical = {device.frames[name] for device in cell.devices for name in device.optical_frames}
+    optical = {device.body.frames[name] for device in cell.devices for name in device.body.optical_frames}
     seen: set[tuple[str, str]] = set()
     for rehearsal in cell.rehearsals:
         posture = ""

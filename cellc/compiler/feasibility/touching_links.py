@@ -22,7 +22,7 @@ def touching_links(cell: Cell) -> tuple[tuple[str, str, str], ...]:
 
 
 def _solid(cell: Cell) -> frozenset[str]:
-    of_devices = (link for device in cell.devices for link in device.description.links)
+    of_devices = (link for device in cell.devices for link in device.body.description.links)
     return frozenset([link.name for link in of_devices if link.collisions] + [box.name for box in cell.scene])
 
 

@@ -186,7 +186,7 @@ def age_chains(cell: Cell) -> Mapping[str, tuple[AgeShare, ...]]:
 
 def _passed_on(cell: Cell, topics: Mapping[str, Interface]) -> Mapping[str, list[str]]:
     """Return, for each topic, the topics to which its readers pass its stamp on."""
-    device_frames = {device.name: frozenset(device.frames.values()) for device in cell.devices}
+    device_frames = {device.name: frozenset(device.body.frames.values()) for device in cell.devices}
     published: dict[str, list[Interface]] = {}
     for topic in topics.values():
         for source in topic.sources:

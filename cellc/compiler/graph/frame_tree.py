@@ -163,12 +163,12 @@ class ModelParts:
         """Yield every link of every device."""
         for device in self.cell.devices:
             path = (*device.path, "model")
-            for link in device.description.links:
+            for link in device.body.description.links:
                 yield ModelLink(device, link, link.span or self.cell.locate(*path), path)
 
     def joints(self) -> Iterator[ModelJoint]:
         """Yield every joint of every device."""
         for device in self.cell.devices:
             path = (*device.path, "model")
-            for joint in device.description.joints:
+            for joint in device.body.description.joints:
                 yield ModelJoint(device, joint, joint.span or self.cell.locate(*path), path)

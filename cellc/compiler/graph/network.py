@@ -79,7 +79,7 @@ def build_network(cell: Cell) -> NetworkGraph:
             device.name, link.host, link.nic, link.address, read_address(link.address), (*device.path, "connection")
         )
         for device in cell.devices
-        if (link := device.connection) is not None
+        if (link := device.site.connection) is not None
     )
     return NetworkGraph(nics, devices)
 

@@ -49,8 +49,8 @@ def named_row(text: str, part: str, rows: tuple[VersionRow, ...], distro: str) -
 
 def unlisted(device: Device, distro: str) -> tuple[str, ...]:
     """Return the parts of a device that are pinned to what no row of its matrix names, though it has rows for them."""
-    pins = ((part, device.versions.part(part)) for part in PACKAGED)
-    rows = tuple(row for row in device.version_rows if row.known)
+    pins = ((part, device.software.versions.part(part)) for part in PACKAGED)
+    rows = tuple(row for row in device.software.version_rows if row.known)
     return tuple(
         part
         for part, text in pins
@@ -62,8 +62,8 @@ def unlisted(device: Device, distro: str) -> tuple[str, ...]:
 
 def foreign_lines(device: Device, part: str, distro: str) -> tuple[VersionRow, ...]:
     """Return the rows of other distributions with the major version of a part, where none of its own knows that."""
-    text = device.versions.part(part)
-    rows = [row for row in device.version_rows if row.part == part and row.known]
+    text = device.software.versions.part(part)
+    rows = [row for row in device.software.version_rows if row.part == part and row.known]
     here = [row for row in rows if row.distro in (None, distro)]
     if not here or not version_numbers(text) or any(_has_line(row, text) for row in here):
         return ()
@@ -74,20 +74,20 @@ def foreign_lines(device: Device, part: str, distro: str) -> tuple[VersionRow, .
 
 def package_of(device: Device, part: str) -> str | None:
     """Return the package that a part of the version tuple is; None where the device has none."""
-    packages = device.packages
+    packages = device.software.packages
     return {"driver": packages.driver, "sdk": packages.sdk, "description": packages.description}[part]
 
 
 def shared_parts(device: Device, one: ReleaseSet) -> dict[str, str]:
     """Return the versions that a release set has of the packages that a device pins, by their part."""
-    pinned = {part: package_of(device, part) for part in PACKAGED if device.versions.part(part) != UNKNOWN}
+    pinned = {part: package_of(device, part) for part in PACKAGED if device.software.versions.part(part) != UNKNOWN}
     return {part: one.packages[name] for part, name in pinned.items() if name is not None and name in one.packages}
 
 
 def differing(device: Device, one: ReleaseSet) -> tuple[str, ...]:
     """Return the parts of a device that a release set has in another version."""
     shared = shared_parts(device, one).items()
-    return tuple(part for part, version in shared if not same_version(device.versions.part(part), version))
+    return tuple(part for part, version in shared if not same_version(device.software.versions.part(part), version))
 
 
 def own_release(device: Device, distro: str) -> ReleaseSet | None:

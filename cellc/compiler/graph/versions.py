@@ -59,11 +59,11 @@ def cell_pins(cell: Cell) -> Iterator[Pin]:
 def device_pins(cell: Cell) -> Iterator[Pin]:
     """Yield the parts of the tuple of each device; what its catalog entry says it has none of is left out."""
     for device in cell.devices:
-        packages = device.packages
+        packages = device.software.packages
         absent = {"driver": packages.driver, "sdk": packages.sdk, "description": packages.description}
         absent |= {"firmware": None} if device.is_only_switched else {}
         for part in _DEVICE_PARTS:
-            text = device.versions.part(part)
+            text = device.software.versions.part(part)
             if text != UNKNOWN or absent.get(part, part) is not None:
                 yield Pin(device.name, part, text, (*device.path, part))
 
@@ -161,7 +161,7 @@ def _of_devices(cell: Cell) -> Iterator[Judgment]:
             yield Judgment(pin, Answer.UNKNOWN, "not pinned")
             continue
         device = devices[pin.holder]
-        rows = tuple(row for row in device.version_rows if row.part == pin.part)
+        rows = tuple(row for row in device.software.version_rows if row.part == pin.part)
         row = named_row(pin.text, pin.part, rows, cell.distro)
         if pin.part not in PACKAGED:
             answer, evidence = _firmware_answer(pin, rows)

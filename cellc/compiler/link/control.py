@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager, ControllerSwitch
-from cellc.compiler.cell.device import Adapter, Device, DeviceDriver
-from cellc.compiler.cell.hardware import Effect
+from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.hardware import Adapter, DeviceDriver, Effect
 from cellc.compiler.cell.interface import Endpoint, Interface, Node, ParameterValue
 from cellc.compiler.link.controller import ControlContext, ControllerPlace, link_controller
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
@@ -86,7 +86,7 @@ def _manager(
 
 def _managed_devices(written: ManagerSpec, context: ControlContext) -> tuple[str, ...]:
     """One manager loads all hardware of the cell; several load what their own controllers drive."""
-    with_hardware = tuple(name for name, bound in context.devices.items() if bound.device.hardware is not None)
+    with_hardware = tuple(name for name, bound in context.devices.items() if bound.device.control.hardware is not None)
     if not context.spec.managers:
         return with_hardware
     named = {entry.device for entry in written.controllers.values()}
@@ -186,33 +186,38 @@ def _with_parameters(node: Node, adapted: AdaptedDevice) -> Node:
 
 
 def _adapted_device(device: Device, adapted: AdaptedDevice, nodes: Iterable[Node]) -> Device:
-    sources = tuple(source for source in device.record if source.controller_kind is None)
-    limits = (*device.mock_cannot_prove, _NOT_ON_THE_MOCK)
-    bare = replace(device, hardware=None, driver=None, offers=(), starts={}, record=sources, mock_cannot_prove=limits)
+    record = tuple(source for source in device.procedures.record if source.controller_kind is None)
+    limits = (*device.mock.mock_cannot_prove, _NOT_ON_THE_MOCK)
     node = next((node for node in nodes if node.full_name == adapted.node), None)
-    if node is None:
-        return bare
-    driver = DeviceDriver(
-        node=adapted.node,
-        program=f"{node.package}/{node.executable}",
-        joint_states=adapted.state_topic,
-        actions={Behavior.JOINT_TRAJECTORY.value: (adapted.action, TRAJECTORY_ACTION)},
+    driver = (
+        None
+        if node is None
+        else DeviceDriver(
+            node=adapted.node,
+            program=f"{node.package}/{node.executable}",
+            joint_states=adapted.state_topic,
+            actions={Behavior.JOINT_TRAJECTORY.value: (adapted.action, TRAJECTORY_ACTION)},
+        )
     )
-    return replace(bare, driver=driver, starts={adapted.node: _CONNECTS})
+    starts = {} if driver is None else {adapted.node: _CONNECTS}
+    return replace(
+        device,
+        control=replace(device.control, hardware=None, driver=driver, offers=(), starts=starts),
+        procedures=replace(device.procedures, record=record),
+        mock=replace(device.mock, mock_cannot_prove=limits),
+    )
 
 
 def _with_procedures(device: Device, driven_by: str) -> Device:
-    fits = (None, driven_by)
-    recovery = tuple(procedure for procedure in device.safety.recovery if procedure.by in fits)
-    return replace(
-        device,
-        safety=replace(device.safety, recovery=recovery),
-        commissioning=tuple(step for step in device.commissioning if step.by in fits),
-    )
+    fits, own = (None, driven_by), device.procedures
+    recovery = tuple(procedure for procedure in own.safety.recovery if procedure.by in fits)
+    steps = tuple(step for step in own.commissioning if step.by in fits)
+    safety = replace(own.safety, recovery=recovery)
+    return replace(device, procedures=replace(own, safety=safety, commissioning=steps))
 
 
 def _adapted(device: Device, joints: tuple[str, ...], action: Interface, state: Interface) -> AdaptedDevice:
-    stated = device.adapter or Adapter()
+    stated = device.control.adapter or Adapter()
     period_s = 1.0 / (state.rate_hz or DEFAULT_RATE_HZ)
     return AdaptedDevice(
         device=device.name,

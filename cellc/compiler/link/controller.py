@@ -55,7 +55,7 @@ class ControlContext:
     @cached_property
     def beyond_the_mock(self) -> frozenset[str]:
         """Interfaces of groups that the real hardware alone has."""
-        hardware = [bound.device.hardware for bound in self.devices.values()]
+        hardware = [bound.device.control.hardware for bound in self.devices.values()]
         groups = [group for item in hardware if item is not None for group in (*item.sensors, *item.gpios)]
         return frozenset(
             f"{group.name}/{name}"
@@ -260,7 +260,11 @@ def _on_real(
 def _targets(chosen: _Chosen, interfaces: _Interfaces, context: ControlContext) -> tuple[Target, ...]:
     """Return the targets whose hardware has what the controller takes, of each device whose joints it has."""
     facts = chosen.own
-    components = [device.hardware for device in _taken_from(chosen, interfaces, context) if device.hardware is not None]
+    components = [
+        device.control.hardware
+        for device in _taken_from(chosen, interfaces, context)
+        if device.control.hardware is not None
+    ]
     have = tuple(target for target in TARGETS if all(target in component.targets for component in components))
     lacks = (facts is not None and facts.real_only) or _beyond_the_mock(interfaces, context)
     return tuple(target for target in have if target == "real" or not (lacks and "real" in have))
@@ -286,7 +290,7 @@ def _beyond_the_mock(interfaces: _Interfaces, context: ControlContext) -> bool:
 
 
 def _stand_in(kind: ControllerKind, device: Device) -> StandIn | None:
-    driver = device.driver
+    driver = device.control.driver
     if driver is None or kind.kind not in driver.actions:
         return None
     action, action_type = driver.actions[kind.kind]

@@ -199,9 +199,9 @@ def _published(source: Derivation, controller: Controller) -> Iterator[Endpoint]
 def _of_drivers(source: Derivation) -> Iterator[Endpoint]:
     """Yield the drivers that report joints on the real target, where no component of ros2_control does."""
     for device in source.devices:
-        if device.driver is not None and device.driver.joint_states is not None:
-            qos = source.ends.known[device.name].offered.get(device.driver.joint_states)
-            yield source.driver_end(device.name, device.driver.node, JOINT_STATES, device.path, qos)
+        if device.control.driver is not None and device.control.driver.joint_states is not None:
+            qos = source.ends.known[device.name].offered.get(device.control.driver.joint_states)
+            yield source.driver_end(device.name, device.control.driver.node, JOINT_STATES, device.path, qos)
 
 
 def control_interfaces(source: Derivation) -> Iterator[Interface]:

@@ -4,100 +4,127 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
 from cellc.compiler.catalog.device_bring_up import CommissioningStep as CommissioningFacts
 from cellc.compiler.catalog.device_graph import ImageFacts, ViewFacts
 from cellc.compiler.catalog.device_model import DeviceModel, GripperFacts
 from cellc.compiler.catalog.robot_facts import HumanStep
 from cellc.compiler.cell.device import (
-    Adapter,
     Camera,
     CameraStream,
     Connection,
-    Device,
+    DeviceJoint,
+    DeviceLimits,
+    DeviceMock,
     DeviceVersions,
     FieldOfView,
     Gripper,
     LimitShares,
     NetworkNeeds,
     Packages,
+    Sensing,
     SimulatedJoint,
+    Software,
     Stamp,
-    VendorMount,
 )
-from cellc.compiler.cell.vendor import CommissioningStep, RecordSource, RecoveryProcedure, SafetyState, VendorSafety
-from cellc.compiler.link.hardware import offered_interfaces, run_nodes, started_nodes
+from cellc.compiler.cell.hardware import Adapter, DeviceControl, HardwareComponent
+from cellc.compiler.cell.vendor import (
+    CommissioningStep,
+    Procedures,
+    RecordSource,
+    RecoveryProcedure,
+    SafetyState,
+    VendorSafety,
+)
+from cellc.compiler.link.hardware import device_driver, offered_interfaces, run_nodes, started_nodes
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.ports import listened
-from cellc.compiler.link.quantities import joint_figure, pose, si
+from cellc.compiler.link.quantities import joint_figure, si
 from cellc.compiler.link.robot import conditions
 from cellc.compiler.link.site import bind_clock
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.devices import EVERY_JOINT, DeviceSpec
+from cellc.contract.diagnostics import YamlPath
 from cellc.contract.pins import day_of
 from cellc.contract.vocabulary import Distro
 
 
-def with_statements(device: Device, written: DeviceSpec, port: str | None, document: SourceDocument) -> Device:
-    """Return a device with what the spec states of it: versions, connection, shares of limits, stamp.
-
-    Args:
-        port: its serial port, where it has one.
-    """
-    return replace(
-        device,
-        architecture=written.architecture,
-        versions=_versions(written),
-        connection=_connection(written, port),
-        initial_state=written.initial_state,
-        limit_shares=limit_shares(written),
-        stamp=_stamp(written),
-        mounted_on=_mounted_on(written),
+def device_control(
+    facts: DeviceModel,
+    written: DeviceSpec,
+    known: Placeholders,
+    distro: Distro | None,
+    hardware: HardwareComponent | None,
+) -> DeviceControl:
+    """Return what commands a device by a component or by its driver, and what that offers."""
+    nodes = run_nodes(facts, known, written.firmware)
+    return DeviceControl(
+        hardware=hardware,
+        driver=device_driver(facts, known),
         adapter=_adapter(written),
-        simulated_joints=_simulated_joints(written, device, document),
+        initial_state=written.initial_state,
+        offers=tuple(offered_interfaces(facts, nodes, known, distro)),
+        starts=started_nodes(nodes, known, distro),
+        speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
+        update_rates_hz=() if facts.control is None else tuple(rate.si for rate in facts.control.update_rates),
+        controller_kinds=tuple(facts.controllers),
     )
 
 
-def with_catalog(
-    device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders, distro: Distro | None
-) -> Device:
-    """Return a device with what the catalog knows of it: what it offers, asks of its cell, and cannot prove."""
-    prefix, limits, control = device.prefix, facts.limits, facts.control
-    nodes = run_nodes(facts, known, written.firmware)
+def device_software(facts: DeviceModel, written: DeviceSpec) -> Software:
+    """Return what the version tuple has of a device."""
+    packages = Packages(**facts.packages.model_dump())
+    return Software(versions=_versions(written), packages=packages, version_rows=facts.versions)
+
+
+def device_sensing(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Sensing:
+    """Return what a sensor measures, and when."""
+    return Sensing(stamp=_stamp(written), exposure_s=_exposure_s(facts, written), camera=_camera(facts, known, prefix))
+
+
+def device_limits(facts: DeviceModel, written: DeviceSpec) -> DeviceLimits:
+    """Return what a device may do as a whole."""
+    payload, repeatability = facts.limits.payload, facts.limits.repeatability
+    return DeviceLimits(
+        limit_shares=limit_shares(written),
+        payload_limit_kg=None if payload is None else payload.value.si,
+        repeatability_m=None if repeatability is None else repeatability.value.si,
+    )
+
+
+def vendor_procedures(
+    facts: DeviceModel, written: DeviceSpec, known: Placeholders, distro: Distro | None
+) -> Procedures:
+    """Return what people do and read at the real device, as far as it fits this cell."""
     holding = conditions(facts, written)
-    return replace(
-        device,
-        home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
-        vendor_mounts=tuple(
-            VendorMount(model=mount.on, frame=mount.frame, pose=pose(mount.xyz, mount.rpy)) for mount in facts.mounts
-        ),
-        optical_frames=facts.optical_frames,
-        payload_limit_kg=None if limits.payload is None else limits.payload.value.si,
-        repeatability_m=None if limits.repeatability is None else limits.repeatability.value.si,
-        update_rates_hz=() if control is None else tuple(rate.si for rate in control.update_rates),
-        controller_kinds=tuple(facts.controllers),
-        speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
-        gripper=_gripper(facts, prefix),
-        camera=_camera(facts, known, prefix),
-        exposure_s=_exposure_s(facts, written),
-        offers=tuple(offered_interfaces(facts, nodes, known, distro)),
-        starts=started_nodes(nodes, known, distro),
-        network=_network_needs(facts, known),
+    return Procedures(
         safety=_vendor_safety(facts, known, holding),
-        packages=_packages(facts),
+        record=tuple(_record(facts)),
         jog=None if facts.jog is None else facts.jog.does,
         commissioning=tuple(
             _step(step, known)
             for step in facts.commissioning
             if (not step.only or distro in step.only) and (not step.when or holding.intersection(step.when))
         ),
-        record=tuple(_record(facts)),
-        version_rows=facts.versions,
-        allowed_collisions=tuple(
-            (prefix + a, prefix + b) for a, b in (collision.links for collision in facts.allowed_collisions)
-        ),
-        excused={str(code): because for code, because in facts.excused.items()},
+    )
+
+
+def device_mock(
+    facts: DeviceModel,
+    written: DeviceSpec,
+    prefix: str,
+    path: YamlPath,
+    joints: tuple[DeviceJoint, ...],
+    document: SourceDocument,
+) -> DeviceMock:
+    """Return a device on the mock.
+
+    Args:
+        path: of the device in the spec.
+    """
+    return DeviceMock(
+        home={prefix + joint: position.si for joint, position in (facts.home or {}).items()},
+        simulated_joints=_simulated_joints(written, (*path, "simulated_joints"), joints, document),
         mock_cannot_prove=(*facts.mock_cannot_prove, *_taken_on_trust(facts)),
     )
 
@@ -125,8 +152,12 @@ def _versions(written: DeviceSpec) -> DeviceVersions:
     )
 
 
-def _connection(written: DeviceSpec, port: str | None) -> Connection | None:
-    """Return how the real device is reached."""
+def connection_of(written: DeviceSpec, port: str | None) -> Connection | None:
+    """Return how the real device is reached.
+
+    Args:
+        port: its serial port, where it has one.
+    """
     stated = written.connection
     if stated is None:
         return None
@@ -144,7 +175,8 @@ def limit_shares(written: DeviceSpec) -> LimitShares:
     )
 
 
-def _mounted_on(written: DeviceSpec) -> datetime.date | None:
+def mounted_on(written: DeviceSpec) -> datetime.date | None:
+    """Return the day on which a device was mounted for the last time."""
     since = None if written.mount is None else written.mount.since
     return None if since is None else day_of(since)
 
@@ -170,15 +202,18 @@ def _adapter(written: DeviceSpec) -> Adapter | None:
     )
 
 
-def _simulated_joints(written: DeviceSpec, device: Device, document: SourceDocument) -> tuple[SimulatedJoint, ...]:
+def _simulated_joints(
+    written: DeviceSpec, path: YamlPath, joints: tuple[DeviceJoint, ...], document: SourceDocument
+) -> tuple[SimulatedJoint, ...]:
     """Return what the mock adds to joints, with the commanded joints that each key means."""
-    path = (*device.path, "simulated_joints")
     return tuple(
         SimulatedJoint(
             name=key,
             path=(*path, key),
             span=document.locate((*path, key)),
-            joints=tuple(joint.name for joint in device.actuated_joints if key in (EVERY_JOINT, joint.local_name)),
+            joints=tuple(
+                joint.name for joint in joints if joint.command_interfaces and key in (EVERY_JOINT, joint.local_name)
+            ),
             lag_s=si(simulated.lag),
             noise=None if simulated.noise is None else joint_figure(simulated.noise),
             velocity=None if simulated.velocity is None else joint_figure(simulated.velocity),
@@ -195,7 +230,7 @@ def _taken_on_trust(facts: DeviceModel) -> Iterator[str]:
         yield f"contact of `{pair.links[0]}` and `{pair.links[1]}` is not looked for: {pair.because}"
 
 
-def _gripper(facts: DeviceModel, prefix: str) -> Gripper | None:
+def gripper_of(facts: DeviceModel, prefix: str) -> Gripper | None:
     """Return the gripper that the device is."""
     gripper = facts.gripper
     if gripper is None:
@@ -262,7 +297,7 @@ def field_of_view(facts: ViewFacts | None) -> FieldOfView | None:
     )
 
 
-def _network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | None:
+def network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | None:
     """Return what the device asks of its network."""
     network = facts.network
     if network is None:
@@ -320,9 +355,3 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
         ),
         watchdog=safety.watchdog,
     )
-
-
-def _packages(facts: DeviceModel) -> Packages:
-    """Return the vendor's packages and libraries."""
-    packages = facts.packages
-    return Packages(driver=packages.driver, sdk=packages.sdk, description=packages.description)

@@ -11,18 +11,30 @@ from cellc.compiler.catalog.device_interfaces import JointInterfaces
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.limit_facts import AccelerationLimit, JerkLimit, VelocityLimit
 from cellc.compiler.catalog.load import CatalogDevice, device_names, load_device, load_device_folder
-from cellc.compiler.cell.device import EVERY_JOINT, Device, DeviceJoint
+from cellc.compiler.cell.body import Body, Kinematics, Mount, VendorMount
+from cellc.compiler.cell.device import EVERY_JOINT, Device, DeviceJoint, DeviceSite
 from cellc.compiler.cell.frame import WORLD
-from cellc.compiler.cell.kinematics import Kinematics
-from cellc.compiler.link.device_facts import limit_shares, with_catalog, with_statements
-from cellc.compiler.link.hardware import device_driver, hardware_component
+from cellc.compiler.link.device_facts import (
+    connection_of,
+    device_control,
+    device_limits,
+    device_mock,
+    device_sensing,
+    device_software,
+    gripper_of,
+    limit_shares,
+    mounted_on,
+    network_needs,
+    vendor_procedures,
+)
+from cellc.compiler.link.hardware import hardware_component
 from cellc.compiler.link.hopeless import until_hopeless
-from cellc.compiler.link.kinematics import link_kinematics, with_kinematics
+from cellc.compiler.link.kinematics import kinematic_parameters, link_kinematics
 from cellc.compiler.link.names import Placeholders, home_host, placeholders, port_of, unknown_name
 from cellc.compiler.link.ports import port_shifts
 from cellc.compiler.link.quantities import pose
-from cellc.compiler.link.robot import robot_words, with_robot
-from cellc.compiler.link.tool import gripper_words, tool_words, with_tools
+from cellc.compiler.link.robot import program_parameters, robot_controller, robot_words
+from cellc.compiler.link.tool import gripper_words, host_programs, tool_parameters, tool_words
 from cellc.compiler.link.vendor_description import link_vendor_description, with_vendor_shapes
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.text import lies_under
@@ -53,6 +65,19 @@ class BoundDevice:
     names: Placeholders
 
 
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """What the devices of a spec are bound to."""
+
+    spec: CellSpec
+    document: SourceDocument
+    distro: Distro | None
+    packages: Sequence[str]
+    budget: Budget
+    entries: Mapping[str, CatalogDevice]
+    kinematics: Mapping[str, Kinematics | None]
+
+
 def link_devices(
     spec: CellSpec, document: SourceDocument, distro: Distro | None, packages: Sequence[str] = ()
 ) -> Outcome[tuple[BoundDevice, ...]]:
@@ -78,22 +103,15 @@ def link_devices(
     if len(entries) < len(spec.devices):
         return Outcome(None, tuple(problems))
     devices: list[BoundDevice] = []
+    found = _Found(spec, document, distro, packages, budget, entries, kinematics)
     shifts = port_shifts({name: (spec.devices[name], entry.model) for name, entry in entries.items()})
     frames, carried = _mount_frames(spec, entries), _carried(spec)
     for name, device_spec in until_hopeless(spec.devices.items(), problems):
         parent = _parent_frame(name, device_spec, document, frames)
         problems += parent.diagnostics
         # Mounted somewhere even so: what refers to its frames, its node and its joints is right.
-        mount = parent.value or WORLD
-        bound = _device(name, device_spec, spec, document, entries[name], mount, distro, shifts[name])
-        bound = replace(bound, device=replace(bound.device, carries=tuple(carried.get(name, ()))))
-        vendor = link_vendor_description(bound.facts, document, prefix_of(name, device_spec), budget, packages)
-        shaped = replace(
-            bound.device,
-            description=with_vendor_shapes(bound.device.description, vendor),
-            vendor_description=vendor,
-        )
-        bound = replace(bound, device=with_kinematics(shaped, kinematics[name], bound.facts))
+        mount = _mount(device_spec, parent.value or WORLD, entries[name].model, carried.get(name, ()))
+        bound = _device(name, found, mount, shifts[name])
         problems += _unknown_simulated_joints(bound.device, document)
         devices.append(bound)
     return Outcome(tuple(devices) if len(devices) == len(entries) else None, tuple(problems))
@@ -103,7 +121,7 @@ def _unknown_simulated_joints(device: Device, document: SourceDocument) -> list[
     names = [joint.local_name for joint in device.actuated_joints]
     return [
         unknown_name("unknown-joint", joint.name, "joint", names, document, joint.path)
-        for joint in device.simulated_joints
+        for joint in device.mock.simulated_joints
         if joint.name not in (*names, EVERY_JOINT)
     ]
 
@@ -178,46 +196,78 @@ def _frame_names(entry: CatalogDevice) -> dict[str, str]:
     return {link.name: link.name for link in entry.description.links} | dict(entry.model.frames)
 
 
-def _device(
-    name: str,
-    written: DeviceSpec,
-    spec: CellSpec,
-    document: SourceDocument,
-    entry: CatalogDevice,
-    parent: str,
-    distro: Distro | None,
-    port_shift: int,
-) -> BoundDevice:
-    path = ("devices", name)
-    prefix = prefix_of(name, written)
-    facts = entry.model
-    mount = written.mount
-    named = placeholders(name, prefix, written, spec, port_shift)
+def _device(name: str, found: _Found, mount: Mount, port_shift: int) -> BoundDevice:
+    path, written, entry = ("devices", name), found.spec.devices[name], found.entries[name]
+    facts, prefix, kinematics = entry.model, prefix_of(name, written), found.kinematics[name]
+    named = placeholders(name, prefix, written, found.spec, port_shift)
     words = {**dict(robot_words(written)), **dict(tool_words(facts, written)), **gripper_words(facts)}
     known = replace(named, values={**named.values, **words})
+    parameters = {
+        **program_parameters(facts, written),
+        **tool_parameters(facts, written, known),
+        **kinematic_parameters(kinematics, facts),
+    }
+    hardware = hardware_component(facts, known, prefix, found.distro, written.driver, parameters)
+    joints = _joints(name, written, found.document, facts, entry.description, prefix)
     device = Device(
         name=name,
         path=path,
-        span=document.locate(path),
+        span=found.document.locate(path),
         model=facts.model,
         vendor=facts.vendor,
         kind=facts.kind,
+        architecture=written.architecture,
+        body=_body(entry, prefix, kinematics, found),
+        joints=joints,
+        mount=mount,
+        control=device_control(facts, written, known, found.distro, hardware),
+        site=DeviceSite(
+            host=home_host(found.spec) if written.connection is None else written.connection.host,
+            connection=connection_of(written, port_of(written, found.spec)),
+            network=network_needs(facts, known),
+            programs=host_programs(name, facts, written, known),
+        ),
+        software=device_software(facts, written),
+        robot=robot_controller(facts, written),
+        sensing=device_sensing(facts, written, known, prefix),
+        gripper=gripper_of(facts, prefix),
+        limits=device_limits(facts, written),
+        procedures=vendor_procedures(facts, written, known, found.distro),
+        mock=device_mock(facts, written, prefix, path, joints, found.document),
+    )
+    return BoundDevice(device, facts, known)
+
+
+def _body(entry: CatalogDevice, prefix: str, kinematics: Kinematics | None, found: _Found) -> Body:
+    facts = entry.model
+    vendor = link_vendor_description(facts, found.document, prefix, found.budget, found.packages)
+    return Body(
         prefix=prefix,
-        description=entry.description.renamed(prefix),
+        description=with_vendor_shapes(entry.description.renamed(prefix), vendor),
         root_link=prefix + facts.base,
+        frames={short: prefix + link for short, link in _frame_names(entry).items()},
+        tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
+        optical_frames=facts.optical_frames,
+        vendor_description=vendor,
+        kinematics=kinematics,
+        allowed_collisions=tuple(
+            (prefix + a, prefix + b) for a, b in (pair.links for pair in facts.allowed_collisions)
+        ),
+        excused={str(code): because for code, because in facts.excused.items()},
+    )
+
+
+def _mount(written: DeviceSpec, parent: str, facts: DeviceModel, carries: Sequence[str]) -> Mount:
+    mount = written.mount
+    return Mount(
         parent_frame=parent,
         transform_root_to_parent=identity() if mount is None else pose(mount.xyz, mount.rpy),
-        frames={short: prefix + link for short, link in _frame_names(entry).items()},
-        joints=_joints(name, written, document, facts, entry.description, prefix),
-        hardware=hardware_component(facts, known, prefix, distro, written.driver),
-        driver=device_driver(facts, known),
-        host=home_host(spec) if written.connection is None else written.connection.host,
-        tool_frame=None if facts.tool_frame is None else prefix + facts.frames.get(facts.tool_frame, facts.tool_frame),
+        mounted_on=mounted_on(written),
+        vendor_mounts=tuple(
+            VendorMount(model=arm.on, frame=arm.frame, pose=pose(arm.xyz, arm.rpy)) for arm in facts.mounts
+        ),
+        carries=tuple(carries),
     )
-    device = with_statements(device, written, port_of(written, spec), document)
-    device = with_catalog(device, facts, written, known, distro)
-    device = with_tools(with_robot(device, facts, written), facts, written, known)
-    return BoundDevice(device, facts, known)
 
 
 def _carried(spec: CellSpec) -> dict[str, list[str]]:

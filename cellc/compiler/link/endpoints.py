@@ -176,7 +176,7 @@ def _of_device(
         node=device.name,
         full_name=node,
         owner=spec.owners.responsibilities.vendor_safety,
-        nodes={offer.name: offer.node for offer in device.offers if offer.node in names},
+        nodes={offer.name: offer.node for offer in device.control.offers if offer.node in names},
         offered=dict(_offered(bound, resolver)),
     )
 

@@ -126,11 +126,15 @@ def fault_targets(
 def _of_devices(devices: tuple[Device, ...]) -> dict[FaultTarget, Names]:
     """Return the devices and joints that faults may hit."""
     jointed = [device for device in devices if device.actuated_joints]
-    claimed = [device for device in jointed if device.hardware is not None and device.hardware.kept_by_a_claim]
+    claimed = [
+        device for device in jointed if device.control.hardware is not None and device.control.hardware.kept_by_a_claim
+    ]
     return {
-        FaultTarget.STREAM: _named(device for device in devices if device.camera is not None or device in jointed),
+        FaultTarget.STREAM: _named(
+            device for device in devices if device.sensing.camera is not None or device in jointed
+        ),
         FaultTarget.STOPPABLE: _named(jointed),
-        FaultTarget.SCALED: _named(device for device in jointed if device.speed_scaling is not None),
+        FaultTarget.SCALED: _named(device for device in jointed if device.control.speed_scaling is not None),
         FaultTarget.ARM: _named(device for device in jointed if device.kind == "arm"),
         FaultTarget.PROGRAMMED: _named(claimed),
         FaultTarget.BRAKED: _named(device for device in jointed if Need.BRAKES_OPEN in _claim_needs(device)),
@@ -143,7 +147,7 @@ def _of_devices(devices: tuple[Device, ...]) -> dict[FaultTarget, Names]:
 
 
 def _claim_needs(device: Device) -> Collection[Need]:
-    claim = None if device.hardware is None else device.hardware.effects.get(Moment.CLAIM)
+    claim = None if device.control.hardware is None else device.control.hardware.effects.get(Moment.CLAIM)
     return () if claim is None else claim.needs
 
 

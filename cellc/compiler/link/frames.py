@@ -36,7 +36,7 @@ def name_frames(spec: CellSpec, document: SourceDocument, devices: Iterable[Devi
     """Collect the frames of the world, of devices, of the spec's frames and of its scene."""
     names = {WORLD: WORLD}
     for device in devices:
-        names |= {f"{device.name}/{short}": link for short, link in device.frames.items()}
+        names |= {f"{device.name}/{short}": link for short, link in device.body.frames.items()}
     names |= {name: name for name in (*spec.frames, *spec.scene)}
     return FrameNames(names, document)
 
@@ -153,17 +153,17 @@ def _device_frames(spec: CellSpec, document: SourceDocument, devices: Iterable[D
         mount = spec.devices[device.name].mount
         path = (*device.path, "mount") if mount is not None else device.path
         yield Frame(
-            name=device.root_link,
+            name=device.body.root_link,
             path=path,
             span=document.locate(path),
             kind=FrameKind.MOUNT,
-            parent=device.parent_frame,
-            transform_to_parent=device.transform_root_to_parent,
+            parent=device.mount.parent_frame,
+            transform_to_parent=device.mount.transform_root_to_parent,
             authority=ROBOT_STATE_PUBLISHER,
             device=device.name,
             calibration=None if mount is None else mount.calibration,
         )
-        for joint in device.description.joints:
+        for joint in device.body.description.joints:
             yield Frame(
                 name=joint.child,
                 path=device.path,

@@ -96,11 +96,15 @@ def link_hand_eye(
 def with_mounts(bound: tuple[BoundDevice, ...], measured: Measured) -> tuple[BoundDevice, ...]:
     """Return the devices where files put them."""
     return tuple(
-        replace(device, device=replace(device.device, transform_root_to_parent=measured.mounts[device.device.name]))
+        replace(device, device=_mounted(device.device, measured.mounts[device.device.name]))
         if device.device.name in measured.mounts
         else device
         for device in bound
     )
+
+
+def _mounted(device: Device, transform_root_to_parent: Pose) -> Device:
+    return replace(device, mount=replace(device.mount, transform_root_to_parent=transform_root_to_parent))
 
 
 def _without_file(name: str, entry: CalibrationSpec, document: SourceDocument) -> Iterator[Diagnostic]:
@@ -115,7 +119,7 @@ def _resting_on(name: str, spec: CellSpec, bound: tuple[BoundDevice, ...], names
     for device in (device.device for device in bound):
         mount = spec.devices[device.name].mount
         if mount is not None and mount.calibration == name:
-            yield _Placed(device.root_link, device.parent_frame, (*device.path, "mount"), mount)
+            yield _Placed(device.body.root_link, device.mount.parent_frame, (*device.path, "mount"), mount)
     for frame, frame_spec in spec.frames.items():
         parent = names.by_reference.get(frame_spec.parent)
         if frame_spec.calibration == name and parent is not None and not frame_spec.dynamic:
@@ -126,8 +130,10 @@ def _edges(spec: CellSpec, devices: list[Device], names: FrameNames) -> dict[str
     """Return every frame with its parent; an edge is rigid unless a joint or a publisher moves it."""
     edges: dict[str, _Edge] = {}
     for device in devices:
-        edges[device.root_link] = _Edge(device.parent_frame, device.transform_root_to_parent, rigid=True)
-        for joint in device.description.joints:
+        edges[device.body.root_link] = _Edge(
+            device.mount.parent_frame, device.mount.transform_root_to_parent, rigid=True
+        )
+        for joint in device.body.description.joints:
             edges[joint.child] = _Edge(joint.parent, joint.pose, rigid=not joint.movable)
     for frame, frame_spec in spec.frames.items():
         parent = names.by_reference.get(frame_spec.parent)

@@ -15,8 +15,15 @@ from cellc.compiler.catalog.device_interfaces import (
 )
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.effects import EffectFacts
-from cellc.compiler.cell.device import DeviceDriver, OfferedInterface
-from cellc.compiler.cell.hardware import CommandModes, Effect, HardwareComponent, InterfaceGroup, NeedReport
+from cellc.compiler.cell.hardware import (
+    CommandModes,
+    DeviceDriver,
+    Effect,
+    HardwareComponent,
+    InterfaceGroup,
+    NeedReport,
+    OfferedInterface,
+)
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.programs import inner_nodes
@@ -34,13 +41,19 @@ with a ``source_list`` would stamp old states again, and report zero for joints 
 
 
 def hardware_component(
-    facts: DeviceModel, known: Placeholders, prefix: str, distro: Distro | None, driver: str
+    facts: DeviceModel,
+    known: Placeholders,
+    prefix: str,
+    distro: Distro | None,
+    driver: str,
+    stated: Mapping[str, str],
 ) -> HardwareComponent | None:
     """Return the component of a device; None where no plugin moves it on any target.
 
     Args:
         distro: the distribution of the cell; None where it names none that is known.
         driver: the pinned driver as written, its version last.
+        stated: parameters of the real plugin that follow from the spec.
     """
     control = facts.control
     if control is None:
@@ -49,7 +62,7 @@ def hardware_component(
     release = None if real is None or distro is None else real.release(distro, driver)
     parameters = {"mock": _parameters(control.hardware.mock, known, None)}
     if real is not None:
-        parameters["real"] = _parameters(real, known, release)
+        parameters["real"] = {**_parameters(real, known, release), **stated}
     by_target: dict[Target, HardwareFacts] = {"mock": control.hardware.mock}
     if real is not None:
         by_target["real"] = real
@@ -66,9 +79,9 @@ def hardware_component(
     if real is None:
         return component
     nodes = inner_nodes(real.nodes, "", distro, known.fill)
-    reported = _with_effects(component, real, distro)
+    component = _with_effects(component, real, distro)
     modes = _modes(real, control.gpios, prefix)
-    return replace(reported, nodes=nodes, modes=modes, fixed_joint_names=real.fixed_joint_names)
+    return replace(component, nodes=nodes, modes=modes, fixed_joint_names=real.fixed_joint_names)
 
 
 def _modes(real: HardwareFacts, gpios: Container[str], prefix: str) -> CommandModes | None:

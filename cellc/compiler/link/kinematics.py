@@ -9,8 +9,7 @@ from dataclasses import replace
 
 from cellc.compiler.catalog.device_model import DeviceModel, KinematicsFacts
 from cellc.compiler.catalog.load import CatalogDevice
-from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.kinematics import KinematicCalibration, Kinematics
+from cellc.compiler.cell.body import KinematicCalibration, Kinematics
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.side_file import compose_side_file, number, read_side_file
 from cellc.compiler.source.document import SourceDocument
@@ -74,16 +73,11 @@ def link_kinematics(
     return Outcome((calibrated, replace(kinematics, calibration=calibration)))
 
 
-def with_kinematics(device: Device, kinematics: Kinematics | None, facts: DeviceModel) -> Device:
-    """Return a device with the source of its kinematics; its real plugin gets the hash of a calibration."""
-    calibration, hardware = None if kinematics is None else kinematics.calibration, device.hardware
-    if calibration is None or facts.kinematics is None or hardware is None or "real" not in hardware.parameters:
-        return replace(device, kinematics=kinematics)
-    parameters = {**hardware.parameters["real"], facts.kinematics.hash_parameter: calibration.hash}
-    return replace(
-        device,
-        kinematics=kinematics,
-        hardware=replace(hardware, parameters={**hardware.parameters, "real": parameters}),
+def kinematic_parameters(kinematics: Kinematics | None, facts: DeviceModel) -> dict[str, str]:
+    """Return what the real plugin gets of a calibration: the hash of its table."""
+    calibration = None if kinematics is None else kinematics.calibration
+    return (
+        {} if calibration is None or facts.kinematics is None else {facts.kinematics.hash_parameter: calibration.hash}
     )
 
 

@@ -9,6 +9,7 @@ from pathlib import Path, PurePosixPath
 
 from cellc.compiler.catalog.load import load_distros, load_qos_profiles
 from cellc.compiler.catalog.tables import RMWS, Rmw
+from cellc.compiler.cell.body import Body
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.entity import Places
@@ -287,9 +288,7 @@ def bare_cell(description: Description, file: str, root: str, excused: Mapping[s
         model=description.name,
         vendor="",
         kind="arm",
-        description=description,
-        root_link=roots[0] if roots else "",
-        excused=excused or {},
+        body=Body(description=description, root_link=roots[0] if roots else "", excused=excused or {}),
     )
     beside = Span(PurePosixPath(root, PurePosixPath(file).name).as_posix(), 1, 1, 1, 1)
     places = Places(file, {("cell",): start, ("devices",): start, path: start, (*path, "model"): beside})

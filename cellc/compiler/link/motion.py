@@ -42,7 +42,7 @@ def link_groups(
     groups: list[PlanningGroup] = []
     problems: list[Diagnostic] = []
     joint_of_link = {
-        joint.child: joint for device in machine.devices for joint in device.description.joints if joint.movable
+        joint.child: joint for device in machine.devices for joint in device.body.description.joints if joint.movable
     }
     parents = {frame.name: frame.parent for frame in frames}
     for name, group in until_hopeless(spec.motion.groups.items(), problems):

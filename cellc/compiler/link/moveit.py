@@ -29,7 +29,7 @@ def link_octomap(written: OctomapSpec | None, devices: Iterable[Device]) -> Octo
     """Return the occupancy map; whether anything feeds it is asked by a rule."""
     if written is None:
         return None
-    cameras = (device.camera for device in devices if device.camera is not None)
+    cameras = (device.sensing.camera for device in devices if device.sensing.camera is not None)
     views = (stream.view for camera in cameras for stream in camera.streams if stream.topic == written.source)
     nearest = next((view.nearest_m for view in views if view is not None), _NEAREST_M)
     return Octomap(

@@ -145,7 +145,7 @@ def _adapter_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator
                 source=NodeSource.DEVICE,
                 package=package,
                 executable=executable,
-                host=device.host or home_host(spec),
+                host=device.site.host or home_host(spec),
                 owner=spec.owners.responsibilities.vendor_safety,
                 real_only=True,
                 device=device.name,
@@ -154,7 +154,7 @@ def _adapter_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator
 
 
 def _reached(device: Device) -> dict[str, ParameterValue]:
-    way = device.connection
+    way = device.site.connection
     if way is None or (way.address or way.port) is None:
         return {}
     return {"address": way.address} if way.address is not None else {"port": way.port or UNKNOWN}
@@ -163,7 +163,7 @@ def _reached(device: Device) -> dict[str, ParameterValue]:
 def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[Node]:
     for bound in devices:
         device, known = bound.device, bound.names
-        for entry in run_nodes(bound.facts, known, device.versions.firmware):
+        for entry in run_nodes(bound.facts, known, device.software.versions.firmware):
             namespace, _, name = f"/{known.fill(entry.name)}".rpartition("/")
             yield Node(
                 name=name,
@@ -173,7 +173,7 @@ def _driver_nodes(spec: CellSpec, devices: tuple[BoundDevice, ...]) -> Iterator[
                 package=entry.package,
                 executable=entry.executable,
                 namespace=namespace,
-                host=device.host,
+                host=device.site.host,
                 owner=spec.owners.responsibilities.vendor_safety,
                 language="cpp",
                 real_only=entry.provides == "real",

@@ -18,13 +18,14 @@ from cellc.compiler.cell.robot import (
     Load,
     Moments6,
     Payload,
+    RobotController,
     RobotFacts,
     RobotProgram,
     Thresholds,
 )
 from cellc.compiler.link.frames import FrameNames
 from cellc.compiler.link.quantities import vector
-from cellc.compiler.link.tool import tool_conditions, tool_facts
+from cellc.compiler.link.tool import plug, tool_conditions, tool_connector, tool_facts
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.compiler.spec.quantity import QuantityVector
@@ -35,22 +36,24 @@ DRIVER = "driver"
 """The word of a spec for a program that the driver of the robot sends and starts."""
 
 
-def with_robot(device: Device, facts: DeviceModel, written: DeviceSpec) -> Device:
-    """Return a device with the settings of its own controller, and its driver with the parameters of the start mode."""
-    program, hardware = written.program, device.hardware
-    start = chosen_start_mode(facts, written)
-    if hardware is not None and start is not None and "real" in hardware.parameters:
-        real = {**hardware.parameters["real"], **start.parameters}
-        hardware = replace(hardware, parameters={**hardware.parameters, "real": real})
-    return replace(
-        device,
-        hardware=hardware,
+def robot_controller(facts: DeviceModel, written: DeviceSpec) -> RobotController:
+    """Return what a robot's own controller gets; the frame of its TCP is bound once all devices are known."""
+    program = written.program
+    return RobotController(
         payload=_payload(written),
         program=None if program is None else RobotProgram(played_by=program.played_by, mode=program.mode),
         collision=None if written.collision is None else _collision(written.collision),
         impedance=None if written.impedance is None else _impedance(written.impedance),
-        robot=_robot(facts),
+        tool_connector=tool_connector(facts, written),
+        plug=plug(facts.plug),
+        accepts=_accepted(facts),
     )
+
+
+def program_parameters(facts: DeviceModel, written: DeviceSpec) -> Mapping[str, str]:
+    """Return what the real plugin gets of the start mode of the program."""
+    start = chosen_start_mode(facts, written)
+    return {} if start is None else start.parameters
 
 
 def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames) -> Outcome[tuple[Device, ...]]:
@@ -61,7 +64,7 @@ def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames)
         reference = spec.devices[device.name].tcp
         frame: Outcome[str] = Outcome(None) if reference is None else names.bind(reference, (*device.path, "tcp"))
         problems += frame.diagnostics
-        bound.append(replace(device, tcp=frame.value))
+        bound.append(replace(device, robot=replace(device.robot, tcp=frame.value)))
     return Outcome(tuple(bound), tuple(problems))
 
 
@@ -187,7 +190,7 @@ def _collision(written: CollisionSpec) -> CollisionThresholds:
     )
 
 
-def _robot(facts: DeviceModel) -> RobotFacts:
+def _accepted(facts: DeviceModel) -> RobotFacts:
     controller = facts.robot
     modes = () if controller.program is None else controller.program.start_modes
     return RobotFacts(

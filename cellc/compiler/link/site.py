@@ -150,7 +150,7 @@ def bind_owners(spec: CellSpec) -> Owners:
 def bind_safety(spec: CellSpec, devices: tuple[Device, ...]) -> Safety:
     """Return the safety boundary; where no recovery states are stated, those that its devices have a way out of."""
     stop, recovery = spec.safety.stop, spec.safety.recovery
-    stops = (state for device in devices for state in device.safety.recoverable_stops)
+    stops = (state for device in devices for state in device.procedures.safety.recoverable_stops)
     return Safety(
         stop=Stop(authority=stop.authority, path=stop.path, independent_of=stop.independent_of, evidence=stop.evidence),
         recovery=Recovery(

@@ -49,10 +49,10 @@ def link_switched(
 def _interfaces(devices: Iterable[Device], which: str) -> Iterator[tuple[str, str]]:
     """Yield what the gpios of all devices offer; ``which`` is command or state."""
     for device in devices:
-        for group in () if device.hardware is None else device.hardware.gpios:
+        for group in () if device.control.hardware is None else device.control.hardware.gpios:
             names = group.command_interfaces if which == "command" else group.state_interfaces
             for name in names:
-                yield f"{device.name}/{group.name.removeprefix(device.prefix)}/{name}", f"{group.name}/{name}"
+                yield f"{device.name}/{group.name.removeprefix(device.body.prefix)}/{name}", f"{group.name}/{name}"
 
 
 def _switched(one: BoundDevice, written: DeviceSpec, gpios: _Gpios) -> Outcome[Switched]:

@@ -2,46 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.robot_facts import PlugFacts, ToolConnectorFacts, ToolSerialFacts
-from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.robot import HostProgram, Plug, ToolConnector, ToolFacts, ToolSerial
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.compiler.spec.tool import ToolSerialSpec
 
 
-def with_tools(device: Device, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> Device:
-    """Return a device with its tool connector, the driver parameters for it, and what it takes from another's."""
-    connector, line = written.tool_connector, _line(facts, written)
-    device = replace(device, plug=_plug(facts.plug))
+def tool_connector(facts: DeviceModel, written: DeviceSpec) -> ToolConnector | None:
+    """Return what the connector at the tool frame supplies; None where the spec says nothing."""
+    connector = written.tool_connector
     if connector is None:
-        return device
-    serial = None if connector.serial is None else _serial(connector.serial, line)
-    device = replace(device, tool_connector=ToolConnector(voltage_v=connector.voltage.si, serial=serial))
+        return None
+    serial = None if connector.serial is None else _serial(connector.serial, _line(facts, written))
+    return ToolConnector(voltage_v=connector.voltage.si, serial=serial)
+
+
+def tool_parameters(facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> dict[str, str]:
+    """Return what the real plugin gets of the serial line of the tool connector."""
+    line = _line(facts, written)
+    return {} if line is None else {name: known.fill(value) for name, value in line.parameters.items()}
+
+
+def host_programs(device: str, facts: DeviceModel, written: DeviceSpec, known: Placeholders) -> tuple[HostProgram, ...]:
+    """Return the program that makes a device node of the serial line, where one is used."""
+    line = _line(facts, written)
     if line is None:
-        return device
-    program = line.forward
+        return ()
     forward = HostProgram(
-        name=f"{device.name}_tool_serial",
-        package=program.package,
-        program=program.program,
-        arguments=tuple(map(known.fill, program.arguments)),
-        system=program.system,
+        name=f"{device}_tool_serial",
+        package=line.forward.package,
+        program=line.forward.program,
+        arguments=tuple(map(known.fill, line.forward.arguments)),
+        system=line.forward.system,
     )
-    parameters = {name: known.fill(value) for name, value in line.parameters.items()}
-    return replace(_with_parameters(device, parameters), programs=(forward,))
-
-
-def _with_parameters(device: Device, parameters: Mapping[str, str]) -> Device:
-    hardware = device.hardware
-    if hardware is None or "real" not in hardware.parameters:
-        return device
-    real = {**hardware.parameters["real"], **parameters}
-    return replace(device, hardware=replace(hardware, parameters={**hardware.parameters, "real": real}))
+    return (forward,)
 
 
 def gripper_words(facts: DeviceModel) -> dict[str, str]:
@@ -96,7 +95,8 @@ def tool_facts(facts: ToolConnectorFacts | None) -> ToolFacts | None:
     )
 
 
-def _plug(facts: PlugFacts | None) -> Plug | None:
+def plug(facts: PlugFacts | None) -> Plug | None:
+    """Return what a device takes from the tool connector of a robot."""
     if facts is None:
         return None
     return Plug(voltage_v=facts.voltage.si, serial=None if facts.serial is None else facts.serial.model_dump())

@@ -12,7 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from cellc.compiler.catalog.device_model import DeviceModel
-from cellc.compiler.cell.kinematics import VendorDescription
+from cellc.compiler.cell.body import VendorDescription
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.limits import Budget
 from cellc.robot.description.model import Description, Link

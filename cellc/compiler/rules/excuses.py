@@ -12,7 +12,7 @@ def spared(graph: CellGraph, device: Device, joint: str, code: str) -> bool:
     Args:
         joint: with its prefix; empty for a finding that is of none.
     """
-    return code in device.excused and joint not in graph.once(_commanded)
+    return code in device.body.excused and joint not in graph.once(_commanded)
 
 
 def _commanded(graph: CellGraph) -> frozenset[str]:

@@ -83,7 +83,7 @@ def mounts(graph: CellGraph, contacts: Sequence[BodyContact]) -> tuple[Related, 
     return tuple(
         Related(f"`{device.name}` is mounted here", graph.cell.locate(*device.path, "mount"))
         for device in graph.cell.devices
-        if any(link.name in links for link in device.description.links)
+        if any(link.name in links for link in device.body.description.links)
     )
 
 

@@ -147,7 +147,7 @@ def near(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
 
 
 def _drivers(cell: Cell | None) -> Collection[str] | None:
-    return None if cell is None else {device.packages.driver or "" for device in cell.devices}
+    return None if cell is None else {device.software.packages.driver or "" for device in cell.devices}
 
 
 def _suspicion(match: Match, text: str, cell: Cell | None) -> Suspicion:

@@ -110,7 +110,9 @@ def _controller(controller: Controller, manager: ControllerManager) -> tuple[str
 
 
 def _managers(cell: Cell) -> Rows:
-    hardware = {device.name: device.hardware.name for device in cell.devices if device.hardware is not None}
+    hardware = {
+        device.name: device.control.hardware.name for device in cell.devices if device.control.hardware is not None
+    }
     return [
         (
             _manager_node(manager),
@@ -174,23 +176,23 @@ def _cameras(cell: Cell) -> Rows:
     return [
         (stream.topic, stream.frame, f"{shortest(stream.rate_hz)} Hz", *_device(cell, device))
         for device in cell.devices
-        if device.camera is not None
-        for stream in device.camera.streams
+        if device.sensing.camera is not None
+        for stream in device.sensing.camera.streams
     ]
 
 
 def _device(cell: Cell, device: Device) -> tuple[str, ...]:
-    connection = device.connection
+    connection = device.site.connection
     address = _NOT_STATED if connection is None else connection.address or connection.port or _NOT_STATED
     mass, center = (cell.text(*device.path, "payload", key) for key in ("mass", "center_of_mass"))
-    load = "" if device.payload is None else f"{mass}, center of mass {center}"
+    load = "" if device.robot.payload is None else f"{mass}, center of mass {center}"
     return (
         device.name,
         address,
-        _list(device.safety.modes),
-        _list(state.name for state in device.safety.states),
-        device.versions.firmware,
-        device.versions.driver,
+        _list(device.procedures.safety.modes),
+        _list(state.name for state in device.procedures.safety.states),
+        device.software.versions.firmware,
+        device.software.versions.driver,
         load or _NOT_STATED,
     )
 

@@ -164,7 +164,7 @@ def _controller_types(known: Known) -> Iterator[Proposal]:
 
     yield from (Proposal(kind, "controller") for kind in controller_kinds())
     for device in known.cell.devices if known.cell is not None else ():
-        yield from (Proposal(kind, f"controller of {device.name}") for kind in device.controller_kinds)
+        yield from (Proposal(kind, f"controller of {device.name}") for kind in device.control.controller_kinds)
 
 
 def fixes(diagnostics: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tuple[Diagnostic, Edit]]:

@@ -82,7 +82,7 @@ def names_of(document: SourceDocument, cell: Cell | None) -> Names:
         by_kind["nic"] |= _below(document.data, (*host, "nics"))
     derived = {"frame": ("world", *by_kind["thing"])}
     if cell is not None:
-        links = (f"{device.name}/{link}" for device in cell.devices for link in device.frames)
+        links = (f"{device.name}/{link}" for device in cell.devices for link in device.body.frames)
         derived["frame"] = (*derived["frame"], *links)
         derived["joint"] = tuple(
             f"{device.name}/{joint.local_name}" for device in cell.devices for joint in device.joints

@@ -37,18 +37,20 @@ def place_of_part(cell: Cell, name: str, kinds: tuple[str, ...]) -> Span | None:
 
 def _parts(device: Device, part: str) -> Iterator[tuple[str, Span]]:
     """Yield the link and the joint of a name, each as its file calls it."""
-    links = [(link.name, link.span) for link in device.description.links if link.name == device.frames.get(part)]
+    links = [
+        (link.name, link.span) for link in device.body.description.links if link.name == device.body.frames.get(part)
+    ]
     moved = {joint.name for joint in device.joints if joint.local_name == part}
-    joints = [(joint.name, joint.span) for joint in device.description.joints if joint.name in moved]
+    joints = [(joint.name, joint.span) for joint in device.body.description.joints if joint.name in moved]
     for name, span in (*links, *joints):
         if span is not None:
-            yield name.removeprefix(device.prefix), _at_hand(span)
+            yield name.removeprefix(device.body.prefix), _at_hand(span)
 
 
 def _called(device: Device, own: str) -> Span | None:
     """Return the first line of the description that makes something of a name, or None."""
     named = re.compile(rf"""\b(?:name|child)=["'](?:[^"']*\}})?{re.escape(own)}["']""")
-    of = device.description
+    of = device.body.description
     spans = (*(link.span for link in of.links), *(joint.span for joint in of.joints))
     for file in dict.fromkeys(_at_hand(span).file for span in spans if span is not None):
         for number, line in enumerate(_lines(file), 1):

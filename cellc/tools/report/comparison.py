@@ -65,20 +65,18 @@ def _moving(cell: Cell) -> tuple[Device, ...]:
 
 def _start(cell: Cell) -> Iterator[str]:
     for device in _moving(cell):
-        state = (
-            ""
-            if device.hardware is None or "real" not in device.hardware.targets
-            else f", starts {device.startup_state}"
-        )
+        hardware, program = device.control.hardware, device.robot.program
+        is_loaded = hardware is not None and "real" in hardware.targets
+        state = f", starts {device.control.startup_state}" if is_loaded else ""
         yield f"{device.name}: {real_driver(device)}{state}"
-        if device.program is not None:
-            yield f"{device.name}: its program is played by {device.program.played_by}, {device.program.mode}"
-        effects = {} if device.hardware is None else device.hardware.effects
+        if program is not None:
+            yield f"{device.name}: its program is played by {program.played_by}, {program.mode}"
+        effects = {} if hardware is None else hardware.effects
         for moment, effect in effects.items():
             if effect.motion is not Motion.NONE or effect.authority is CommandAuthority.TAKEN:
                 yield f"{device.name}: {moment.value}: {_effect(effect)}"
-        if device.unknown_effects:
-            yield f"{device.name}: not stated what {' and '.join(device.unknown_effects)} does"
+        if device.control.unknown_effects:
+            yield f"{device.name}: not stated what {' and '.join(device.control.unknown_effects)} does"
 
 
 def _effect(effect: Effect) -> str:
@@ -96,15 +94,17 @@ def _timing(cell: Cell) -> Iterator[str]:
         period, timeout = shortest(adapted.command_period_s), shortest(adapted.command_timeout_s)
         yield f"{adapted.device}: its adapter sends every {period} s, and stops after {timeout} s without a command"
     for device in _moving(cell):
-        if device.hardware is not None and device.hardware.command_timeout_s is not None:
-            timeout = shortest(device.hardware.command_timeout_s)
+        if device.control.hardware is not None and device.control.hardware.command_timeout_s is not None:
+            timeout = shortest(device.control.hardware.command_timeout_s)
             yield f"{device.name}: ends what it does after {timeout} s without a command"
-        if device.network is not None:
-            link = "a link of its own" if device.network.dedicated_link else "any link"
-            yield f"{device.name}: {link}, real-time kernel {device.network.realtime.replace('_', ' ')}"
+        if device.site.network is not None:
+            link = "a link of its own" if device.site.network.dedicated_link else "any link"
+            yield f"{device.name}: {link}, real-time kernel {device.site.network.realtime.replace('_', ' ')}"
         if device.kind == "arm":
             scaled = (
-                f"slowed down as {device.speed_scaling} says" if device.speed_scaling else "as planned, or are aborted"
+                f"slowed down as {device.control.speed_scaling} says"
+                if device.control.speed_scaling
+                else "as planned, or are aborted"
             )
             yield f"{device.name}: trajectories run {scaled}"
 
@@ -115,10 +115,10 @@ def _safety(cell: Cell) -> Iterator[str]:
     yield f"stopped by {stop.authority}, {stop.path}, independent of {independent}"
     yield f"acknowledged by {recovery.acknowledge}; after a reconnect: {recovery.on_reconnect}"
     for device in _moving(cell):
-        stops = ", ".join(state.name for state in device.safety.states if state.stops) or UNKNOWN
+        stops = ", ".join(state.name for state in device.procedures.safety.states if state.stops) or UNKNOWN
         yield f"{device.name}: stops by itself in {stops}"
-        if device.safety.modes:
-            yield f"{device.name}: modes {', '.join(device.safety.modes)}"
+        if device.procedures.safety.modes:
+            yield f"{device.name}: modes {', '.join(device.procedures.safety.modes)}"
 
 
 def _versions(cell: Cell) -> Iterator[str]:
@@ -131,7 +131,7 @@ def _versions(cell: Cell) -> Iterator[str]:
 
 def _mock_limit(cell: Cell) -> Iterator[str]:
     for device in _moving(cell):
-        yield from (f"{device.name}: {text}" for text in device.mock_cannot_prove)
+        yield from (f"{device.name}: {text}" for text in device.mock.mock_cannot_prove)
 
 
 _MOTION = (
@@ -150,7 +150,7 @@ def _discovery(cell: Cell) -> Iterator[str]:
     yield f"ROS 2: {count} interfaces with types, {discovery}, {cell.versions.rmw_name}"
     for device in _moving(cell):
         if device.architecture == "direct_sdk":
-            address = None if device.connection is None else device.connection.address
+            address = None if device.site.connection is None else device.site.connection.address
             yield f"{device.name}: the application knows the address {address or _NOT_STATED}; no graph shows it"
 
 
@@ -214,7 +214,7 @@ def _commanding(cell: Cell) -> Iterator[Controller]:
 def _driven(cell: Cell) -> Iterator[Device]:
     """Yield the devices that a node of their vendor moves on real hardware."""
     adapted = {adapter.device for adapter in cell.adapters}
-    return (device for device in _moving(cell) if device.driver is not None and device.name not in adapted)
+    return (device for device in _moving(cell) if device.control.driver is not None and device.name not in adapted)
 
 
 _DUTIES = (

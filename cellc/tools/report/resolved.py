@@ -11,7 +11,7 @@ from typing import Union
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device, DeviceJoint
-from cellc.compiler.cell.entity import Entity
+from cellc.compiler.cell.entity import Entity, members
 from cellc.compiler.cell.frame import Frame
 from cellc.compiler.cell.hardware import HardwareComponent
 from cellc.compiler.cell.interface import Node
@@ -29,7 +29,7 @@ _HIDDEN = {
         *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
         "repeatability_m",
         *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
-        *("version_rows", "commissioning", "record", "robot", "plug", "programs", "mock_cannot_prove", "starts"),
+        *("version_rows", "commissioning", "record", "accepts", "plug", "programs", "mock_cannot_prove", "starts"),
     },
     Node: {"endpoints", "inside"},
     HardwareComponent: {
@@ -128,11 +128,10 @@ def _entity(cell: Cell, entity: Entity) -> Tree:
     if isinstance(entity, Device):
         hidden |= {*_STATED, "versions"}
     tree: dict[str, Tree] = {}
-    for field in fields(entity):
-        value = getattr(entity, field.name)
-        if field.name in hidden or value is None or value == ():
+    for name, value in members(entity):
+        if name in hidden or value is None or value == ():
             continue
-        tree[field.name] = _value(cell, value, _origin(cell, entity, field.name), (*entity.path, field.name))
+        tree[name] = _value(cell, value, _origin(cell, entity, name), (*entity.path, name))
     if isinstance(entity, Device):
         tree |= _stated(cell, entity)
     return tree
@@ -140,12 +139,12 @@ def _entity(cell: Cell, entity: Entity) -> Tree:
 
 def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
     """Return what the user states of a device: versions, connection, stamp, payload and the like."""
-    path = device.path
+    path, stated = device.path, dict(members(device))
     tree: dict[str, Tree] = {"model": Leaf(cell.text(*path, "model"), _written(cell, (*path, "model")))}
     tree["architecture"] = _section(cell, device.architecture, (*path, "architecture"))
     tree |= {
-        field.name: _section(cell, getattr(device.versions, field.name), (*path, field.name))
-        for field in fields(device.versions)
+        field.name: _section(cell, getattr(device.software.versions, field.name), (*path, field.name))
+        for field in fields(device.software.versions)
     }
     for key in (
         "connection",
@@ -158,21 +157,21 @@ def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
         "tool_connector",
         "adapter",
     ):
-        tree[key] = _section(cell, getattr(device, key), (*path, key))
-    tree["limits"] = _section(cell, device.limit_shares, (*path, "limits"))
-    tree["simulated_joints"] = {joint.name: _section(cell, joint, joint.path) for joint in device.simulated_joints}
+        tree[key] = _section(cell, stated[key], (*path, key))
+    tree["limits"] = _section(cell, device.limits.limit_shares, (*path, "limits"))
+    tree["simulated_joints"] = {joint.name: _section(cell, joint, joint.path) for joint in device.mock.simulated_joints}
     tree["stamp"] = _stamp(cell, device)
     return tree
 
 
 def _stamp(cell: Cell, device: Device) -> Tree:
     """Return the stamp of a sensor, whose clock the spec writes beside the source."""
-    stamp, path = device.stamp, (*device.path, "stamp")
+    stamp, path = device.sensing.stamp, (*device.path, "stamp")
     if stamp is None:
         return _section(cell, None, path)
     clock = _section(cell, replace(stamp.clock, domain=""), path)
     assert isinstance(clock, dict)
-    shown = {"source": stamp.source, "clock": stamp.clock.domain, "exposure": device.exposure_s}
+    shown = {"source": stamp.source, "clock": stamp.clock.domain, "exposure": device.sensing.exposure_s}
     return {key: _section(cell, value, (*path, key)) for key, value in shown.items()} | {
         key: value for key, value in clock.items() if key != "domain"
     }
@@ -252,8 +251,9 @@ def _text(value: object) -> str:
         return {True: "true", False: "false", None: "none"}[value]
     if isinstance(value, float):
         return _number(value)
-    if isinstance(value, tuple):
-        return "[" + ", ".join(_text(item) for item in value) + "]"
+    if isinstance(value, (tuple, frozenset)):
+        items = map(_text, value)
+        return f"[{', '.join(items if isinstance(value, tuple) else sorted(items))}]"
     return str(value)
 
 

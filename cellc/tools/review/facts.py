@@ -317,8 +317,8 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
     for area in cell.areas:
         yield from flatten(_without_place(as_json(area)), ("area", area.name))
     for device in cell.devices:
-        if device.mounted_on is not None:
-            yield ("mounted", device.name), str(device.mounted_on)
+        if device.mount.mounted_on is not None:
+            yield ("mounted", device.name), str(device.mount.mounted_on)
     for name, host in cell.hosts.items():
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
     for node in cell.nodes:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from cellc.compiler.catalog.tables import DistroFacts
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.device import Device, Software
 from cellc.compiler.cell.site import Versions
 from cellc.compiler.graph.releases import PACKAGED, named_row, package_of
 from cellc.compiler.graph.versions import Answer, Judgment, Pin, cell_pins, compatibility, device_pins
@@ -57,9 +57,14 @@ def _with_pins(cell: Cell, target: Distro, texts: Mapping[tuple[str | int, ...],
     for pin in device_pins(cell):
         of_device.setdefault(pin.holder, {})[pin.part] = texts[pin.path]
     devices = tuple(
-        replace(device, versions=replace(device.versions, **of_device.get(device.name, {}))) for device in cell.devices
+        replace(device, software=_with_versions(device.software, of_device.get(device.name, {})))
+        for device in cell.devices
     )
     return replace(cell, distro=target, versions=versions, devices=devices)
+
+
+def _with_versions(software: Software, texts: Mapping[str, str]) -> Software:
+    return replace(software, versions=replace(software.versions, **texts))
 
 
 def _of_cell(pin: Pin, facts: DistroFacts, target: Distro) -> str:
@@ -83,7 +88,7 @@ def _numbered(text: str, version: str | None) -> str:
 
 
 def _of_device(pin: Pin, device: Device, facts: DistroFacts, target: Distro) -> str:
-    rows = tuple(row for row in device.version_rows if row.part == pin.part and row.known)
+    rows = tuple(row for row in device.software.version_rows if row.part == pin.part and row.known)
     if not pin.known or pin.part not in PACKAGED or named_row(pin.text, pin.part, rows, target) is not None:
         return pin.text
     here = [row for row in rows if row.distro in (None, target) and row.ambiguous is None]

@@ -78,7 +78,7 @@ def of_cell(cell: Cell) -> Standing | None:
         for name, targets in poses(cell).items()
         if all(target.group in known and len(known[target.group].joints) == len(target.positions) for target in targets)
     }
-    roots = {device.name: device.root_link for device in cell.devices if device.root_link not in apart}
+    roots = {device.name: device.body.root_link for device in cell.devices if device.body.root_link not in apart}
     reached = {name: goal for name, goal in goals(cell).items() if goal.group in known}
     return Standing(roots, frames(cell), known, fitting, reached, description, mesh_roots(cell))
 

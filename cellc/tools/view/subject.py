@@ -156,7 +156,7 @@ def _pictures(path: Path, folder: GeneratedFolder) -> dict[str, str]:
 
 def _views(cell: Cell) -> Iterator[tuple[str, FieldOfView]]:
     for device in cell.devices:
-        for stream in () if device.camera is None else device.camera.streams:
+        for stream in () if device.sensing.camera is None else device.sensing.camera.streams:
             if stream.view is not None:
                 yield stream.frame, stream.view
 

@@ -110,16 +110,16 @@ def ending(cell: Cell) -> Iterator[str]:
         if claiming:
             yield f"Release the claims by {code(command)}"
     for device in _outermost_first(cell):
-        yield from (f"{device.name}: {step}" for step in device.safety.ending)
+        yield from (f"{device.name}: {step}" for step in device.procedures.safety.ending)
     yield "End cell.launch.xml by Ctrl-C on each computer. ros2 node list must show no node of this cell."
     for device in _outermost_first(cell):
-        yield from (f"{device.name}: {step}" for step in device.safety.ended)
+        yield from (f"{device.name}: {step}" for step in device.procedures.safety.ended)
     yield "End the recording and sign the evidence"
 
 
 def _outermost_first(cell: Cell) -> list[Device]:
     """Return the devices, each before the one that carries it, in whatever order the spec names them."""
-    carrier = {name: device.name for device in cell.devices for name in device.carries}
+    carrier = {name: device.name for device in cell.devices for name in device.mount.carries}
 
     def depth(name: str) -> int:
         return 0 if name not in carrier else 1 + depth(carrier[name])
@@ -152,7 +152,7 @@ def recovery(cell: Cell) -> Iterator[str]:
     yield markdown(f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}.")
     yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
     for device in cell.devices:
-        for procedure in device.safety.recovery:
+        for procedure in device.procedures.safety.recovery:
             yield from ("", markdown(f"{device.name}, {procedure.state}:"), "", _numbered(procedure.steps))
 
 
@@ -164,7 +164,7 @@ def _not_provable(cell: Cell) -> Iterator[str]:
     """Yield what the mock cannot prove by the catalog, by device and vendor."""
     for device in cell.devices:
         of = f"{device.name} ({device.vendor} {device.model})"
-        yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock_cannot_prove)
+        yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock.mock_cannot_prove)
     if cell.groups and not cell.scene and cell.octomap is None:
         yield "- collisions with the surroundings: `scene` is empty, so paths are planned through table and fence"
     if cell.octomap is not None:
@@ -202,14 +202,14 @@ def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
 
 
 def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
-    if part == "calibration" and device.kinematics is not None:
-        tool = code(device.kinematics.tool)
+    if part == "calibration" and device.body.kinematics is not None:
+        tool = code(device.body.kinematics.tool)
         return _person(cell.owners.approvals.vendor), f"Which kinematics does {device.name} have? {tool} reads them."
     if part in _READ_ON_THE_DEVICE:
         owner = _person(cell.owners.approvals.vendor)
         return owner, f"Which {part} does {device.name} have, by its nameplate or panel?"
     if part == "model":
-        moments = " and ".join(device.unknown_effects)
+        moments = " and ".join(device.control.unknown_effects)
         return f"supplier {device.vendor}", f"What moves, or falls, at {moments} of {device.model}?"
     text = f"Which {part} of {device.model} do you release for ROS 2 {cell.distro}, or is there none?"
     return f"supplier {device.vendor}", text

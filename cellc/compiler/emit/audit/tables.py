@@ -79,7 +79,7 @@ def shapes_section(cell: Cell) -> str:
 
 
 def _shapes(device: Device) -> tuple[str, str]:
-    vendor = device.vendor_description
+    vendor = device.body.vendor_description
     if vendor is None:
         return "from its description", "the catalog names no vendor file with other shapes"
     if vendor.description is not None:
@@ -142,7 +142,7 @@ def _past_controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
     """Yield what moves a device without a controller; any node that the policy permits can call it."""
     for device, offer, does in past_controllers(cell):
         path = f"no client in the cell → {code(offer.name)} → {device.name} (real target)"
-        typed, watched = "per message type", device.safety.watchdog or _NOT_STATED
+        typed, watched = "per message type", device.procedures.safety.watchdog or _NOT_STATED
         yield path, typed, typed, "on request", _NOT_STATED, typed, watched, f"{does}; needs no claim"
 
 
@@ -158,7 +158,7 @@ def _controller(
     cell: Cell, manager: ControllerManager, controller: Controller, action: Interface | None
 ) -> tuple[str, ...]:
     device = next((device for device in cell.devices if device.name == controller.device), None)
-    hardware = "its hardware" if device is None or device.hardware is None else device.hardware.name
+    hardware = "its hardware" if device is None or device.control.hardware is None else device.control.hardware.name
     rate = controller.update_rate_hz or manager.update_rate_hz
     behavior = "" if action is None else f"; {failure_label(action)}"
     name, client = controller.action or controller.full_name, controller.client or "no client"
@@ -216,7 +216,7 @@ def record_section(cell: Cell) -> str:
 
 def _record(cell: Cell) -> Iterator[tuple[str, ...]]:
     for device in cell.devices:
-        for source in device.record:
+        for source in device.procedures.record:
             if source.attempt_field in cell.recording.attempt_fields:
                 yield code(source.attempt_field), device.name, _record_source(cell, device, source)
 
@@ -234,10 +234,16 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
         program = f"{node.package}/{node.executable}{real}"
         yield code(node.full_name), program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
     for device in cell.devices:
-        for host_program in device.programs:
+        for host_program in device.site.programs:
             program = f"{host_program.package}/{host_program.program} (real target, no node)"
             owner = cell.owners.responsibilities.vendor_safety
-            yield code(host_program.name), program, device.host or "not stated", owner, _code(host_program.arguments)
+            yield (
+                code(host_program.name),
+                program,
+                device.site.host or "not stated",
+                owner,
+                _code(host_program.arguments),
+            )
     for manager in cell.managers:
         for controller in manager.controllers:
             owner = cell.owners.approvals.controller
@@ -268,7 +274,7 @@ def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
         for name, type_ in device.topics.items():
             if name not in named:
                 yield code(name), "topic", type_, device.name
-        for offer in device.offers:
+        for offer in device.control.offers:
             if offer.kind is InterfaceKind.SERVICE:
                 yield code(offer.name), "service", offer.type, device.name
 

@@ -37,13 +37,13 @@ def _clock_of(cell: Cell) -> Iterator[tuple[str, str]]:
             yield controller.name, manager.host
             yield controller.label, manager.host
     for device in cell.devices:
-        yield device.name, _clock_name(cell, device) if _own_clock(cell, device) is not None else device.host
+        yield device.name, _clock_name(cell, device) if _own_clock(cell, device) is not None else device.site.host
 
 
 def _own_clock(cell: Cell, device: Device) -> Clock | None:
     """Return the clock that a device stamps with, unless it is that of a host."""
     domains = {host.clock.domain for host in cell.hosts.values()}
-    clock = None if device.stamp is None else device.stamp.clock
+    clock = None if device.sensing.stamp is None else device.sensing.stamp.clock
     return None if clock is None or clock.domain in (UNKNOWN, *domains) else clock
 
 

@@ -31,16 +31,16 @@ def devices(cell: Cell) -> dict[str, ContractDevice]:
 
 
 def _device(cell: Cell, device: Device) -> ContractDevice:
-    hardware = None if _adapted(cell, device) else device.hardware
+    hardware = None if _adapted(cell, device) else device.control.hardware
     return ContractDevice(
         model=device.model,
         kind=device.kind,
-        prefix=device.prefix,
-        root_link=device.root_link,
+        prefix=device.body.prefix,
+        root_link=device.body.root_link,
         architecture=device.architecture,
         hardware_component=None if hardware is None else hardware.name,
         driver=_driver(device),
-        speed_scaling_interface=None if _adapted(cell, device) else device.speed_scaling,
+        speed_scaling_interface=None if _adapted(cell, device) else device.control.speed_scaling,
         gripper=_gripper(cell, device),
         camera=_camera(cell, device),
         switched=_switched(device),
@@ -76,7 +76,7 @@ def _adapted(cell: Cell, device: Device) -> bool:
 
 
 def _driver(device: Device) -> ContractDriver | None:
-    driver = device.driver
+    driver = device.control.driver
     if driver is None:
         return None
     return ContractDriver(node=driver.node, program=driver.program, joint_states=driver.joint_states)
@@ -99,9 +99,9 @@ def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
 
 def _camera(cell: Cell, device: Device) -> ContractCamera | None:
     """Return the stream that the spec uses, the catalog's first where it names none."""
-    if device.camera is None:
+    if device.sensing.camera is None:
         return None
-    streams = {stream.topic: stream for stream in device.camera.streams}
+    streams = {stream.topic: stream for stream in device.sensing.camera.streams}
     used = _used_stream(cell, device, tuple(stream.type for stream in streams.values()))
     topic = next(iter(streams)) if used is None else used.name
     stream = streams.get(topic, next(iter(streams.values())))
@@ -109,8 +109,8 @@ def _camera(cell: Cell, device: Device) -> ContractCamera | None:
         topic=topic,
         frame=(None if used is None else used.frame) or stream.frame,
         rate_hz=(None if used is None else used.rate_hz) or stream.rate_hz,
-        exposure_s=device.exposure_s,
-        clock=UNKNOWN if device.stamp is None else device.stamp.clock.domain,
+        exposure_s=device.sensing.exposure_s,
+        clock=UNKNOWN if device.sensing.stamp is None else device.sensing.stamp.clock.domain,
     )
 
 

@@ -79,7 +79,7 @@ def _calibrations(cell: Cell, stated: Stated) -> Iterator[_Drawn]:
 
 def _arms(cell: Cell, stated: Stated) -> Iterator[_Drawn]:
     for device in cell.devices:
-        path, value = f"devices.{device.name}.model", device.repeatability_m
+        path, value = f"devices.{device.name}.model", device.limits.repeatability_m
         if device.name in stated.repeatability_m:
             path, value = f"uncertainty.repeatability.{device.name}", stated.repeatability_m[device.name]
         spread = (value or 0.0) * math.sqrt(3.0) / _REPEATABILITY

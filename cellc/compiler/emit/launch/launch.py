@@ -213,7 +213,7 @@ def _address_arguments(cell: Cell) -> Iterator[Element]:
 
 def addresses(cell: Cell) -> dict[str, str]:
     """Return the argument of each device with an address."""
-    connections = ((device.name, device.connection) for device in cell.devices)
+    connections = ((device.name, device.site.connection) for device in cell.devices)
     return {
         f"{name}_address": connection.address
         for name, connection in connections

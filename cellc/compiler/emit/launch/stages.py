@@ -115,9 +115,9 @@ def _discover(cell: Cell, host: str | None) -> Iterator[Element]:
         if _here(host, node.host):
             yield from _node(cell, node)
     for device in cell.devices:
-        if device.programs and _here(host, device.host):
+        if device.site.programs and _here(host, device.site.host):
             yield comment(f"no nodes: programs of {spec_path(device.path)}")
-            yield from map(host_program, device.programs)
+            yield from map(host_program, device.site.programs)
 
 
 def _node(cell: Cell, node: Node) -> Iterator[Element]:

@@ -134,7 +134,9 @@ def _offered(cell: Cell, node: Node) -> Rights:
     device = cell.device(node.device or "")
 
     def own(kind: InterfaceKind) -> tuple[str, ...]:
-        return tuple(offer.name for offer in device.offers if offer.kind is kind and offer.node == node.full_name)
+        return tuple(
+            offer.name for offer in device.control.offers if offer.kind is kind and offer.node == node.full_name
+        )
 
     return Rights(publish=own(InterfaceKind.TOPIC), reply=own(InterfaceKind.SERVICE), execute=own(InterfaceKind.ACTION))
 
@@ -171,12 +173,12 @@ def manager_process(cell: Cell, manager: ControllerManager) -> Iterator[Profile]
     for controller in manager.controllers:
         yield _controller(cell, controller)
     for device in (cell.device(name) for name in manager.devices):
-        if device.hardware is None:
+        if device.control.hardware is None:
             continue
         if Feature.HARDWARE_NODES in features(cell.distro):
-            name = device.hardware.name.lower().replace("/", "_")
+            name = device.control.hardware.name.lower().replace("/", "_")
             yield _profile(cell, f"{manager.namespace}/{name}", Kind.NODE, Kind.HARDWARE_COMPONENT)
-        for item in device.hardware.nodes:
+        for item in device.control.hardware.nodes:
             # The namespace of the process is that of every node in it.
             bare = item.full_name.rpartition("/")[2]
             yield _inner(cell, f"{manager.namespace}/{bare}" if manager.namespace else item.full_name, item)
@@ -325,8 +327,8 @@ def _of_commissioning(cell: Cell) -> Rights:
 
 def _in_procedures(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
     """Yield what nodes of a device serve that its vendor has people call: ``call NAME``, ``NAME of NODE``."""
-    steps = (step for procedure in device.safety.recovery for step in procedure.steps)
-    text = " ".join((*steps, *(step.does for step in device.commissioning)))
+    steps = (step for procedure in device.procedures.safety.recovery for step in procedure.steps)
+    text = " ".join((*steps, *(step.does for step in device.procedures.commissioning)))
     for kind, name in dict.fromkeys(_served(cell, device)):
         node, _, last = name.rpartition("/")
         if last not in text:
@@ -337,10 +339,10 @@ def _in_procedures(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, 
 
 
 def _served(cell: Cell, device: Device) -> Iterator[tuple[InterfaceKind, str]]:
-    yield from ((offer.kind, offer.name) for offer in device.offers if offer.kind is not InterfaceKind.TOPIC)
+    yield from ((offer.kind, offer.name) for offer in device.control.offers if offer.kind is not InterfaceKind.TOPIC)
     nodes = [(node.full_name, node.endpoints) for node in cell.nodes_of.get(device.name, ())]
-    if device.hardware is not None:
-        nodes += [(node.full_name, node.endpoints) for node in device.hardware.nodes]
+    if device.control.hardware is not None:
+        nodes += [(node.full_name, node.endpoints) for node in device.control.hardware.nodes]
     for node, endpoints in nodes:
         yield from ((InterfaceKind.SERVICE, name.replace("~", node, 1)) for name in endpoints.serves)
         yield from ((InterfaceKind.ACTION, name.replace("~", node, 1)) for name in endpoints.executes)

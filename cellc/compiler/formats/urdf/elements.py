@@ -106,10 +106,10 @@ class Palette:
 def palette_of(device: Device) -> Palette:
     """Collect the materials of a device, in the order of first use."""
     names: dict[tuple[str, _Color], str] = {}
-    for visual in (visual for link in device.description.links for visual in link.visuals):
+    for visual in (visual for link in device.body.description.links for visual in link.visuals):
         if visual.rgba is not None:
             names.setdefault(_key(visual, visual.rgba), "")
-    prefix = device.prefix or f"{device.name}_"
+    prefix = device.body.prefix or f"{device.name}_"
     taken: dict[str, int] = {}
     for material, color in names:
         taken[material] = taken.get(material, 0) + 1

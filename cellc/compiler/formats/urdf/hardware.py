@@ -46,9 +46,9 @@ def _has_tag(group: InterfaceGroup, target: Target) -> bool:
 
 def share_folders(device: Device) -> tuple[str, ...]:
     """Return the packages whose share folders the real hardware's parameters name; xacro stops where one is missing."""
-    if device.hardware is None:
+    if device.control.hardware is None:
         return ()
-    parameters = device.hardware.parameters.get("real", {})
+    parameters = device.control.hardware.parameters.get("real", {})
     return tuple(package for value in parameters.values() for package in _SHARE.findall(value))
 
 

@@ -43,7 +43,7 @@ def manager_description(cell: Cell, target: Target, devices: tuple[str, ...]) ->
 
 def described_frames(cell: Cell) -> frozenset[str]:
     """Return the frames that the description holds: the world, links, mounts, fixed frames and the scene."""
-    links = (link.name for device in cell.devices for link in device.description.links)
+    links = (link.name for device in cell.devices for link in device.body.description.links)
     fixed = (frame.name for frame in _fixed_frames(cell))
     return frozenset((WORLD, *links, *fixed, *(box.name for box in _standing(cell))))
 
@@ -76,9 +76,9 @@ def _parts(cell: Cell, target: Target, devices: tuple[str, ...]) -> Iterator[Ele
         yield _held(box.name, box)
     start = start_positions(cell) if target == "mock" else {}
     for device in cell.devices:
-        if device.hardware is not None and target in device.hardware.targets and device.name in devices:
+        if device.control.hardware is not None and target in device.control.hardware.targets and device.name in devices:
             yield comment(f"hardware of devices.{device.name}, {target}")
-            yield ros2_control(device, device.hardware, target, start)
+            yield ros2_control(device, device.control.hardware, target, start)
 
 
 def _device(device: Device) -> Iterator[Element]:
@@ -86,10 +86,15 @@ def _device(device: Device) -> Iterator[Element]:
     palette = palette_of(device)
     yield from palette.definitions()
     yield fixed_joint(
-        f"{device.root_link}_mount", device.parent_frame, device.root_link, device.transform_root_to_parent
+        f"{device.body.root_link}_mount",
+        device.mount.parent_frame,
+        device.body.root_link,
+        device.mount.transform_root_to_parent,
     )
-    yield from (device_link(link, palette) for link in device.description.links)
-    yield from (device_joint(joint, limits.get(joint.name)) for joint in device.description.with_direct_mimics().joints)
+    yield from (device_link(link, palette) for link in device.body.description.links)
+    yield from (
+        device_joint(joint, limits.get(joint.name)) for joint in device.body.description.with_direct_mimics().joints
+    )
 
 
 def _held(name: str, placed: Frame | SceneBox) -> Element:
@@ -131,7 +136,7 @@ def start_positions(cell: Cell) -> dict[str, float]:
         for joint, position in zip(pose.joints, pose.positions, strict=False)
     }
     return {
-        joint.name: _within(joint, of_cell.get(joint.name, device.home.get(joint.name, 0.0)))
+        joint.name: _within(joint, of_cell.get(joint.name, device.mock.home.get(joint.name, 0.0)))
         for device in cell.devices
         for joint in device.joints
         if joint.mimics is None

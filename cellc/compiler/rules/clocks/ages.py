@@ -55,7 +55,11 @@ _ROUNDING = 1.001
 @rule(Severity.WARNING)
 def faster_than_its_source(graph: CellGraph) -> Findings:
     """Yield topics of a node in a frame of a camera that are faster than all that it hears from this camera."""
-    frames = {device.name: set(device.frames.values()) for device in graph.cell.devices if device.camera is not None}
+    frames = {
+        device.name: set(device.body.frames.values())
+        for device in graph.cell.devices
+        if device.sensing.camera is not None
+    }
     topics = [
         interface for interface in graph.cell.interfaces if interface.kind is InterfaceKind.TOPIC and interface.rate_hz
     ]
@@ -95,7 +99,7 @@ def _sources(graph: CellGraph) -> dict[str, list[tuple[str, float]]]:
     """Return the topics, and the rate in Hz, of each device and controller; a controller publishes on any."""
     found: dict[str, list[tuple[str, float]]] = {}
     for device in graph.cell.devices:
-        streams = () if device.camera is None else device.camera.streams
+        streams = () if device.sensing.camera is None else device.sensing.camera.streams
         found.setdefault(device.name, []).extend((stream.topic, stream.rate_hz) for stream in streams)
     for manager in graph.cell.managers:
         for controller in manager.controllers:

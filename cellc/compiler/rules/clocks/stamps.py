@@ -78,7 +78,12 @@ def moving_camera_stamped_on_arrival(graph: CellGraph) -> Findings:
     mounts = {frame.device: frame for frame in graph.cell.frames if frame.kind is FrameKind.MOUNT}
     for device in graph.cell.devices:
         mount = mounts.get(device.name)
-        if device.camera is None or device.stamp is None or device.stamp.source != "arrival" or mount is None:
+        if (
+            device.sensing.camera is None
+            or device.sensing.stamp is None
+            or device.sensing.stamp.source != "arrival"
+            or mount is None
+        ):
             continue
         moved = next((frame for frame in graph.frames.chain(mount.name) if frame.moving), None)
         if moved is not None:
@@ -119,7 +124,7 @@ def unknown_stamp_source(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         if device.kind != "camera":
             continue
-        stamp = device.stamp
+        stamp = device.sensing.stamp
         path = (*device.path, "stamp")
         if stamp is None or stamp.source == UNKNOWN:
             yield found(graph, (*path, "source"), f"the stamp source of `{device.name}` is UNKNOWN")

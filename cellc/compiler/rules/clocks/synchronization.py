@@ -16,7 +16,7 @@ from cellc.contract.vocabulary import UNKNOWN
 def clock_offset_beyond_age(graph: CellGraph) -> Findings:
     """Yield sensors whose clock offset reaches the age limit of one of their topics."""
     for device in graph.cell.devices:
-        stamp = device.stamp
+        stamp = device.sensing.stamp
         if stamp is None or stamp.clock.max_offset_s is None:
             continue
         limits = [
@@ -96,7 +96,7 @@ def unsynchronized_sensor_clock(graph: CellGraph) -> Findings:
     """Yield stamps of a clock of their own without synchronization or without a bound."""
     host_domains = {host.clock.domain for host in graph.cell.hosts.values()} or {"ros"}
     for device in graph.cell.devices:
-        stamp = device.stamp
+        stamp = device.sensing.stamp
         if stamp is None or stamp.source != "hardware" or stamp.clock.domain in (UNKNOWN, *host_domains):
             continue
         if stamp.clock.synchronized_by is None or stamp.clock.max_offset_s is None:

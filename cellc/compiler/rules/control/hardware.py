@@ -31,12 +31,12 @@ def component_named_twice(graph: CellGraph) -> Findings:
     for manager in graph.cell.managers:
         first: dict[str, Device] = {}
         for device in map(graph.cell.device, manager.devices):
-            if device.hardware is None:
+            if device.control.hardware is None:
                 continue
-            earlier = first.setdefault(device.hardware.name, device)
+            earlier = first.setdefault(device.control.hardware.name, device)
             if earlier is not device:
                 message = f"`{device.name}` and `{earlier.name}` both have the hardware component"
-                message += f" `{device.hardware.name}` under `{manager.node}`"
+                message += f" `{device.control.hardware.name}` under `{manager.node}`"
                 related = (Related(f"`{earlier.name}` is here", earlier.span),)
                 yield found(graph, device.path, message, related=related)
 
@@ -58,7 +58,7 @@ def interface_exported_twice(graph: CellGraph) -> Findings:
 
 def _exported(device: Device) -> Iterator[str]:
     """Yield the interfaces of sensors and gpios by full name; joints are named once in a cell."""
-    hardware = device.hardware
+    hardware = device.control.hardware
     for group in () if hardware is None else (*hardware.sensors, *hardware.gpios):
         yield from (f"{group.name}/{name}" for name in (*group.command_interfaces, *group.state_interfaces))
 
@@ -70,8 +70,8 @@ def missing_real_plugin(graph: CellGraph) -> Findings:
         joint for manager in graph.cell.managers for controller in manager.controllers for joint in controller.joints
     }
     for device in graph.cell.devices:
-        hardware = device.hardware
-        if hardware is None or "real" in hardware.targets or device.driver is not None:
+        hardware = device.control.hardware
+        if hardware is None or "real" in hardware.targets or device.control.driver is not None:
             continue
         joints = [joint.name for joint in device.joints if joint.name in named]
         if joints:
@@ -101,12 +101,10 @@ def refused_interface_combination(graph: CellGraph) -> Findings:
 def renamed_joints(graph: CellGraph) -> Findings:
     """Yield devices with a prefix whose real plugin knows no other names than its own."""
     for device in graph.cell.devices:
-        hardware = device.hardware
-        if hardware is not None and hardware.fixed_joint_names and device.prefix:
+        hardware, prefix = device.control.hardware, device.body.prefix
+        if hardware is not None and hardware.fixed_joint_names and prefix:
             joint = device.actuated_joints[0].local_name
-            message = (
-                f"the driver of `{device.name}` calls its joints `{joint}` and so on, got the prefix `{device.prefix}`"
-            )
+            message = f"the driver of `{device.name}` calls its joints `{joint}` and so on, got the prefix `{prefix}`"
             yield found(graph, (*device.path, "prefix"), message)
 
 

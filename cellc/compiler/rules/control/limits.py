@@ -21,7 +21,7 @@ def assumed_joint_limit(graph: CellGraph) -> Findings:
             named = ", ".join(f"`{key}` of {_shown(joints)}" for key, joints in assumed.items())
             message = f"limits of `{device.name}` are assumed: {named}"
             first = [joints[0] for joints in assumed.values()]
-            places = described(graph, [f"{device.prefix}{name}" for name in first])
+            places = described(graph, [f"{device.body.prefix}{name}" for name in first])
             yield found(graph, (*device.path, "model"), message, related=places)
 
 
@@ -41,7 +41,7 @@ def _shown(joints: list[str]) -> str:
 @rule(Severity.ERROR)
 def assumed_speed_scaling(graph: CellGraph) -> Findings:
     """Yield controllers that read a scaling factor though their device has none."""
-    scaling = {device.name for device in graph.cell.devices if device.speed_scaling is not None}
+    scaling = {device.name for device in graph.cell.devices if device.control.speed_scaling is not None}
     for controller in graph.cell.controllers:
         reads = controller.behavior is Behavior.SCALED_JOINT_TRAJECTORY or bool(
             controller.parameters.get("speed_scaling.state_interface")
@@ -81,8 +81,8 @@ def limit_share_of_nothing(graph: CellGraph) -> Findings:
 def _shares(graph: CellGraph) -> Iterator[tuple[Device, str, float]]:
     """Yield each share of its limits that a cell gives to a device."""
     for device in graph.cell.devices:
-        yield device, "velocity", device.limit_shares.velocity
-        yield device, "acceleration", device.limit_shares.acceleration
+        yield device, "velocity", device.limits.limit_shares.velocity
+        yield device, "acceleration", device.limits.limit_shares.acceleration
 
 
 @rule(Severity.ERROR, assumes=("missing-joint-limits", "limit-share-of-nothing"))
@@ -117,7 +117,7 @@ def speed_of_some_positions(graph: CellGraph) -> Findings:
                 f"`{joint.name}` must have at most {joint.velocity_everywhere:g} rad/s, which it has in every position,"
             )
             message += f" got {joint.velocity:.3g} rad/s"
-            share = device.limit_shares.velocity
+            share = device.limits.limit_shares.velocity
             advice = f"write at most {share / most * 100:.0f} %"
             yield found(graph, path, message, advice, described(graph, [joint.name]))
 
@@ -125,12 +125,12 @@ def speed_of_some_positions(graph: CellGraph) -> Findings:
 @rule(Severity.WARNING)
 def unscaled_trajectory(graph: CellGraph) -> Findings:
     """Yield trajectory controllers on a scaling device that do not read its factor."""
-    scaling = {device.name: device for device in graph.cell.devices if device.speed_scaling is not None}
+    scaling = {device.name: device for device in graph.cell.devices if device.control.speed_scaling is not None}
     for controller in graph.cell.controllers:
         if controller.behavior is not Behavior.JOINT_TRAJECTORY or controller.device not in scaling:
             continue
         if not controller.parameters.get("speed_scaling.state_interface"):
             message = f"`{controller.device}` scales its speed, `{controller.name}` does not follow"
-            kinds = [kind for kind in scaling[controller.device].controller_kinds if "trajectory" in kind]
+            kinds = [kind for kind in scaling[controller.device].control.controller_kinds if "trajectory" in kind]
             advice = f"use `type: {kinds[0]}`" if kinds else "use a controller that reads the scaling factor"
             yield found(graph, (*controller.path, "type"), message, advice)

@@ -31,8 +31,8 @@ def device_apart_from_its_manager(graph: CellGraph) -> Findings:
     for manager in graph.cell.managers:
         for name in manager.devices:
             device = devices[name]
-            link = device.connection
-            if link is None or device.hardware is None or link.host == manager.host or not manager.host:
+            link = device.site.connection
+            if link is None or device.control.hardware is None or link.host == manager.host or not manager.host:
                 continue
             message = f"`{name}` must be connected to `{manager.host}`, where its controller manager runs, got"
             related = (Related("the manager", graph.cell.locate(*manager.path)),)
@@ -55,7 +55,7 @@ def refused_update_rate(graph: CellGraph) -> Findings:
     """Yield managers whose rate a device that they drive does not list."""
     for manager in graph.cell.managers:
         for device in (graph.cell.device(name) for name in manager.devices):
-            rates = device.update_rates_hz
+            rates = device.control.update_rates_hz
             if rates and all(abs(rate - manager.update_rate_hz) > 1e-9 for rate in rates):
                 accepted = " or ".join(f"{rate:g} Hz" for rate in rates)
                 message = f"`update_rate` for `{device.name}` must be {accepted}, got {manager.update_rate_hz:g} Hz"
@@ -108,7 +108,7 @@ def unwatched_claim(graph: CellGraph) -> Findings:
         }
         for name in manager.devices:
             device = graph.cell.device(name)
-            hardware = device.hardware
+            hardware = device.control.hardware
             if hardware is None or "real" not in hardware.targets or not hardware.kept_by_a_claim:
                 continue
             kinds = [item.controller_kind for item in hardware.heard_before_a_claim]

@@ -16,8 +16,8 @@ from cellc.contract.vocabulary import TRAJECTORIES
 def impedance_without_effect(graph: CellGraph) -> Findings:
     """Yield impedance of an arm whose joints are claimed by other interfaces alone on the real target."""
     for device in graph.cell.devices:
-        takes = device.robot.impedance_facts
-        if device.impedance is None or takes is None:
+        takes = device.robot.accepts.impedance_facts
+        if device.robot.impedance is None or takes is None:
             continue
         joints = {joint.name for joint in device.joints}
         ends = (
@@ -88,7 +88,7 @@ _Stated = tuple[tuple[str, ...], tuple[float, ...], tuple[float, float], str]
 def refused_impedance(graph: CellGraph) -> Findings:
     """Yield impedance for no device, of another number of joints, and figures that the robot does not take."""
     for device in graph.cell.devices:
-        stated, takes = device.impedance, device.robot.impedance_facts
+        stated, takes = device.robot.impedance, device.robot.accepts.impedance_facts
         if stated is None:
             continue
         path = (*device.path, "impedance")
@@ -119,15 +119,15 @@ def _impedance_figures(stated: Impedance, takes: ImpedanceFacts) -> Iterator[_St
 def refused_thresholds(graph: CellGraph) -> Findings:
     """Yield thresholds for no device, of another number of joints, and upper ones below the lower."""
     for device in graph.cell.devices:
-        if device.collision is None:
+        if device.robot.collision is None:
             continue
         path = (*device.path, "collision")
-        if not device.robot.thresholds:
+        if not device.robot.accepts.thresholds:
             yield found(graph, path, f"the driver of `{device.name}` sets no collision thresholds")
             continue
         joints = len(device.actuated_joints)
         for name in ("torque", "force", "moment"):
-            given = getattr(device.collision, name)
+            given = getattr(device.robot.collision, name)
             if name == "torque" and not len(given.lower) == len(given.upper) == joints:
                 counts = f"{len(given.lower)} and {len(given.upper)}"
                 message = f"torque thresholds of `{device.name}` must be {joints} lower and upper ones, got {counts}"

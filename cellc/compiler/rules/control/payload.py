@@ -20,7 +20,7 @@ _BEYOND_TOOL_M = 0.05
 def implausible_center_of_mass(graph: CellGraph) -> Findings:
     """Yield centers of mass in the flange, behind it, or beyond the end of what the arm carries."""
     for device in graph.cell.devices:
-        payload, reach_m = device.payload, _reach_m(graph, device)
+        payload, reach_m = device.robot.payload, _reach_m(graph, device)
         if payload is None or reach_m <= 0.0:
             continue
         wrong = _wrong_center(payload, reach_m)
@@ -28,7 +28,7 @@ def implausible_center_of_mass(graph: CellGraph) -> Findings:
             path = (*device.path, "payload", "center_of_mass")
             message = f"the center of mass of the payload of `{device.name}` must lie between the flange and"
             message += f" {(reach_m + _BEYOND_TOOL_M) * 1e3:.0f} mm from it, got {graph.cell.text(*path)}, {wrong}"
-            related = tuple(Related("carried here", graph.cell.device(name).span) for name in device.carries)
+            related = tuple(Related("carried here", graph.cell.device(name).span) for name in device.mount.carries)
             yield found(graph, path, message, related=related)
 
 
@@ -43,8 +43,8 @@ def _wrong_center(payload: Payload, reach_m: float) -> str:
 
 def _reach_m(graph: CellGraph, arm: Device) -> float:
     """Return how far the links of what an arm carries reach from its tool frame, 0 where that is not known."""
-    links = (link.name for name in arm.carries for link in graph.cell.device(name).description.links)
-    poses = [graph.frames.pose_in(name, arm.tool_frame or "") for name in links]
+    links = (link.name for name in arm.mount.carries for link in graph.cell.device(name).body.description.links)
+    poses = [graph.frames.pose_in(name, arm.body.tool_frame or "") for name in links]
     return max((math.hypot(*pose.position) for pose in poses if pose is not None), default=0.0)
 
 
@@ -55,15 +55,15 @@ _ROUNDING_KG = 0.05  # masses of descriptions are rounded
 def load_beyond_payload(graph: CellGraph) -> Findings:
     """Yield loads that no service tells, and those that leave less of the payload than the tool weighs."""
     for device in graph.cell.devices:
-        payload = device.payload
+        payload = device.robot.payload
         if payload is None or payload.load is None:
             continue
         path = (*device.path, "payload", "load")
-        if not device.robot.load_service:
+        if not device.robot.accepts.load_service:
             yield found(graph, path, f"no service tells `{device.name}` a load beside its tool")
             continue
-        tools = (graph.cell.device(name) for name in device.carries)
-        links = (link for tool in tools for link in tool.description.links)
+        tools = (graph.cell.device(name) for name in device.mount.carries)
+        links = (link for tool in tools for link in tool.body.description.links)
         tool_kg = sum(link.inertial.mass for link in links if link.inertial is not None)
         if payload.load.mass_kg + tool_kg > payload.mass_kg + _ROUNDING_KG:
             stated = f"{payload.load.mass_kg:g} kg beside a tool of {tool_kg:.3g} kg"
@@ -75,8 +75,8 @@ def load_beyond_payload(graph: CellGraph) -> Findings:
 def missing_payload(graph: CellGraph) -> Findings:
     """Yield arms that carry devices and state no payload."""
     for device in graph.cell.devices:
-        if device.kind == "arm" and device.carries and device.payload is None:
-            names = ", ".join(f"`{name}`" for name in device.carries)
+        if device.kind == "arm" and device.mount.carries and device.robot.payload is None:
+            names = ", ".join(f"`{name}`" for name in device.mount.carries)
             message = f"`{device.name}` carries {names}, but its payload is not stated"
             yield found(graph, device.path, message)
 
@@ -85,7 +85,7 @@ def missing_payload(graph: CellGraph) -> Findings:
 def payload_above_limit(graph: CellGraph) -> Findings:
     """Yield payloads above that of the device."""
     for device in graph.cell.devices:
-        payload, limit_kg = device.payload, device.payload_limit_kg
+        payload, limit_kg = device.robot.payload, device.limits.payload_limit_kg
         if payload is not None and limit_kg is not None and payload.mass_kg > limit_kg:
             path = (*device.path, "payload", "mass")
             message = f"the payload of `{device.name}` must be at most {limit_kg:g} kg, got {graph.cell.text(*path)}"
@@ -96,7 +96,7 @@ def payload_above_limit(graph: CellGraph) -> Findings:
 def payload_lighter_than_tool(graph: CellGraph) -> Findings:
     """Yield arms whose payload is below the sum of masses of what they carry."""
     for device in graph.cell.devices:
-        payload = device.payload
+        payload = device.robot.payload
         if payload is None or device.kind != "arm":
             continue
         mass = graph.cell.carried_mass_kg(device)
@@ -110,12 +110,14 @@ def payload_lighter_than_tool(graph: CellGraph) -> Findings:
 def payload_set_too_late(graph: CellGraph) -> Findings:
     """Yield payloads set by a service that is missing, or is refused until after the brakes open."""
     for device in graph.cell.devices:
-        if device.payload is None or device.payload.set_by != "service":
+        if device.robot.payload is None or device.robot.payload.set_by != "service":
             continue
         path = (*device.path, "payload", "set_by")
-        if not device.robot.payload_service:
+        if not device.robot.accepts.payload_service:
             yield found(graph, path, f"no service tells `{device.name}` its payload")
-        elif device.robot.start_modes and (device.program is None or device.program.mode == "local"):
+        elif device.robot.accepts.start_modes and (
+            device.robot.program is None or device.robot.program.mode == "local"
+        ):
             message = f"`{device.name}` is in local mode, and refuses a payload by service before its program runs"
             yield found(graph, path, message)
 
@@ -124,7 +126,7 @@ def payload_set_too_late(graph: CellGraph) -> Findings:
 def refused_tool_connector(graph: CellGraph) -> Findings:
     """Yield connectors of robots that have none, and values that they do not give."""
     for device in graph.cell.devices:
-        stated, has = device.tool_connector, device.robot.tool_facts
+        stated, has = device.robot.tool_connector, device.robot.accepts.tool_facts
         if stated is None:
             continue
         path = (*device.path, "tool_connector")
@@ -163,13 +165,13 @@ def _listed(names: Iterable[str]) -> str:
 def tool_serial_mismatch(graph: CellGraph) -> Findings:
     """Yield tools that speak a serial line which is not forwarded, not to their computer, or set otherwise."""
     for device in graph.cell.devices:
-        link, speaks = device.connection, None if device.plug is None else device.plug.serial
+        link, speaks = device.site.connection, None if device.robot.plug is None else device.robot.plug.serial
         if link is None or link.through is None or link.address is not None:
             continue
         path = (*device.path, "connection", "through")
         robot = graph.cell.device(link.through)
-        serial = None if robot.tool_connector is None else robot.tool_connector.serial
-        if serial is None and speaks is not None and link.port is None and robot.tool_connector is not None:
+        serial = None if robot.robot.tool_connector is None else robot.robot.tool_connector.serial
+        if serial is None and speaks is not None and link.port is None and robot.robot.tool_connector is not None:
             message = f"`{device.name}` must have a serial port: the tool connector of `{robot.name}` forwards none"
             yield found(graph, path, message, f"write `serial` of the tool connector of `{robot.name}`, or a `port`")
         elif serial is not None and link.port == serial.port:
@@ -179,8 +181,9 @@ def tool_serial_mismatch(graph: CellGraph) -> Findings:
 
 
 def _elsewhere(device: Device, link: Connection, robot: Device) -> Iterator[str]:
-    if link.host != robot.host:
-        yield f"`{device.name}` must be reached from `{robot.host}`, where its port is forwarded, got `{link.host}`"
+    host = robot.site.host
+    if link.host != host:
+        yield f"`{device.name}` must be reached from `{host}`, where its port is forwarded, got `{link.host}`"
 
 
 def _differences(device: Device, speaks: Mapping[str, str | int] | None, serial: ToolSerial) -> Iterator[str]:

@@ -35,9 +35,11 @@ def unfed_attempt_field(graph: CellGraph) -> Findings:
     """Yield devices with a connection whose part of the record has no publisher, once for each controller kind."""
     cell = graph.cell
     for device in cell.devices:
-        wanted = [source for source in device.record if source.attempt_field in cell.recording.attempt_fields]
+        wanted = [
+            source for source in device.procedures.record if source.attempt_field in cell.recording.attempt_fields
+        ]
         missing: dict[str, list[str]] = {}
-        for source in wanted if device.connection is not None else ():
+        for source in wanted if device.site.connection is not None else ():
             if source.controller_kind is not None and cell.reporting(device, source) is None:
                 missing.setdefault(source.controller_kind, []).append(f"`{source.attempt_field}`")
         for kind, fields in missing.items():

@@ -14,16 +14,16 @@ from cellc.contract.vocabulary import UNKNOWN
 @rule(Severity.WARNING)
 def calibration_before_mounting(graph: CellGraph) -> Findings:
     """Yield calibrations of a mount, or of a frame on a device that is mounted on another, from before that day."""
-    carried = {name for device in graph.cell.devices for name in device.carries}
+    carried = {name for device in graph.cell.devices for name in device.mount.carries}
     for frame in graph.cell.frames:
         calibration = graph.cell.calibrations.get(frame.calibration or "")
         name = _device_that_moves(graph, frame, carried)
         if calibration is None or calibration.measured_on is None or name is None:
             continue
         device = graph.cell.device(name)
-        if device.mounted_on is not None and calibration.measured_on < device.mounted_on:
+        if device.mount.mounted_on is not None and calibration.measured_on < device.mount.mounted_on:
             message = f"`{calibration.name}` must be measured after `{device.name}` was mounted, on"
-            message += f" {device.mounted_on}, got {calibration.measured_on}"
+            message += f" {device.mount.mounted_on}, got {calibration.measured_on}"
             related = (Related("mounted since then", graph.cell.locate(*device.path, "mount", "since")),)
             yield found(graph, (*calibration.path, "measured"), message, related=related)
 

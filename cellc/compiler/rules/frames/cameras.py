@@ -20,15 +20,15 @@ _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_m
 @rule(Severity.ERROR)
 def camera_data_in_body_frame(graph: CellGraph) -> Findings:
     """Yield image topics of a camera in a frame other than its optical ones."""
-    cameras = {device.name: device for device in graph.cell.devices if device.optical_frames}
+    cameras = {device.name: device for device in graph.cell.devices if device.body.optical_frames}
     for interface in graph.cell.interfaces:
         source = next((cameras[end.node] for end in interface.sources if end.node in cameras), None)
         if source is None or interface.frame is None or interface.type not in _IMAGES:
             continue
-        optical = {source.frames[name] for name in source.optical_frames}
+        optical = {source.body.frames[name] for name in source.body.optical_frames}
         if interface.frame not in optical:
             message = f"`{interface.name}` carries images in `{interface.frame}`, which is not an optical frame"
-            names = ", ".join(f"`{source.name}/{name}`" for name in source.optical_frames)
+            names = ", ".join(f"`{source.name}/{name}`" for name in source.body.optical_frames)
             yield found(graph, (*interface.path, "frame"), message, f"use one of {names}")
 
 
@@ -41,7 +41,7 @@ _PLACED = (FrameKind.FIXED, FrameKind.SCENE, FrameKind.DYNAMIC)
 def camera_sees_nothing(graph: CellGraph) -> Findings:
     """Yield cameras that no joint moves and that have no frame, box or device before them, where there are places."""
     for device in graph.cell.devices:
-        streams = () if device.camera is None else device.camera.streams
+        streams = () if device.sensing.camera is None else device.sensing.camera.streams
         eyes = [(stream, graph.frames.in_world(stream.frame)) for stream in streams]
         if not eyes:
             continue
@@ -103,7 +103,7 @@ def object_out_of_view(graph: CellGraph) -> Findings:
     frames = {frame.name: frame for frame in graph.cell.frames}
     reported: set[str] = set()
     for view in motion_answer(graph).views:
-        camera = next(device for device in graph.cell.devices if view.camera_frame in device.frames.values())
+        camera = next(device for device in graph.cell.devices if view.camera_frame in device.body.frames.values())
         wrong = _out_of_view(view, _field_of_view(camera, view.camera_frame))
         if wrong and view.name not in reported:
             reported.add(view.name)
@@ -114,7 +114,7 @@ def object_out_of_view(graph: CellGraph) -> Findings:
 
 
 def _field_of_view(camera: Device, frame: str) -> FieldOfView | None:
-    streams = () if camera.camera is None else camera.camera.streams
+    streams = () if camera.sensing.camera is None else camera.sensing.camera.streams
     return next((stream.view for stream in streams if stream.frame == frame), None)
 
 
@@ -138,8 +138,8 @@ def _out_of_view(view: ViewAnswer, field: FieldOfView | None) -> str:
 @rule(Severity.ERROR)
 def object_under_another_camera(graph: CellGraph) -> Findings:
     """Yield dynamic frames under a camera whose publisher hears other cameras, and not this one."""
-    cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
-    owners = {frame: name for name, device in cameras.items() for frame in device.frames.values()}
+    cameras = {device.name: device for device in graph.cell.devices if device.sensing.camera is not None}
+    owners = {frame: name for name, device in cameras.items() for frame in device.body.frames.values()}
     for frame in graph.cell.frames:
         camera = owners.get(frame.parent)
         if frame.kind is not FrameKind.DYNAMIC or camera is None:
@@ -173,8 +173,8 @@ _COS_10_DEG = 0.985  # the calibrated mount of an imager is off by a few degrees
 def turned_optical_frame(graph: CellGraph) -> Findings:
     """Yield optical frames whose axes, seen from the root link of their device, are not those of REP-103."""
     for device in graph.cell.devices:
-        for name in device.optical_frames:
-            pose = graph.frames.pose_in(device.frames[name], device.root_link)
+        for name in device.body.optical_frames:
+            pose = graph.frames.pose_in(device.body.frames[name], device.body.root_link)
             if pose is not None and not _looks_forward(pose):
                 message = f"the axes of `{device.name}/{name}` must be x right, y down, z forward"
                 advice = "turn its joint by rpy `-90 0 -90 deg` against the camera's own frame"

@@ -17,11 +17,13 @@ _FARTHEST_M = 0.5
 @rule(Severity.WARNING)
 def detached_mount(graph: CellGraph) -> Findings:
     """Yield devices whose root is more than 0.5 m from the frame of another device that carries it."""
-    links = {link.name for device in graph.cell.devices for link in device.description.links}
+    links = {link.name for device in graph.cell.devices for link in device.body.description.links}
     for device in graph.cell.devices:
-        far_m = math.hypot(*device.transform_root_to_parent.position)
-        if device.parent_frame in links and far_m > _FARTHEST_M:
-            message = f"`{device.name}` must be within {_FARTHEST_M:g} m of `{device.parent_frame}`, which carries it,"
+        far_m = math.hypot(*device.mount.transform_root_to_parent.position)
+        if device.mount.parent_frame in links and far_m > _FARTHEST_M:
+            message = (
+                f"`{device.name}` must be within {_FARTHEST_M:g} m of `{device.mount.parent_frame}`, which carries it,"
+            )
             yield found(graph, (*device.path, "mount"), f"{message} got {far_m:.2g} m")
 
 
@@ -29,7 +31,7 @@ def detached_mount(graph: CellGraph) -> Findings:
 def mount_on_dynamic_frame(graph: CellGraph) -> Findings:
     """Yield devices with a published frame between them and the next link or the world."""
     for device in graph.cell.devices:
-        for frame in graph.frames.chain(device.parent_frame):
+        for frame in graph.frames.chain(device.mount.parent_frame):
             if frame.kind in (FrameKind.LINK, FrameKind.MOUNT):
                 break
             if frame.kind is FrameKind.DYNAMIC:
@@ -46,11 +48,11 @@ _APART_RAD = math.radians(1.0)
 def mounted_against_vendor(graph: CellGraph) -> Findings:
     """Yield devices whose pose on the frame that the vendor names is another than the vendor's."""
     for device in graph.cell.devices:
-        for mount in device.vendor_mounts:
+        for mount in device.mount.vendor_mounts:
             for arm in graph.cell.devices:
-                if arm.model != mount.model or arm.frames.get(mount.frame) != device.parent_frame:
+                if arm.model != mount.model or arm.body.frames.get(mount.frame) != device.mount.parent_frame:
                     continue
-                off = mount.pose.inverse() @ device.transform_root_to_parent
+                off = mount.pose.inverse() @ device.mount.transform_root_to_parent
                 if math.hypot(*off.position) > _APART_M or math.hypot(*off.rotation_vector()) > _APART_RAD:
                     message = f"`{device.name}` must sit on `{arm.name}/{mount.frame}` as its vendor has it:"
                     message += f" xyz {_millimeters(mount.pose.position)} mm, rpy {_degrees(mount.pose.rpy())} deg"
@@ -68,7 +70,7 @@ def _degrees(angles: Vector3) -> str:
 @rule(Severity.WARNING, assumes=KNOWN_POSES)
 def mounted_inside_another(graph: CellGraph) -> Findings:
     """Yield pairs of devices with links that touch in every posture; of two the one that is no arm, or comes later."""
-    owners = {link.name: device for device in graph.cell.devices for link in device.description.links}
+    owners = {link.name: device for device in graph.cell.devices for link in device.body.description.links}
     reported: set[tuple[str, str]] = set()
     for contact in motion_answer(graph).rigid:
         first, other = owners.get(contact.first), owners.get(contact.second)
@@ -95,13 +97,13 @@ def shared_prefix(graph: CellGraph) -> Findings:
     owners: dict[str, Device] = {}
     reported: set[str] = set()
     for device in graph.cell.devices:
-        links = [link.name for link in device.description.links]
+        links = [link.name for link in device.body.description.links]
         first = next((owners[name] for name in links if name in owners), None)
         if first is not None and device.name not in reported:
             reported.add(device.name)
             shared = [name for name in links if owners.get(name) is first]
             more = f" and {len(shared) - 1} more" if len(shared) > 1 else ""
-            prefix = f"prefix `{device.prefix}`" if device.prefix else "empty prefix"
+            prefix = f"prefix `{device.body.prefix}`" if device.body.prefix else "empty prefix"
             message = f"`{device.name}` must have names of its own, but with its {prefix} link `{shared[0]}`{more}"
             related = (Related("the other device", graph.cell.locate(*first.path, "prefix")),)
             path = (*device.path, "prefix")

@@ -70,15 +70,15 @@ _BESIDE_M = 0.02
 @rule(Severity.WARNING, assumes=("turned-optical-frame",))
 def reversed_angles(graph: CellGraph) -> Findings:
     """Yield cameras on a tool flange that look sideways, and would not with their angles in the reverse order."""
-    tools = {device.tool_frame for device in graph.cell.devices}
+    tools = {device.body.tool_frame for device in graph.cell.devices}
     for device in graph.cell.devices:
-        for name in device.optical_frames:
-            chain = graph.frames.chain(device.frames[name])
-            place = next((frame for frame in chain if frame.name == device.root_link), None)
+        for name in device.body.optical_frames:
+            chain = graph.frames.chain(device.body.frames[name])
+            place = next((frame for frame in chain if frame.name == device.body.root_link), None)
             if place is None or place.parent not in tools or place.transform_to_parent is None:
                 continue
             mount = place.transform_to_parent
-            inside = graph.frames.pose_in(device.frames[name], device.root_link) or identity()
+            inside = graph.frames.pose_in(device.body.frames[name], device.body.root_link) or identity()
             roll, pitch, yaw = mount.rpy()
             turned = from_xyz_rpy(mount.position, (yaw, pitch, roll))
             sideways = _sideways(mount, inside)

@@ -18,7 +18,7 @@ _ALONG = 0.999  # cosine; figures of descriptions are rounded
 def broken_flange_convention(graph: CellGraph) -> Findings:
     """Yield devices with both frames whose z of tool0 is not x of flange, or whose origins differ."""
     for device in graph.cell.devices:
-        flange, tool = device.frames.get("flange"), device.frames.get("tool0")
+        flange, tool = device.body.frames.get("flange"), device.body.frames.get("tool0")
         if flange is None or tool is None:
             continue
         pose = graph.frames.pose_in(tool, flange, rigid=True)
@@ -36,33 +36,36 @@ def _by_convention(pose: Pose) -> bool:
 def tcp_off_the_tool(graph: CellGraph) -> Findings:
     """Yield TCPs that no fixed transform places in the tool frame of their arm."""
     for device in graph.cell.devices:
-        if device.tcp is None:
+        if device.robot.tcp is None:
             continue
         path = (*device.path, "tcp")
-        if device.tool_frame is None:
+        if device.body.tool_frame is None:
             yield found(graph, path, f"`{device.name}` has no frame where tools mount")
             continue
-        chain = [frame.name for frame in graph.frames.chain(device.tcp)]
-        tool = device.tool_frame in chain
-        between = graph.frames.chain(device.tcp)[: chain.index(device.tool_frame)] if tool else ()
+        chain = [frame.name for frame in graph.frames.chain(device.robot.tcp)]
+        tool = device.body.tool_frame in chain
+        between = graph.frames.chain(device.robot.tcp)[: chain.index(device.body.tool_frame)] if tool else ()
         if not tool or any(frame.moving or frame.transform_to_parent is None for frame in between):
-            message = f"the TCP of `{device.name}` must be attached to `{device.tool_frame}` by fixed transforms"
-            yield found(graph, path, f"{message}, got `{device.tcp}`")
+            message = f"the TCP of `{device.name}` must be attached to `{device.body.tool_frame}` by fixed transforms"
+            yield found(graph, path, f"{message}, got `{device.robot.tcp}`")
 
 
 @rule(Severity.ERROR)
 def tip_off_the_tool_chain(graph: CellGraph) -> Findings:
     """Yield groups of an arm with a tip that does not come after its tool frame."""
     arms = {
-        link.name: device for device in graph.cell.devices if device.tool_frame for link in device.description.links
+        link.name: device
+        for device in graph.cell.devices
+        if device.body.tool_frame
+        for link in device.body.description.links
     }
     for group in graph.cell.groups:
         arm = arms.get(group.base_link)
-        if arm is None or arm.tool_frame is None:
+        if arm is None or arm.body.tool_frame is None:
             continue
         chain = graph.frames.chain(group.tip_frame)
-        if arm.tool_frame not in (frame.name for frame in chain):
-            message = f"tip `{group.tip_frame}` of group `{group.name}` is not attached to `{arm.tool_frame}`"
+        if arm.body.tool_frame not in (frame.name for frame in chain):
+            message = f"tip `{group.tip_frame}` of group `{group.name}` is not attached to `{arm.body.tool_frame}`"
             mounts = [frame for frame in chain if frame.kind is FrameKind.MOUNT and frame.device != arm.name]
             related = tuple(Related(f"`{mount.device}` is mounted on `{mount.parent}`", mount.span) for mount in mounts)
             yield found(graph, (*group.path, "tip"), message, related=related)
@@ -83,16 +86,16 @@ def tip_within_tool(graph: CellGraph) -> Findings:
     for group in graph.cell.groups:
         tip = graph.frames.get(group.tip_frame)
         arm = next((device for device in graph.cell.devices if group.base_link in _links(device)), None)
-        if tip is None or arm is None or arm.tool_frame is None:
+        if tip is None or arm is None or arm.body.tool_frame is None:
             continue
-        pose = graph.frames.pose_in(tip.name, arm.tool_frame)
+        pose = graph.frames.pose_in(tip.name, arm.body.tool_frame)
         end = _end(graph, arm)
         if pose is None or end is None or (reach_m := math.hypot(*end)) < _SHORTEST_M:
             continue
         along_m = sum(a * b for a, b in zip(pose.position, end, strict=True)) / reach_m
         if not _NEAREST * reach_m <= along_m <= reach_m + _BEYOND_M:
             message = f"tip `{tip.name}` must lie near the end of the tool, {reach_m * 1e3:.0f} mm or more from"
-            message += f" `{arm.tool_frame}`, got {along_m * 1e3:.3g} mm towards it"
+            message += f" `{arm.body.tool_frame}`, got {along_m * 1e3:.3g} mm towards it"
             if tip.kind is FrameKind.FIXED:
                 yield found(graph, tip.path, message, related=(Related("the group", group.span),))
             elif tip.name in _links(arm) and (near := _nearest(graph, group.name, _NEAREST * reach_m)) is not None:
@@ -107,14 +110,14 @@ def _nearest(graph: CellGraph, group: str, within_m: float) -> CartesianGoal | N
 
 
 def _links(device: Device) -> set[str]:
-    return {link.name for link in device.description.links}
+    return {link.name for link in device.body.description.links}
 
 
 def _end(graph: CellGraph, arm: Device) -> Vector3 | None:
     """Return the origin of the farthest link of the only gripper that an arm carries, in its tool frame, m."""
-    grippers = [tool for name in arm.carries if (tool := graph.cell.device(name)).kind == "gripper"]
+    grippers = [tool for name in arm.mount.carries if (tool := graph.cell.device(name)).kind == "gripper"]
     if len(grippers) != 1:
         return None
-    poses = [graph.frames.pose_in(link.name, arm.tool_frame or "") for link in grippers[0].description.links]
+    poses = [graph.frames.pose_in(link.name, arm.body.tool_frame or "") for link in grippers[0].body.description.links]
     places = [pose.position for pose in poses if pose is not None]
     return max(places, key=lambda place: math.hypot(*place), default=None)

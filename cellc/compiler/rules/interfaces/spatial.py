@@ -55,7 +55,7 @@ def _of_cameras(graph: CellGraph) -> Mapping[tuple[str, str], list[_Stamp]]:
     """Return what each device with a camera stamps, by its name and the topic."""
     stamps: dict[tuple[str, str], list[_Stamp]] = {}
     for device in graph.cell.devices:
-        for stream in device.camera.streams if device.camera is not None else ():
+        for stream in device.sensing.camera.streams if device.sensing.camera is not None else ():
             for topic in dict.fromkeys((stream.topic, stream.info_topic)):
                 stamps.setdefault((device.name, topic), []).append((stream.frame, device.name, device.path))
     return stamps

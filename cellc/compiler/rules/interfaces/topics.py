@@ -39,8 +39,8 @@ def _clocks(cell: Cell) -> Iterator[Bounded]:
     for host in cell.hosts.values():
         yield (*host.path, "clock", "simulated_drift"), host.clock.simulated_drift, -DRIFT, DRIFT
     for device in cell.devices:
-        if device.stamp is not None:
-            yield (*device.path, "stamp", "simulated_drift"), device.stamp.clock.simulated_drift, -DRIFT, DRIFT
+        if device.sensing.stamp is not None:
+            yield (*device.path, "stamp", "simulated_drift"), device.sensing.stamp.clock.simulated_drift, -DRIFT, DRIFT
 
 
 def _networks(cell: Cell) -> Iterator[Bounded]:
@@ -56,18 +56,18 @@ def _networks(cell: Cell) -> Iterator[Bounded]:
 def _adapters(cell: Cell) -> Iterator[Bounded]:
     shortest_s = 1e-6  # a microsecond: shorter than any command period, and not zero
     for device in cell.devices:
-        if device.adapter is not None:
+        if device.control.adapter is not None:
             at = (*device.path, "adapter")
-            yield (*at, "command_timeout"), device.adapter.command_timeout_s, shortest_s, inf
-            yield (*at, "stop_time"), device.adapter.stop_time_s, shortest_s, inf
-            yield (*at, "goal_time"), device.adapter.goal_time_s, shortest_s, inf
-            allowed = device.adapter.path_tolerance
+            yield (*at, "command_timeout"), device.control.adapter.command_timeout_s, shortest_s, inf
+            yield (*at, "stop_time"), device.control.adapter.stop_time_s, shortest_s, inf
+            yield (*at, "goal_time"), device.control.adapter.goal_time_s, shortest_s, inf
+            allowed = device.control.adapter.path_tolerance
             yield (*at, "path_tolerance"), None if allowed is None else allowed.value, 1e-9, inf
 
 
 def _joints(cell: Cell) -> Iterator[Bounded]:
     for device in cell.devices:
-        for figures in device.simulated_joints:
+        for figures in device.mock.simulated_joints:
             noise, velocity = figures.noise, figures.velocity
             yield (*figures.path, "lag"), figures.lag_s, 0.0, inf
             yield (*figures.path, "noise"), None if noise is None else noise.value, 0.0, inf
@@ -78,7 +78,7 @@ def _joints(cell: Cell) -> Iterator[Bounded]:
 def _other_units(graph: CellGraph) -> Findings:
     """Yield lengths of joints that turn, and angles of joints that slide, once where they are said of all joints."""
     for device in graph.cell.devices:
-        for figures in device.simulated_joints:
+        for figures in device.mock.simulated_joints:
             joints = [device.joint(name) for name in figures.joints]
             for field, figure in (("noise", figures.noise), ("velocity", figures.velocity)):
                 linear = figure is not None and figure.linear

@@ -15,7 +15,7 @@ from cellc.robot.description.model import Description, Joint, JointLimit
 def circular_mimic(graph: CellGraph) -> Findings:
     """Yield each joint from which following the leaders leads back to it."""
     for part in graph.model.joints():
-        followed = _leaders(part.device.description, part.joint)
+        followed = _leaders(part.device.body.description, part.joint)
         if part.joint.name in followed:
             chain = " → ".join(f"`{name}`" for name in (part.joint.name, *followed))
             message = f"joint `{part.joint.name}` mimics itself: {chain}"
@@ -56,10 +56,10 @@ def mimic_of_fixed_joint(graph: CellGraph) -> Findings:
     """Yield mimic joints whose leader is fixed."""
     for part in graph.model.joints():
         mimic = part.joint.mimic
-        leader = None if mimic is None else part.device.description.joint(mimic.joint)
+        leader = None if mimic is None else part.device.body.description.joint(mimic.joint)
         if leader is not None and not leader.movable:
             message = f"joint `{part.joint.name}` mimics `{leader.name}`, which is {leader.type}"
-            movable = (joint.name for joint in part.device.description.joints if joint.movable)
+            movable = (joint.name for joint in part.device.body.description.joints if joint.movable)
             advice = did_you_mean(leader.name, movable, "moving joints")
             yield Finding(message, part.span, part.path, advice, described(graph, [leader.name]))
 
@@ -69,7 +69,7 @@ def mimic_of_nothing(graph: CellGraph) -> Findings:
     """Yield mimic joints whose leader is missing."""
     for part in graph.model.joints():
         mimic = part.joint.mimic
-        description = part.device.description
+        description = part.device.body.description
         if mimic is not None and description.joint(mimic.joint) is None:
             message = f"joint `{part.joint.name}` mimics `{mimic.joint}`, which is not a joint of `{part.device.name}`"
             names = (joint.name for joint in description.joints)

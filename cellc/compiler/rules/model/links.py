@@ -73,7 +73,7 @@ def _semidefinite(m: Matrix, scale: float) -> bool:
 def joint_of_unknown_link(graph: CellGraph) -> Findings:
     """Yield joints whose parent or child is no link."""
     for part in graph.model.joints():
-        description = part.device.description
+        description = part.device.body.description
         for role, name in (("parent", part.joint.parent), ("child", part.joint.child)):
             if description.link(name) is None:
                 message = f"the {role} of joint `{part.joint.name}` is `{name}`, which is not a link"
@@ -107,9 +107,9 @@ def negative_mass(graph: CellGraph) -> Findings:
 def several_root_links(graph: CellGraph) -> Findings:
     """Yield every root but the one that is mounted."""
     for part in graph.model.links():
-        root = part.device.root_link
-        if part.link.name != root and part.link.name in part.device.description.roots():
+        root = part.device.body.root_link
+        if part.link.name != root and part.link.name in part.device.body.description.roots():
             message = f"link `{part.link.name}` has no parent; the root of `{part.device.name}` is `{root}`"
-            mounted = part.device.description.link(root)
+            mounted = part.device.body.description.link(root)
             related = (Related("the root", mounted.span),) if mounted is not None and mounted.span is not None else ()
             yield Finding(message, part.span, part.path, related=related)

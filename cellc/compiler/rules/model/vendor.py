@@ -6,8 +6,8 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 
+from cellc.compiler.cell.body import KinematicCalibration, Kinematics
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.kinematics import KinematicCalibration, Kinematics
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, found, rule
 from cellc.contract.diagnostics import Span, is_slip
 from cellc.contract.pins import day_of
@@ -24,7 +24,7 @@ _TURN_RAD = math.radians(2.0)
 def implausible_kinematics(graph: CellGraph) -> Findings:
     """Yield devices with a joint that is far from where its type has it."""
     for device in graph.cell.devices:
-        calibration = None if device.kinematics is None else device.kinematics.calibration
+        calibration = None if device.body.kinematics is None else device.body.kinematics.calibration
         if calibration is not None and (calibration.offset_m > _OFFSET_M or calibration.turn_rad > _TURN_RAD):
             differs = f"{calibration.offset_m * 1000.0:.0f} mm and {math.degrees(calibration.turn_rad):.1f} deg"
             allowed = f"{_OFFSET_M * 1000.0:.0f} mm and {math.degrees(_TURN_RAD):.0f} deg"
@@ -38,7 +38,7 @@ def implausible_kinematics(graph: CellGraph) -> Findings:
 def nominal_kinematics(graph: CellGraph) -> Findings:
     """Yield devices whose kinematics are nominal, or those of a file without a day or an owner."""
     for device in graph.cell.devices:
-        kinematics = device.kinematics
+        kinematics = device.body.kinematics
         if kinematics is not None:
             calibration = kinematics.calibration
             problems = _nominal(device, kinematics) if calibration is None else _unvouched(calibration, kinematics)
@@ -64,7 +64,7 @@ def skipped_command_limit(graph: CellGraph) -> Findings:
     """Yield each interface with a limit that is not a number, at its joint."""
     for device in graph.cell.devices:
         path = (*device.path, "model")
-        for part in (part for component in device.description.hardware for part in component.joints):
+        for part in (part for component in device.body.description.hardware for part in component.joints):
             for interface in part.command_interfaces:
                 limits = {"min": interface.minimum, "max": interface.maximum}
                 texts = [
@@ -81,7 +81,7 @@ def skipped_command_limit(graph: CellGraph) -> Findings:
 def unread_vendor_description(graph: CellGraph) -> Findings:
     """Yield devices whose vendor's description was refused."""
     for device in graph.cell.devices:
-        vendor = device.vendor_description
+        vendor = device.body.vendor_description
         if vendor is not None and vendor.refused:
             message = f"the description of `{device.name}` in `{vendor.folder}` cannot be read: {vendor.refused}"
             yield found(graph, (*device.path, "model"), message)
@@ -99,7 +99,7 @@ def unusable_ros2_control(graph: CellGraph) -> Findings:
     """Yield what ros2_control refuses of the tags, and joints and interfaces that nothing has."""
     for device in graph.cell.devices:
         path = (*device.path, "model")
-        for message, span in (*_unloadable(device.description), *_of_joints(device)):
+        for message, span in (*_unloadable(device.body.description), *_of_joints(device)):
             yield Finding(message, span or graph.cell.locate(*path), path)
 
 
@@ -120,9 +120,9 @@ def _unloadable(description: Description) -> Told:
 
 
 def _of_joints(device: Device) -> Told:
-    joints = {joint.name.removeprefix(device.prefix): joint for joint in device.description.joints}
+    joints = {joint.name.removeprefix(device.body.prefix): joint for joint in device.body.description.joints}
     commanded: dict[str, str] = {}
-    for component in device.description.hardware:
+    for component in device.body.description.hardware:
         for part in component.joints:
             joint = joints.get(part.name)
             if joint is None:
@@ -171,11 +171,11 @@ _OFF_RAD_OR_M = 0.1
 def vendor_description_differs(graph: CellGraph) -> Findings:
     """Yield one finding for each device that differs, with the largest difference of each kind."""
     for device in graph.cell.devices:
-        vendor = device.vendor_description
+        vendor = device.body.vendor_description
         if vendor is None or vendor.description is None:
             continue
         placed = filter(None, _placed(device, vendor.description))
-        differences = [*placed, *_limited(device.description, vendor.description)]
+        differences = [*placed, *_limited(device.body.description, vendor.description)]
         if differences:
             message = f"`{device.name}` differs from the description in `{vendor.folder}`: {'; '.join(differences)}"
             yield found(graph, (*device.path, "model"), message)
@@ -183,15 +183,15 @@ def vendor_description_differs(graph: CellGraph) -> Findings:
 
 def _placed(device: Device, vendor: Description) -> Iterator[str]:
     """Yield how far a link is from where the vendor has it; the calibration of one robot is compared with nothing."""
-    if device.kinematics is not None and device.kinematics.calibration is not None:
+    if device.body.kinematics is not None and device.body.kinematics.calibration is not None:
         return
-    movable = [joint.name for joint in device.description.joints if joint.movable]
+    movable = [joint.name for joint in device.body.description.joints if joint.movable]
     for positions in ({}, {name: _OFF_RAD_OR_M * (number + 1) for number, name in enumerate(movable)}):
-        ours, theirs = posture(device.description, positions), posture(vendor, positions)
-        base = theirs.get(device.root_link)
+        ours, theirs = posture(device.body.description, positions), posture(vendor, positions)
+        base = theirs.get(device.body.root_link)
         shared = [name for name in ours if name in theirs]
         if base is None or len(shared) < 2:
-            yield f"it has no link `{device.root_link}`" if base is None else "no link is named alike"
+            yield f"it has no link `{device.body.root_link}`" if base is None else "no link is named alike"
             return
         apart = {name: ours[name].inverse() @ base.inverse() @ theirs[name] for name in shared}
         far = max(shared, key=lambda name: math.dist(apart[name].position, (0, 0, 0)))

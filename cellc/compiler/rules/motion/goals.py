@@ -31,7 +31,7 @@ def detected_static_frame(graph: CellGraph) -> Findings:
 def goal_moves_with_tip(graph: CellGraph) -> Findings:
     """Yield goals in a fixed frame that hangs on a link moved by the goal's own group."""
     groups = {group.name: group for group in graph.cell.groups}
-    children = {joint.child: joint.name for device in graph.cell.devices for joint in device.description.joints}
+    children = {joint.child: joint.name for device in graph.cell.devices for joint in device.body.description.joints}
     for goal in graph.cell.goals:
         frame = graph.frames.get(goal.frame)
         if frame is None or frame.kind is FrameKind.DYNAMIC or goal.group not in groups:

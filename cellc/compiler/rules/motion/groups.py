@@ -104,10 +104,10 @@ def _figures(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
         for key, figures in stated(controller):
             yield from (((*controller.path, key), name, figure.linear) for name, figure in (figures or {}).items())
     for device in cell.devices:
-        if device.adapter is not None and device.adapter.path_tolerance is not None:
+        if device.control.adapter is not None and device.control.adapter.path_tolerance is not None:
             at: YamlPath = (*device.path, "adapter", "path_tolerance")
             fits = [joint.slides for joint in device.actuated_joints]
-            linear = device.adapter.path_tolerance.linear
+            linear = device.control.adapter.path_tolerance.linear
             # One figure is said of all joints: where a device has both kinds, it is that of one of them.
             yield from ((at, joint.name, linear) for joint in device.actuated_joints if linear not in fits)
     yield from _of_one_joint(cell)

@@ -43,7 +43,7 @@ def joint_too_weak(graph: CellGraph) -> Findings:
         device, joint = owners[held.joint]
         if joint.effort is None or held.effort <= joint.effort:
             continue
-        path = (*device.path, "payload", "mass") if device.payload is not None else device.path
+        path = (*device.path, "payload", "mass") if device.robot.payload is not None else device.path
         unit = "N" if joint.type == "prismatic" else "Nm"
         where = f"in `{held.posture}`" if held.posture else "at the start of the cell"
         message = f"`{held.joint}` can give {joint.effort:g} {unit} and must hold {held.effort:.3g} {unit} {where}"

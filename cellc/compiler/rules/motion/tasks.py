@@ -27,7 +27,7 @@ def call_that_moves(graph: CellGraph) -> Findings:
 def _moving(cell: Cell) -> Iterator[tuple[str, str]]:
     """Yield the names that drivers and controllers offer and that move something, with what a call does."""
     for device in cell.devices:
-        for offer in device.offers:
+        for offer in device.control.offers:
             if offer.effect is not None and offer.effect.motion not in _HARMLESS:
                 yield offer.name, offer.effect.does
     for controller in cell.controllers:
@@ -163,7 +163,7 @@ def _arms(graph: CellGraph) -> dict[str, str]:
     """Return for each link the device that carries it and is mounted on none: an arm with all that hangs on it."""
     carried = {}
     for device in graph.cell.devices:
-        for link in device.description.links:
+        for link in device.body.description.links:
             devices = [frame.device for frame in graph.frames.chain(link.name) if frame.device is not None]
             carried[link.name] = devices[-1] if devices else device.name
     return carried
@@ -188,7 +188,11 @@ def unprovoked_failure(graph: CellGraph) -> Findings:
 
 def _other_camera(graph: CellGraph, rehearsal: Rehearsal) -> Findings:
     """Yield the only fault where it freezes a camera, and all that is detected is seen by others."""
-    frames = {device.name: set(device.frames.values()) for device in graph.cell.devices if device.camera is not None}
+    frames = {
+        device.name: set(device.body.frames.values())
+        for device in graph.cell.devices
+        if device.sensing.camera is not None
+    }
     seen = [graph.frames.get(step.name) for step in rehearsal.steps if step.kind == "detect"]
     used = {name for name, cameras in frames.items() for frame in seen if frame is not None and frame.parent in cameras}
     fault = rehearsal.faults[0]

@@ -149,9 +149,9 @@ def taken_discovery_port(graph: CellGraph) -> Findings:
     network = graph.cell.network
     begin = _FIRST_PORT + _PORTS_EACH * network.domain_id
     taken = {
-        (device.host, port): f"the driver of `{device.name}`"
+        (device.site.host, port): f"the driver of `{device.name}`"
         for device in graph.cell.devices
-        for port in (() if device.network is None else device.network.listens)
+        for port in (() if device.site.network is None else device.site.network.listens)
     }
     for number, server in enumerate(network.servers):
         path = ("network", "servers", number, "port")

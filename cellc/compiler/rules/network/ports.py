@@ -12,7 +12,7 @@ def duplicate_serial(graph: CellGraph) -> Findings:
     """Yield the second device of one model with a serial number."""
     first: dict[tuple[str, str], Device] = {}
     for device in graph.cell.devices:
-        serial = device.versions.serial
+        serial = device.software.versions.serial
         if serial == UNKNOWN:
             continue
         owner = first.setdefault((device.model, serial), device)
@@ -27,12 +27,12 @@ def indistinguishable_devices(graph: CellGraph) -> Findings:
     """Yield devices without address, port and serial number that share their model and host with another."""
     alike: dict[tuple[str, str], list[Device]] = {}
     for device in graph.cell.devices:
-        link = device.connection
+        link = device.site.connection
         if link is not None and link.address is None and link.port is None:
             alike.setdefault((device.model, link.host), []).append(device)
     for (model, host), devices in alike.items():
         for device in devices if len(devices) > 1 else ():
-            if device.versions.serial != UNKNOWN:
+            if device.software.versions.serial != UNKNOWN:
                 continue
             others = [other for other in devices if other is not device]
             message = f"`{device.name}` must state its `serial`, as `{others[0].name}` on `{host}` is a `{model}` too"
@@ -45,13 +45,15 @@ def shared_port(graph: CellGraph) -> Findings:
     """Yield the second device that listens on a port of a host, once."""
     first: dict[tuple[str, int], Device] = {}
     for device in graph.cell.devices:
-        link = device.connection
-        listens = () if device.network is None or link is None else device.network.listens
-        taken = [(port, owner) for port in listens if (owner := first.get((device.host, port))) is not None]
-        first.update({(device.host, port): device for port in listens if (device.host, port) not in first})
+        link = device.site.connection
+        listens = () if device.site.network is None or link is None else device.site.network.listens
+        taken = [(port, owner) for port in listens if (owner := first.get((device.site.host, port))) is not None]
+        first.update({(device.site.host, port): device for port in listens if (device.site.host, port) not in first})
         if taken:
             port, owner = taken[0]
-            message = f"`{device.name}` must have ports of its own on `{device.host}`, got {port} of `{owner.name}`"
+            message = (
+                f"`{device.name}` must have ports of its own on `{device.site.host}`, got {port} of `{owner.name}`"
+            )
             related = (Related("first used here", graph.cell.locate(*owner.path, "connection")),)
             yield found(graph, (*device.path, "connection", "first_port"), message, related=related)
 
@@ -62,14 +64,14 @@ def shared_serial_port(graph: CellGraph) -> Findings:
     first: dict[tuple[str, str], Device] = {}
     forwarded: dict[tuple[str, str], Device] = {}
     for device in graph.cell.devices:
-        serial = None if device.tool_connector is None else device.tool_connector.serial
-        robot = device if serial is None else forwarded.setdefault((device.host, serial.port), device)
+        serial = None if device.robot.tool_connector is None else device.robot.tool_connector.serial
+        robot = device if serial is None else forwarded.setdefault((device.site.host, serial.port), device)
         if robot is not device:
             path = (*device.path, "tool_connector", "serial", "port")
             message = f"`{device.name}` must forward its tool to a port of its own, got that of `{robot.name}`"
             related = (Related("first used here", graph.cell.locate(*robot.path, *path[2:])),)
             yield found(graph, path, message, related=related)
-        link = device.connection
+        link = device.site.connection
         if link is None or link.port is None or link.address is not None:
             continue
         owner = first.setdefault((link.host, link.port), device)
@@ -86,7 +88,7 @@ def unused_first_port(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         path = (*device.path, "connection", "first_port")
         stated = graph.cell.text(*path)
-        listens = () if device.network is None else device.network.listens
+        listens = () if device.site.network is None else device.site.network.listens
         if stated and stated != str(min(listens, default=0)):
             where = f"from {min(listens)} on, whatever is stated" if listens else "on no port"
             yield found(graph, path, f"the driver of `{device.name}` listens {where}: got {stated}")

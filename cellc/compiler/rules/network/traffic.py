@@ -49,20 +49,20 @@ def _crossings(graph: CellGraph) -> Iterator[tuple[Nic, Interface, float]]:
     """Yield the card of either end of each stream that another computer reads or records, with what it takes there."""
     running = running_hosts(graph.cell)
     recorders = {nic.host for nic in graph.network.nics if "bag" in nic.carries}
-    cameras = {device.name: device for device in graph.cell.devices if device.camera is not None}
+    cameras = {device.name: device for device in graph.cell.devices if device.sensing.camera is not None}
     for interface in graph.cell.interfaces:
         camera = next((cameras[source.node] for source in interface.sources if source.node in cameras), None)
-        streams = () if camera is None or camera.camera is None else camera.camera.streams
+        streams = () if camera is None or camera.sensing.camera is None else camera.sensing.camera.streams
         image = next((stream for stream in streams if stream.topic == interface.name and stream.image_bytes), None)
         if camera is None or image is None or image.image_bytes is None:
             continue
         rate_bps = image.image_bytes * 8.0 * min(interface.rate_hz or image.rate_hz, image.rate_hz)
         readers = {running.get(sink.full_name, "") for sink in interface.sinks}
-        if interface.name in graph.cell.recording.topics and camera.host not in recorders:
+        if interface.name in graph.cell.recording.topics and camera.site.host not in recorders:
             readers |= recorders
-        readers -= {camera.host, ""}
+        readers -= {camera.site.host, ""}
         for reader in sorted(readers):
-            for nic in _way(graph, camera.host, reader):
+            for nic in _way(graph, camera.site.host, reader):
                 yield nic, interface, rate_bps
 
 
@@ -108,7 +108,7 @@ def _does(node: Node) -> str:
 @rule(Severity.WARNING)
 def robot_off_control_card(graph: CellGraph) -> Findings:
     """Yield arms that want a dedicated link on a card without control."""
-    dedicated = {d.name for d in graph.cell.devices if d.network is not None and d.network.dedicated_link}
+    dedicated = {d.name for d in graph.cell.devices if d.site.network is not None and d.site.network.dedicated_link}
     for device in graph.network.devices:
         nic = graph.network.nic_of(device)
         if device.device in dedicated and nic is not None and "control" not in nic.carries:
@@ -131,7 +131,7 @@ def unsuited_kernel(graph: CellGraph) -> Findings:
     """Yield hosts that run drivers for which real time is asked, with a generic or unknown kernel."""
     reported: set[str] = set()
     for device in graph.cell.devices:
-        needs, link = device.network, device.connection
+        needs, link = device.site.network, device.site.connection
         if needs is None or link is None or needs.realtime == "not_needed" or link.host in reported:
             continue
         host = graph.cell.hosts.get(link.host)

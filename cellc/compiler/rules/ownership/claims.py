@@ -110,7 +110,7 @@ def _refused_modes(cell: Cell, state: ControlState) -> Iterator[tuple[Controller
             claiming.setdefault(claim.rpartition("/")[0], {})[controller.label] = controller
     order = {controller.label: number for number, controller in enumerate(state.active)}
     for device in cell.devices:
-        modes = None if device.hardware is None else device.hardware.modes
+        modes = None if device.control.hardware is None else device.control.hardware.modes
         if modes is None:
             continue
         joints = {joint.name for joint in device.joints}
@@ -154,7 +154,7 @@ def unprovided_command_interface(graph: CellGraph) -> Findings:
         for name in joint.command_interfaces
     }
     for device in graph.cell.devices:
-        for gpio in device.hardware.gpios if device.hardware is not None else ():
+        for gpio in device.control.hardware.gpios if device.control.hardware is not None else ():
             provided |= {f"{gpio.name}/{name}" for name in gpio.command_interfaces}
     for controller in graph.cell.controllers:
         missing = [claim for claim in controller.all_claims if claim not in provided]

@@ -25,7 +25,9 @@ def unclaimed_signal(graph: CellGraph) -> Findings:
     devices = graph.cell.devices
     # `missing-real-plugin` reports devices without a real plugin.
     unnamed = {
-        device.name for device in devices if device.hardware is not None and "real" not in device.hardware.targets
+        device.name
+        for device in devices
+        if device.control.hardware is not None and "real" not in device.control.hardware.targets
     }
     there = [
         controller
@@ -49,7 +51,7 @@ def unclaimed_signal(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def unknown_sensor(graph: CellGraph) -> Findings:
     """Yield controllers with a `sensor_name` that no hardware exports, or a `frame_id` that is no frame."""
-    hardware = [device.hardware for device in graph.cell.devices if device.hardware is not None]
+    hardware = [device.control.hardware for device in graph.cell.devices if device.control.hardware is not None]
     sensors = [sensor.name for component in hardware for sensor in component.sensors]
     known = {
         "sensor_name": (sensors, "no hardware exports such a sensor", "sensors"),

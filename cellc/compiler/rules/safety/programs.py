@@ -29,7 +29,7 @@ def drop_at_power_loss(graph: CellGraph) -> Findings:
 def impossible_program(graph: CellGraph) -> Findings:
     """Yield devices whose controller has no such mode of starting a program."""
     for device in graph.cell.devices:
-        program, modes = device.program, device.robot.start_modes
+        program, modes = device.robot.program, device.robot.accepts.start_modes
         if program is None:
             continue
         path = (*device.path, "program")
@@ -68,8 +68,8 @@ def program_played_by_software(graph: CellGraph) -> Findings:
         {node.name for node in cell.nodes} | {controller.name for controller in cell.controllers} | set(cell.hosts)
     )
     for device in cell.devices:
-        if device.program is not None and device.program.played_by in software:
-            played_by = device.program.played_by
+        if device.robot.program is not None and device.robot.program.played_by in software:
+            played_by = device.robot.program.played_by
             message = f"the program of `{device.name}` must be started by a person, got `{played_by}` of this cell"
             yield found(graph, (*device.path, "program", "played_by"), message)
 
@@ -78,24 +78,24 @@ def program_played_by_software(graph: CellGraph) -> Findings:
 def refused_initial_state(graph: CellGraph) -> Findings:
     """Yield states of components that move at the start, that the vendor excludes, or that no step activates."""
     for device in graph.cell.devices:
-        if device.initial_state is None:
+        if device.control.initial_state is None:
             continue
         path = (*device.path, "initial_state")
-        if device.hardware is None:
+        if device.control.hardware is None:
             yield found(graph, path, f"no controller manager brings up `{device.name}`: it has no hardware component")
-        elif refused := _refused_state(device, device.hardware):
+        elif refused := _refused_state(device, device.control.hardware):
             yield found(graph, path, refused)
 
 
 def _refused_state(device: Device, hardware: HardwareComponent) -> str:
     """Return why a component must not start as stated; empty where it may."""
-    said = f"`{device.name}` must not start `{device.initial_state}`:"
-    if device.initial_state == "active":
+    said = f"`{device.name}` must not start `{device.control.initial_state}`:"
+    if device.control.initial_state == "active":
         if not hardware.is_activation_known:
             return f"{said} the effect of its activation is not stated"
         if hardware.moves_as_it_is_activated:
             return f"{said} its activation {hardware.effects[Moment.ACTIVATE].does.split('; ')[0]}"
-    if hardware.direct_activation and device.initial_state != hardware.initial_state:
+    if hardware.direct_activation and device.control.initial_state != hardware.initial_state:
         return f"{said} it must become active in one call from `{hardware.initial_state}`"
     return ""
 
@@ -104,7 +104,7 @@ def _refused_state(device: Device, hardware: HardwareComponent) -> str:
 def tool_voltage_mismatch(graph: CellGraph) -> Findings:
     """Yield tools on the connector of another robot, of one without settings, or of one with another voltage."""
     for device in graph.cell.devices:
-        link = device.connection
+        link = device.site.connection
         if link is None or link.through is None:
             continue
         path = (*device.path, "connection", "through")
@@ -113,12 +113,12 @@ def tool_voltage_mismatch(graph: CellGraph) -> Findings:
         if device.name not in _hanging(graph, robot):
             message = f"`{device.name}` must be attached to `{robot.name}`, whose tool connector powers it"
             yield found(graph, path, message, "name the robot that carries it")
-        if robot.tool_connector is None:
+        if robot.robot.tool_connector is None:
             message = f"`{device.name}` has its power from `{robot.name}`, whose tool connector gives nothing stated"
             yield found(graph, path, message, f"write `tool_connector` of `{robot.name}` with the voltage of its tool")
-        elif device.plug is not None and device.plug.voltage_v != robot.tool_connector.voltage_v:
-            given = f"{robot.tool_connector.voltage_v:g} V of `{robot.name}`"
-            message = f"the tool connector must give `{device.name}` {device.plug.voltage_v:g} V, got {given}"
+        elif device.robot.plug is not None and device.robot.plug.voltage_v != robot.robot.tool_connector.voltage_v:
+            given = f"{robot.robot.tool_connector.voltage_v:g} V of `{robot.name}`"
+            message = f"the tool connector must give `{device.name}` {device.robot.plug.voltage_v:g} V, got {given}"
             related = (Related("stated here", graph.cell.locate(*place, "voltage")),)
             yield found(graph, path, message, related=related)
 
@@ -126,12 +126,12 @@ def tool_voltage_mismatch(graph: CellGraph) -> Findings:
 def _hanging(graph: CellGraph, robot: Device) -> set[str]:
     """Return what a robot carries, and what hangs on that."""
     carried: set[str] = set()
-    left = [*robot.carries]
+    left = [*robot.mount.carries]
     while left:
         name = left.pop()
         if name not in carried:
             carried.add(name)
-            left += graph.cell.device(name).carries
+            left += graph.cell.device(name).mount.carries
     return carried
 
 
@@ -139,6 +139,6 @@ def _hanging(graph: CellGraph, robot: Device) -> set[str]:
 def unknown_activation(graph: CellGraph) -> Findings:
     """Yield devices without a stated effect of their activation, or of the start of their driver."""
     for device in graph.cell.devices:
-        for moment in device.unknown_effects:
+        for moment in device.control.unknown_effects:
             message = f"it is not stated what {moment} of `{device.name}` moves"
             yield found(graph, (*device.path, "model"), message)

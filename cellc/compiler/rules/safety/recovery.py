@@ -65,7 +65,7 @@ _EVERYWHERE = "emergency_stop"
 def unnamed_recovery_state(graph: CellGraph) -> Findings:
     """Yield the states that are missing, in one finding; what no device has that states its own is not asked for."""
     states = graph.cell.safety.recovery.states
-    known = {state.name for device in graph.cell.devices for state in device.safety.states}
+    known = {state.name for device in graph.cell.devices for state in device.procedures.safety.states}
     asked = [state for state in STOPPED if state in known or not known or state == _EVERYWHERE]
     missing = [state for state in asked if state not in states]
     if missing:

@@ -141,7 +141,7 @@ def stop_without_recovery(graph: CellGraph) -> Findings:
     """Yield the stops of a device that its vendor leads out of and the cell does not name, one finding a device."""
     named = set(graph.cell.safety.recovery.states)
     for device in graph.cell.devices:
-        missing = [state for state in device.safety.recoverable_stops if state not in named]
+        missing = [state for state in device.procedures.safety.recoverable_stops if state not in named]
         if missing:
             names = ", ".join(f"`{state}`" for state in missing)
             message = f"`{device.name}` can stop in {names}, and no recovery is named for it"

@@ -36,8 +36,8 @@ def _owners(graph: CellGraph) -> dict[str, tuple[str, str]]:
         if link.text is not None:
             owners[_host(link.text) if link.address is None else str(link.address)] = ("address", link.device)
     for device in graph.cell.devices:
-        if device.connection is not None and device.connection.port is not None:
-            owners[_file(device.connection.port)] = ("port", device.name)
+        if device.site.connection is not None and device.site.connection.port is not None:
+            owners[_file(device.site.connection.port)] = ("port", device.name)
     owners.pop("", None)
     return owners
 
@@ -54,7 +54,7 @@ def _given_on_mock(cell: Cell) -> Iterator[tuple[str, YamlPath, str, ParameterVa
             for name, value in controller.parameters.items():
                 yield controller.name, _path(controller.path, name in controller.written_parameters, name), name, value
     for device in cell.devices:
-        given: Mapping[str, str] = {} if device.hardware is None else device.hardware.parameters["mock"]
+        given: Mapping[str, str] = {} if device.control.hardware is None else device.control.hardware.parameters["mock"]
         for name, text in given.items():
             yield f"the mock of {device.name}", (*device.path, "model"), name, text
 
@@ -135,7 +135,7 @@ def driver_on_mock(graph: CellGraph) -> Findings:
         if not node.real_only and node.source is not NodeSource.STANDARD:
             yield from (found(graph, path, message) for path, message in _reasons(cell, node, drivers, programs))
     for device in cell.devices:
-        plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
+        plugin = "" if device.control.hardware is None else device.control.hardware.plugins["mock"]
         package = plugin.partition("/")[0]
         if package in cell.hardware_packages or plugin in real_plugins:
             message = f"the mock of `{device.name}` is `{plugin}`, of a package that reaches real hardware"
@@ -162,7 +162,9 @@ def _reasons(
 
 def _driver_packages(cell: Cell) -> frozenset[str]:
     """Return the packages that the devices of the cell call their drivers."""
-    return frozenset(device.packages.driver for device in cell.devices if device.packages.driver is not None)
+    return frozenset(
+        device.software.packages.driver for device in cell.devices if device.software.packages.driver is not None
+    )
 
 
 def _real_programs(cell: Cell) -> frozenset[str]:
@@ -170,7 +172,7 @@ def _real_programs(cell: Cell) -> frozenset[str]:
 
 
 def _real_plugins(cell: Cell) -> frozenset[str]:
-    components = (device.hardware for device in cell.devices)
+    components = (device.control.hardware for device in cell.devices)
     return frozenset(
         component.plugins["real"] for component in components if component is not None and "real" in component.plugins
     )
@@ -199,8 +201,8 @@ def real_hardware_in_mock(graph: CellGraph) -> Findings:
 def unproven_mock_plugin(graph: CellGraph) -> Findings:
     """Yield devices whose mock plugin neither the catalog nor a signed statement knows to touch no hardware."""
     for device in graph.cell.devices:
-        plugin = "" if device.hardware is None else device.hardware.plugins["mock"]
-        if device.hardware is not None and not graph.cell.is_harmless_plugin(plugin):
+        plugin = "" if device.control.hardware is None else device.control.hardware.plugins["mock"]
+        if device.control.hardware is not None and not graph.cell.is_harmless_plugin(plugin):
             message = f"the mock of `{device.name}` is `{plugin}`, without a statement that it touches no hardware"
             yield found(graph, ("devices", device.name, "model"), message)
 

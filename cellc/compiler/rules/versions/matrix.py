@@ -21,8 +21,10 @@ from cellc.contract.pins import is_commit, last_word, version_number, version_nu
 def firmware_outside_matrix(graph: CellGraph) -> Findings:
     """Yield firmware below the minimum or beyond the range of the rows for its product."""
     for device in graph.cell.devices:
-        text = device.versions.firmware
-        rows = [row for row in device.version_rows if row.part == "firmware" and row.product == text.split()[0]]
+        text = device.software.versions.firmware
+        rows = [
+            row for row in device.software.version_rows if row.part == "firmware" and row.product == text.split()[0]
+        ]
         numbers = version_numbers(text)
         for row in rows if numbers else ():
             minimum, below = version_numbers(row.minimum or ""), version_numbers(row.below or "")
@@ -63,7 +65,7 @@ def version_not_in_matrix(graph: CellGraph) -> Findings:
         if near is not None:
             *first, last = [f"{part} {version}" for part, version in shared_parts(device, near).items()]
             known = f"{' and '.join((', '.join(first), last)) if first else last} in {near.name}, the nearest"
-        texts = " and ".join(f"`{device.versions.part(part)}`" for part in parts)
+        texts = " and ".join(f"`{device.software.versions.part(part)}`" for part in parts)
         message = f"{texts} of `{device.name}` must be in the matrix of {distro}, which knows {known}"
         places = [(*device.path, part) for part in parts]
         related = tuple(Related("this version differs too", graph.cell.locate(*place)) for place in places[1:])
@@ -71,7 +73,7 @@ def version_not_in_matrix(graph: CellGraph) -> Findings:
 
 
 def _known(device: Device, part: str, distro: str) -> str:
-    rows = [row for row in device.version_rows if row.part == part and row.distro in (None, distro)]
+    rows = [row for row in device.software.version_rows if row.part == part and row.distro in (None, distro)]
     return ", ".join(sorted({name for row in rows for name in row.known})) or "none"
 
 
@@ -84,7 +86,9 @@ def version_outside_matrix(graph: CellGraph) -> Findings:
             others = {row.distro for row in foreign_lines(device, part, distro)}
             if others:
                 names = " and ".join(sorted(name for name in others if name is not None))
-                message = f"`{device.versions.part(part)}` of `{device.name}` is of {names}, the cell runs {distro}"
+                message = (
+                    f"`{device.software.versions.part(part)}` of `{device.name}` is of {names}, the cell runs {distro}"
+                )
                 yield found(graph, (*device.path, part), message, f"pin the line of {distro}")
 
 

@@ -61,11 +61,11 @@ def _packages(graph: CellGraph) -> Iterator[tuple[str | None, YamlPath]]:
     yield from ((group.solver.package, group.path) for group in cell.groups)
     yield from ((pipeline.package, ("motion", "pipelines")) for pipeline in cell.pipelines)
     for device in cell.devices:
-        of_vendor = device.packages
+        of_vendor = device.software.packages
         yield from ((name, device.path) for name in (of_vendor.driver, of_vendor.sdk, of_vendor.description))
-        yield from ((program.package, device.path) for program in device.programs)
-        if device.kinematics is not None:
-            yield device.kinematics.package, device.path
+        yield from ((program.package, device.path) for program in device.site.programs)
+        if device.body.kinematics is not None:
+            yield device.body.kinematics.package, device.path
 
 
 _PACKAGES = ("driver", "sdk", "description")
@@ -74,7 +74,7 @@ _PACKAGES = ("driver", "sdk", "description")
 @rule(Severity.ERROR)
 def two_versions_of_one_package(graph: CellGraph) -> Findings:
     """Yield the second version of a package on one host; a description is read wherever the cell is."""
-    hosts = {device.name: device.host for device in graph.cell.devices}
+    hosts = {device.name: device.site.host for device in graph.cell.devices}
     first: dict[tuple[str, str], Pin] = {}
     for pin in device_pins(graph.cell):
         words = pin.text.split()
