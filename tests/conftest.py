@@ -57,6 +57,7 @@ _LEFT_OUT = pytest.StashKey[frozenset[Path]]()
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini("long_tests", "files and folders that `pytest` leaves to `pytest --long`", type="args", default=[])
     parser.addoption("--long", action="store_true", help="run the long tests alone")
+    parser.addoption("--all", action="store_true", help="run the long tests too, in one session")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -65,7 +66,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_LEFT_OUT] = frozenset()
     if config.option.long:
         config.args = list(map(str, long))
-    elif config.args_source is pytest.Config.ArgsSource.TESTPATHS:
+    elif config.args_source is pytest.Config.ArgsSource.TESTPATHS and not config.option.all:
         config.stash[_LEFT_OUT] = frozenset(long)
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from cellc.contract.diagnostics import Diagnostic, Span
 from cellc.robot.description.model import Box, Cylinder, Description, Mesh, Sphere
 from cellc.robot.description.urdf_reader import read_urdf
+from tests.properties import given, settings, st
 
 ROBOT = """<?xml version="1.0"?>
 <robot name="r">
@@ -198,14 +197,13 @@ _FRAGMENTS = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(st.one_of(st.binary().map(lambda data: data.decode("latin-1")), st.text(), st.lists(_FRAGMENTS).map("".join)))
 def test_reader_answers_any_text(text: str) -> None:
     outcome = read_urdf(text, "r.urdf")
     assert (outcome.value is None) == bool(outcome.diagnostics)
 
 
-@settings(max_examples=100, deadline=None)
 @given(st.integers(0, len(ROBOT)), st.integers(0, 40), _FRAGMENTS)
 def test_reader_answers_any_damage(start: int, length: int, patch: str) -> None:
     outcome = read_urdf(ROBOT[:start] + patch + ROBOT[start + length :], "r.urdf")

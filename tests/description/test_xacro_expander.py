@@ -6,12 +6,11 @@ import re
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from cellc.contract.diagnostics import Diagnostic
 from cellc.robot.description.read_description import read_description
 from cellc.robot.description.xacro_expansion import expand_here, expand_xacro
+from tests.properties import given, settings, st
 
 HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="mine">'
 
@@ -200,7 +199,7 @@ _PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(body=st.lists(_PIECES, max_size=8).map("".join))
 def test_expander_answers_any_text(body: str, tmp_path_factory: pytest.TempPathFactory) -> None:
     folder = tmp_path_factory.mktemp("fuzz")

@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 import pinocchio
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.elements import origin
@@ -19,6 +17,7 @@ from cellc.compiler.link.hand_eye_file import read_hand_eye
 from cellc.compiler.link.side_file import SideFile
 from cellc.contract.transforms import Pose, apart, from_xyz_rpy, interpolate
 from cellc.robot.description.urdf_reader import read_urdf
+from tests.properties import given, settings, st
 
 _QUARTER = math.pi / 2.0
 _WRITTEN = 4e-12

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
-from hypothesis import given
-from hypothesis import strategies as st
-
 from cellc.compiler.formats.xml_text import comment, element, render
+from tests.properties import given, st
 
 _TEXT = st.text(st.characters(min_codepoint=32, blacklist_categories=("Cs", "Cc", "Cn")), min_size=1)
 

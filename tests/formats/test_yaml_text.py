@@ -6,10 +6,9 @@ import math
 
 import pytest
 import yaml
-from hypothesis import given
-from hypothesis import strategies as st
 
 from cellc.compiler.formats.yaml_text import nested, render, scalar
+from tests.properties import given, st
 
 # YAML 1.1's readings, and the words that strtod takes for numbers in rcl_yaml_param_parser.
 _MISREAD = ["on", "Off", "yes", "N", "true", "null", "~", "010", "1e3", "0x1F", "12:30:00", "1_000", "nan", "inf", ""]

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from cellc.contract.contract import ContractClock
 from cellc.mock.clocks import Clock, Clocks, Segment, TimeJump, build_clocks, clock_from
+from tests.properties import given, st
 
 MS = 1_000_000
 SECOND = 1_000_000_000

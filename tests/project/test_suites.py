@@ -20,10 +20,11 @@ _INI = '[tool.pytest.ini_options]\ntestpaths = ["tests"]\nlong_tests = ["tests/t
     [
         (("-n", "1"), {"quick"}),
         (("--long", "-n", "1"), {"slow", "apart"}),
+        (("--all", "-n", "1"), {"quick", "slow", "apart"}),
         (("tests",), {"quick", "slow", "apart"}),
         (("tests/apart",), {"apart"}),
     ],
-    ids=["suite", "long", "all", "named"],
+    ids=["suite", "long", "all", "folder", "named"],
 )
 def test_long_tests_wait_for_their_command(asked: tuple[str, ...], ran: set[str], tmp_path: Path) -> None:
     (tmp_path / "tests" / "apart").mkdir(parents=True)

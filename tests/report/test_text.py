@@ -7,12 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
 from cellc.contract.printing import as_text
 from cellc.tools.report.text_report import SEVERITY_STYLES, render_text, summary
+from tests.properties import given, st
 from tests.report.findings import FILE, finding
 
 

@@ -7,13 +7,12 @@ import os
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from cellc.compiler.source import Plain, read
 from cellc.compiler.source.compose import compose
 from cellc.contract.diagnostics import Span
 from cellc.contract.limits import limits
+from tests.properties import given, settings, st
 from tests.source.reading import codes, read_bytes
 
 
@@ -84,7 +83,7 @@ def test_file_is_named_as_the_user_named_it(tmp_path: Path, monkeypatch: pytest.
     assert outcome.value.locate(()) == Span("./cell.yaml", 1, 1, 1, 1)
 
 
-_REUSE = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+_REUSE = settings(max_examples=150)
 _MARKS = ["a", "b", ": ", "- ", "  ", "[", "]", "{", "}", '"', "'", "#", "&x ", "*x", ">", "1", "\t", "? ", "!t ", "<<"]
 _WORDS = ["é", "\\", "0x1", "~"]
 _PIECES = st.sampled_from([*_MARKS, *_WORDS, ", ", "\n", "|\n", "---\n", "%YAML 1.2\n", "\r\n", "include: cell.yaml\n"])

@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from hypothesis import strategies as st
-
 from cellc.compiler.source import Plain, read
 from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import YamlPath
+from tests.properties import st
 
 
 @cache

@@ -7,11 +7,9 @@ import tempfile
 import unicodedata
 from pathlib import Path
 
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
-
 from cellc.compiler.source import Plain
 from cellc.compiler.spec.cell_spec import CellSpec
+from tests.properties import given, st
 from tests.spec.mutations import mutated
 from tests.spec.reading import CELLS, as_yaml, parsed
 
@@ -28,7 +26,6 @@ _DATA = st.recursive(
     max_leaves=12,
 )
 _LIBRARY_TALK = re.compile(r"pydantic|https?://|[a-z]Spec\b|validat|(?<!version )tuple|dict\b|NoneType|\bstr\b|\bint\b")
-_SETTINGS = settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 
 
 def _assert_speaks(data: Plain) -> None:
@@ -42,12 +39,10 @@ def _assert_speaks(data: Plain) -> None:
 
 
 @given(st.dictionaries(_KEYS, _DATA, max_size=6))
-@_SETTINGS
 def test_any_mapping_gives_a_spec_or_diagnostics(data: dict[str, Plain]) -> None:
     _assert_speaks({"format": 1, **data})
 
 
 @given(st.sampled_from(CELLS), st.data())
-@_SETTINGS
 def test_any_mutation_of_a_cell_gives_a_spec_or_diagnostics(path: Path, data: st.DataObject) -> None:
     _assert_speaks(mutated(path, data, _DATA))

@@ -11,13 +11,12 @@ from typing import Any
 
 import jsonschema
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from cellc.compiler.source import Plain
 from cellc.compiler.spec.schema import cell_schema, schema_files
 from cellc.contract.base import Json
 from tests.cells import ROOT
+from tests.properties import given, st
 from tests.spec.mutations import data_of, mutated
 from tests.spec.reading import ARM, CELLS, HEAD, as_yaml, document_of, parsed
 from tests.spec.test_parse import CASES
@@ -127,7 +126,6 @@ _VALUES = st.one_of(
 
 
 @given(st.sampled_from(CELLS), st.data())
-@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_compiler_and_schema_give_one_verdict(path: Path, data: st.DataObject) -> None:
     spec = mutated(path, data, _VALUES)
     assert schema_accepts(spec) == compiler_accepts(spec)

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
 
 from cellc.mock.control.hardware.joint_motion import rate_limit
+from tests.properties import given, st
 
 _VALUES = st.lists(st.floats(-4.0, 4.0), min_size=1, max_size=60)
 _HELD = st.lists(st.tuples(st.floats(-4.0, 4.0), st.integers(1, 40)), min_size=1, max_size=6)

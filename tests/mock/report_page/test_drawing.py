@@ -6,11 +6,10 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from cellc.mock.evidence.envelope import Envelope, EnvelopeBuilder
 from cellc.mock.report_page.axes import Scale, path, ticks
+from tests.properties import given, settings, st
 
 SAMPLES = st.lists(st.floats(-5.0, 5.0), min_size=1, max_size=400)
 
@@ -22,7 +21,7 @@ def built(times_ns: np.ndarray, values: np.ndarray) -> Envelope:
     return builder.envelope()
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(SAMPLES, st.integers(1_000_000, 60_000_000_000))
 def test_extremes_survive_any_length_of_a_run(values: list[float], spacing_ns: int) -> None:
     times = np.arange(len(values), dtype=np.int64) * spacing_ns
@@ -42,7 +41,7 @@ def test_memory_of_an_envelope_does_not_grow_with_the_run() -> None:
     assert len(builder.envelope().starts_ns) <= 1024
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(SAMPLES)
 def test_curve_reaches_the_extreme_rows(values: list[float]) -> None:
     times = np.arange(len(values), dtype=np.int64) * 10_000_000
