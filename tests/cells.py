@@ -13,10 +13,11 @@ import tempfile
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.catalog.compiled import compiled_device
+from cellc.compiler.catalog.load import CatalogDevice, load_device
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.link.link import link
@@ -34,6 +35,15 @@ EVERY_CELL = tuple(sorted(path.parent.name for path in ROOT.glob("cells/*/cell.y
 CELLS = EVERY_CELL if os.environ.get("CELLC_TEST_CELLS") == "every" else ("fr3_hand", "minimal", "ur5e_pick")
 """Cells that go through every test of each stage, for every distribution; the others go through the whole once."""
 DISTROS = ("humble", "jazzy", "kilted", "lyrical")
+
+
+_Value = TypeVar("_Value")
+
+
+def there(value: _Value | None) -> _Value:
+    """Return a value that a test needs to be there."""
+    assert value is not None
+    return value
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,10 +88,13 @@ def written(folder: Path, text: str) -> Path:
 
 def catalog_facts(model: str) -> dict[str, Any]:
     """Return what the catalog says of a device, its family's file included, as plain data."""
-    compiled = compiled_device(model)
-    assert compiled is not None
-    facts: dict[str, Any] = json.loads(compiled[0])
+    facts: dict[str, Any] = json.loads(there(compiled_device(model))[0])
     return facts
+
+
+def device_of(model: str) -> CatalogDevice:
+    """Return a device of the catalog."""
+    return there(load_device(model).value)
 
 
 def document_of(path: Path) -> SourceDocument:

@@ -1,4 +1,4 @@
-"""Every entry of the catalogue loads, binds, and agrees with what it was written from."""
+"""Every entry of the catalog loads, binds, and agrees with what it was written from."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ import pytest
 
 from cellc.compiler.catalog.compiled import CATALOG
 from cellc.compiler.catalog.controller_kind import ControllerKind, ParameterFacts
+from cellc.compiler.catalog.device_interfaces import counted
+from cellc.compiler.catalog.effects import EffectFacts
 from cellc.compiler.catalog.load import (
     CatalogDevice,
     controller_kinds,
@@ -28,9 +30,9 @@ from cellc.compiler.catalog.load import (
     load_qos_profiles,
     load_releases,
 )
-from cellc.contract.vocabulary import OF_ONE_DEVICE, Distro
+from cellc.contract.vocabulary import OF_ONE_DEVICE, Distro, Need, Unmet
 from tests.catalog.declarations import upstream_parameters
-from tests.cells import catalog_facts
+from tests.cells import ROOT, catalog_facts, there
 
 PLACEHOLDERS = {
     *("device", "prefix", "bare_prefix", "prefix_namespace", "stem"),
@@ -46,15 +48,13 @@ ARMS = ("franka_fr3", "ur5e", "ur10e", "ur18", "ur30")
 def _device(name: str) -> CatalogDevice:
     outcome = load_device(name)
     assert outcome.diagnostics == ()
-    assert outcome.value is not None
-    return outcome.value
+    return there(outcome.value)
 
 
 def _kind(name: str) -> ControllerKind:
     outcome = load_controller_kind(name)
     assert outcome.diagnostics == ()
-    assert outcome.value is not None
-    return outcome.value
+    return there(outcome.value)
 
 
 @pytest.mark.parametrize("name", device_names())
@@ -75,9 +75,7 @@ def test_device_text_uses_known_placeholders_only(name: str) -> None:
 @pytest.mark.parametrize("name", device_names())
 def test_device_speaks_of_known_types_profiles_and_kinds(name: str) -> None:
     model = _device(name).model
-    types, profiles = load_message_types().value, load_qos_profiles().value
-    assert types is not None
-    assert profiles is not None
+    types, profiles = there(load_message_types().value), there(load_qos_profiles().value)
     for topic in model.topics:
         assert types.kind_of(topic.type) == "topic"
         assert not isinstance(topic.qos, str) or topic.qos in profiles.profiles
@@ -107,12 +105,9 @@ def test_home_lies_within_the_limits(name: str) -> None:
     assert arm.model.home is not None
     assert set(arm.model.home) == {joint.name for joint in arm.description.joints if joint.movable}
     for name, position in arm.model.home.items():
-        joint = arm.description.joint(name)
-        assert joint is not None
+        joint = there(arm.description.joint(name))
         assert joint.limit is not None
-        assert joint.limit.lower is not None
-        assert joint.limit.upper is not None
-        assert joint.limit.lower <= position.si <= joint.limit.upper
+        assert there(joint.limit.lower) <= position.si <= there(joint.limit.upper)
 
 
 @pytest.mark.parametrize("load", [load_device, load_controller_kind])
@@ -203,14 +198,12 @@ def test_every_driver_of_the_catalogue_is_known_to_reach_hardware() -> None:
     drivers = {one.packages.driver for one in facts} | {node.package for one in facts for node in one.nodes}
     components = [one.control.hardware.real for one in facts if one.control is not None]
     plugins = {one.plugin.partition("/")[0] for one in components if one is not None}
-    table = load_distros().value
-    assert table is not None
+    table = there(load_distros().value)
     assert set(table.hardware_packages) == {*drivers, *plugins, "controller_manager"} - {None}
 
 
 def test_reader_of_system_default_is_best_effort_on_fast_dds_alone() -> None:
-    table = load_qos_profiles().value
-    assert table is not None
+    table = there(load_qos_profiles().value)
     readers = {rmw: ends.reader.reliability for rmw, ends in table.system_default.items()}
     assert readers == {
         "rmw_fastrtps_cpp": "best_effort",
@@ -242,19 +235,15 @@ def _comparable(value: Any) -> Any:
 
 
 def test_every_package_that_the_catalog_names_and_that_a_cell_needs_is_known() -> None:
-    table = load_packages().value
-    assert table is not None
+    table = there(load_packages().value)
     facts = [_device(name).model for name in device_names()]
     named = {package for one in facts for package in one.packages.model_dump().values()}
     named |= {node.package for one in facts for node in one.nodes}
     named |= {package for kind in controller_kinds() for package in _packages_of(_kind(kind).model_dump())}
     for loaded in (load_distros(), load_message_types(), load_planners(), load_programs(), load_controller_manager()):
-        assert loaded.value is not None
-        named |= set(_packages_of(loaded.value.model_dump()))
-    types = load_message_types().value
-    distros = load_distros().value
-    assert types is not None
-    assert distros is not None
+        named |= set(_packages_of(there(loaded.value).model_dump()))
+    types = there(load_message_types().value)
+    distros = there(load_distros().value)
     named |= {name.split("/")[0] for name in types.types} | set(distros.hardware_packages)
     named |= {name for one in distros.distros.values() for name in (*one.packages, *one.rmw)}
     for manifest in Path("generated").glob("*/package.xml"):
@@ -271,3 +260,40 @@ def _packages_of(value: object) -> Iterator[str]:
         yield from (name for one in value.values() for name in _packages_of(one))
     elif isinstance(value, (list, tuple)):
         yield from (name for one in value for name in _packages_of(one))
+
+
+def test_numbers_are_written_out() -> None:
+    assert list(counted(["gpio/in_[0..2]", "gpio/mode"])) == ["gpio/in_0", "gpio/in_1", "gpio/in_2", "gpio/mode"]
+
+
+def test_number_of_a_stranger_is_not_counted_up_to() -> None:
+    # Written out it was more than the memory of the machine.
+    assert list(counted(["a_[0..99999999999]"])) == ["a_[0..99999999999]"]
+
+
+@pytest.mark.parametrize(
+    ("told", "distro", "becomes"),
+    [
+        ("refused", "humble", Unmet.REFUSED),
+        ({"humble": "refused", "jazzy": "ends_program"}, "humble", Unmet.REFUSED),
+        ({"humble": "refused", "jazzy": "ends_program"}, "jazzy", Unmet.ENDS_PROGRAM),
+        ({"humble": "refused"}, "kilted", Unmet.UNKNOWN),
+    ],
+)
+def test_unmet_need(told: Any, distro: str, becomes: Unmet) -> None:
+    facts = {"motion": "none", "does": "nothing", "source": "made up", "needs": {"program_stopped": told}}
+    assert EffectFacts.model_validate(facts).unmet(Need.PROGRAM_STOPPED, Distro(distro)) is becomes
+
+
+_REPOSITORY = re.compile(r"github\.com/[\w.-]+/[\w-]+")
+
+
+def test_every_repository_that_the_catalog_cites_has_its_license() -> None:
+    catalog = ROOT / "cellc" / "compiler" / "catalog"
+    files = [file for file in catalog.rglob("*.yaml") if "symptoms" not in file.parts]  # those cite threads
+    cited = {name for file in files for name in _REPOSITORY.findall(file.read_text(encoding="utf-8"))}
+    lines = (ROOT / "NOTICE").read_text(encoding="utf-8").splitlines()
+    named = {line.split()[0]: line.split(maxsplit=1)[1] for line in lines if _REPOSITORY.match(line.strip())}
+    assert len(cited) > 5
+    assert cited <= named.keys()
+    assert not [name for name, license_text in named.items() if "UNKNOWN" in license_text]

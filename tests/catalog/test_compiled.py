@@ -12,6 +12,7 @@ from cellc.compiler.catalog.compiled import CATALOG, compile_catalog, compiled_d
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.load import controller_kinds, device_names, load_controller_kind, load_device, read_device
 from cellc.compiler.catalog.read_model import read_model
+from tests.cells import there
 
 UR = "devices/universal_robots/ur"
 WRITTEN = sorted((CATALOG / "compiled").rglob("*.json"))
@@ -32,8 +33,7 @@ def test_compiled_device_is_the_device_of_the_files(name: str) -> None:
 @pytest.mark.parametrize("kind", controller_kinds())
 def test_compiled_kind_is_the_kind_of_the_file(kind: str) -> None:
     read = read_model(CATALOG / f"controllers/{kind}.yaml", kind, ControllerKind)
-    assert read.value is not None
-    assert load_controller_kind(kind).value == read.value[0]
+    assert load_controller_kind(kind).value == there(read.value)[0]
 
 
 def test_compiled_tables_are_those_of_the_files(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,11 +14,11 @@ import pinocchio
 import pytest
 
 from cellc.compiler.catalog.compiled import CATALOG, device_file
-from cellc.compiler.catalog.load import device_names, load_device
+from cellc.compiler.catalog.load import device_names
 from cellc.robot.description.model import Box, Description, Inertial
 from cellc.robot.description.xacro_expansion import expand_here
 from tests.catalog.chains import Matrix, axis_rotation, transform
-from tests.cells import catalog_facts
+from tests.cells import catalog_facts, device_of, there
 
 # Classic DH of the arm as the vendor publishes it: a, alpha, d; theta is the joint.
 PI = math.pi
@@ -43,8 +43,7 @@ FR3_JOINTS = tuple(f"fr3_joint{number}" for number in range(1, 8))
 
 
 def _description(name: str) -> Description:
-    device = load_device(name).value
-    assert device is not None
+    device = device_of(name)
     return device.description
 
 
@@ -91,8 +90,7 @@ def test_jaws_open_to_the_stroke_and_close(angle: float, gap_mm: float) -> None:
     pads = []
     for side in ("left", "right"):
         tip = f"robotiq_85_{side}_finger_tip_link"
-        link = description.link(tip)
-        assert link is not None
+        link = there(description.link(tip))
         (collision,) = link.collisions
         frame = transform(description, "base_link", tip, positions)
         np.testing.assert_allclose(frame[:3, :3], np.eye(3), atol=1e-9)  # the pads stay parallel
@@ -161,8 +159,7 @@ def _touching(name: str, positions: dict[str, float]) -> set[tuple[str, str]]:
     devices = CATALOG / "devices"
     facts = catalog_facts(name)["description"]
     file = device_file(name).parent / facts["file"]
-    expanded = expand_here(file.as_posix(), facts.get("arguments", {}), devices.as_posix()).value
-    assert expanded is not None
+    expanded = there(expand_here(file.as_posix(), facts.get("arguments", {}), devices.as_posix()).value)
     model = pinocchio.buildModelFromXML(expanded.text)
     geometry = pinocchio.buildGeomFromUrdfString(model, expanded.text, pinocchio.GeometryType.COLLISION)
     geometry.addAllCollisionPairs()
@@ -223,8 +220,7 @@ def test_gripper_does_not_touch_itself(angle: float) -> None:
 
 @pytest.mark.parametrize("angle", [0.0, 0.35, 0.695])
 def test_wide_gripper_touches_itself_where_its_loops_close_alone(angle: float) -> None:
-    device = load_device("robotiq_2f_140").value
-    assert device is not None
+    device = device_of("robotiq_2f_140")
     multipliers = {joint.name: joint.mimic for joint in device.description.joints}
     positions = {name: angle * (1.0 if mimic is None else mimic.multiplier) for name, mimic in multipliers.items()}
     allowed = {tuple(sorted(pair.links)) for pair in device.model.allowed_collisions}

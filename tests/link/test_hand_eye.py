@@ -12,7 +12,7 @@ import pytest
 
 from cellc.compiler.cell.cell import Cell
 from cellc.contract.diagnostics import Outcome
-from tests.cells import linking, spec_text
+from tests.cells import linking, spec_text, there
 
 MOUNT = "xyz: 0 -70 30 mm, rpy: 0 -75 -90 deg, calibration"
 # From easy_handeye2 b42cae6: message_to_yaml of HandeyeCalibration.msg and HandeyeCalibrationParameters.msg.
@@ -119,8 +119,7 @@ def test_a_camera_stands_where_the_tool_has_measured_it(file: str, text: str, tm
     x, y, z = camera.mount.transform_root_to_parent.apply((1.0, 0.0, 0.0))
     ahead = [one - base for one, base in zip((x, y, z), camera.mount.transform_root_to_parent.position, strict=True)]
     assert ahead == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)
-    stated = found.value.calibrations["hand_eye"].file
-    assert stated is not None
+    stated = there(found.value.calibrations["hand_eye"].file)
     assert (stated.path, len(stated.sha256)) == (file, 64)
 
 
@@ -155,8 +154,7 @@ def test_frames_that_the_tool_named_otherwise_are_stated_in_the_spec(tmp_path: P
     text = MATRIX.replace("arm_tool0", "tool0").replace("camera_color_optical_frame", "camera")
     found = cell(tmp_path, "file.json", text, more="parent: arm/tool0, child: camera/color_optical, ")
     assert found.diagnostics == ()
-    assert found.value is not None
-    assert found.value.device("camera").mount.transform_root_to_parent.position == pytest.approx(
+    assert there(found.value).device("camera").mount.transform_root_to_parent.position == pytest.approx(
         (0.05, -0.0575, 0.0394)
     )
 
@@ -185,10 +183,8 @@ def test_a_fixture_may_be_measured_too(tmp_path: Path) -> None:
     (tmp_path / "cell.yaml").write_text(spec)
     found = linking(tmp_path / "cell.yaml")
     assert found.diagnostics == ()
-    assert found.value is not None
-    (frame,) = (one for one in found.value.frames if one.name == "fixture_A")
-    assert frame.transform_to_parent is not None
-    assert frame.transform_to_parent.rpy() == pytest.approx((0.0, 0.0, math.pi / 2), abs=1e-6)
+    (frame,) = (one for one in there(found.value).frames if one.name == "fixture_A")
+    assert there(frame.transform_to_parent).rpy() == pytest.approx((0.0, 0.0, math.pi / 2), abs=1e-6)
 
 
 def test_a_launch_file_is_read_and_never_run(tmp_path: Path) -> None:

@@ -19,7 +19,7 @@ from cellc.compiler.link.link import link
 from cellc.compiler.source.document import Plain, SourceDocument
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import YamlPath
-from tests.cells import CORPUS, document_of, spec_of
+from tests.cells import CORPUS, document_of, spec_of, there
 
 Leaves = dict[tuple[str, str], list[object]]
 """Entity and names of fields down to a value → what is there, of every key and index."""
@@ -124,8 +124,7 @@ SPECS = {
 @pytest.mark.parametrize("name", SPECS)
 def test_no_two_fields_of_an_entity_come_from_one_key(name: str) -> None:
     document = document_of(SPECS[name])
-    cell = linked(document, document.data)
-    assert cell is not None
+    cell = there(linked(document, document.data))
     before, tried, twice = gathered(cell), 0, []
     for path, _ in scalars(document.data):
         changed = linked(document, with_other(document.data, path))

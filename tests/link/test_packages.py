@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from cellc.mock import load
-from tests.cells import CORPUS, build_into, compiled, diagnose, linked, linking, written
+from tests.cells import CORPUS, build_into, compiled, diagnose, linked, linking, there, written
 from tests.cli.run import run
 
 _LIMIT = '<limit lower="-2" upper="2" velocity="1" effort="10"/>'
@@ -118,8 +118,7 @@ def test_vendors_shapes_are_taken_from_a_named_folder(tmp_path: Path) -> None:
     text = CELL.partition("motion:")[0].replace("./arm", "./vendored_arm").partition("    arm_tra")[0]
     for places, found in (("", False), ("..", True)):
         (device,) = linked(written(tmp_path / "cell", text.replace("PLACES", places))).devices
-        vendor = device.body.vendor_description
-        assert vendor is not None
+        vendor = there(device.body.vendor_description)
         assert (vendor.description is not None) is found
 
 

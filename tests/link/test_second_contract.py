@@ -10,7 +10,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.formats.urdf.robot import robot_description
 from cellc.compiler.pipeline import check
-from tests.cells import linked, spec_of, spec_text, without_absent, written
+from tests.cells import linked, spec_of, spec_text, there, without_absent, written
 
 SPEC = spec_of("fr3_hand")
 JOINTS = tuple(f"fr3_joint{number}" for number in range(1, 8))
@@ -92,8 +92,7 @@ def test_parameter_names_carry_the_prefix(tmp_path: Path) -> None:
     parameters = _controller(prefixed, "arm_trajectory").parameters_on("real")
     assert parameters["gains.left_fr3_joint4.p"] == 600.0
     assert not [name for name in parameters if "{" in name]
-    arm = prefixed.device("arm").control.hardware
-    assert arm is not None
+    arm = there(prefixed.device("arm").control.hardware)
     assert (arm.name, arm.parameters["real"]["prefix"]) == ("left_FrankaHardwareInterface", "left_")
 
 
@@ -119,9 +118,7 @@ def test_address_of_the_carrier_is_unknown_where_the_arm_has_none(tmp_path: Path
 
 
 def test_hand_has_hardware_on_the_mock_alone(cell: Cell) -> None:
-    hand, driver = cell.device("hand").control.hardware, cell.device("hand").control.driver
-    assert hand is not None
-    assert driver is not None
+    hand, driver = there(cell.device("hand").control.hardware), there(cell.device("hand").control.driver)
     assert hand.targets == tuple(hand.plugins) == ("mock",)
     assert (driver.node, driver.program) == ("/hand_gripper", "franka_gripper/franka_gripper_node")
     tags = {

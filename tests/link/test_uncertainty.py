@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cells import linked, linking, spec_of, spec_text, written
+from tests.cells import linked, linking, spec_of, spec_text, there, written
 
 
 @pytest.mark.parametrize(
@@ -46,8 +46,7 @@ def test_what_a_region_may_be_of_is_told_in_a_sentence(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick").replace("{object: {box", "{world: {box")
     (found,) = linking(written(tmp_path, text)).diagnostics
     assert found.message == "there is no fixed frame or object with a simulated pose `world`"
-    assert found.help is not None
-    assert "fixed frames or objects with a simulated pose of this cell" in found.help
+    assert "fixed frames or objects with a simulated pose of this cell" in there(found.help)
 
 
 @pytest.mark.parametrize("device", ["camera", "gripper"])
@@ -84,6 +83,5 @@ def test_figures_are_halves_in_si_and_a_confidence_is_95_percent_unless_stated(t
 def test_a_cell_that_says_nothing_of_it_has_none(tmp_path: Path) -> None:
     text = spec_text("minimal")
     assert linked(spec_of("minimal")).uncertainty is None
-    stated = linked(written(tmp_path, text + "uncertainty: {}\n")).uncertainty
-    assert stated is not None
+    stated = there(linked(written(tmp_path, text + "uncertainty: {}\n")).uncertainty)
     assert (stated.rotations_rad, stated.regions, stated.tolerances_m) == ({}, {}, {})
