@@ -1,16 +1,21 @@
-"""A comment excuses a finding on its line, where it gives a reason and may."""
+"""A comment excuses a finding on its line, where it gives a reason and the family and severity of the rule allow it."""
 
 from __future__ import annotations
 
+import re
+import shutil
 from pathlib import Path
 
 import pytest
 
 from cellc.compiler.pages import all_codes
 from cellc.compiler.pipeline import Checked, check
-from cellc.compiler.rules.ignores import apply_ignores, ignore_comments
+from cellc.compiler.rules.ignores import apply_ignores, ignore_comments, may_be_ignored
+from cellc.compiler.rules.kit import Rule
 from cellc.compiler.rules.run import ALL_RULES
+from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
+from tests.cells import CORPUS
 
 PICK = Path(__file__).resolve().parents[2] / "cells/ur5e_pick/cell.yaml"
 REVISION = "    revision: UNKNOWN\n    serial"
@@ -181,3 +186,40 @@ def test_comment_on_an_error_of_the_spec_is_refused_although_no_rule_runs(tmp_pa
     # Whether this one is used nobody knows before the rules have run.
     checked = checked_with(tmp_path, (line, f"  kernl: 6.8.1-1015-realtime  # cellc: ignore unknown-version {REASON}"))
     assert {code for code, _ in told(checked)} == {"unknown-key"}
+
+
+_MARK = re.compile(r"# expect: ([a-z0-9, -]+)$", re.MULTILINE)
+
+
+def _is_protected(rule: Rule) -> bool:
+    # Issue 5: errors of safety, ownership and frames cannot be ignored; what blocks motion there cannot either.
+    stops = rule.family in ("SAF", "OWN", "FRM") and rule.severity in (Severity.ERROR, Severity.BLOCKER)
+    return stops or rule.code in STAGES["link"]  # errors of linking end the check before a rule could speak
+
+
+def test_what_may_be_ignored_is_decided_by_family_and_severity() -> None:
+    assert [rule.code for rule in ALL_RULES if may_be_ignored(rule.code) is _is_protected(rule)] == []
+
+
+def _cases() -> dict[tuple[str, Severity], tuple[Rule, Path]]:
+    """Return a case of the corpus for each family and severity, whose only finding is marked in the spec itself."""
+    cases: dict[tuple[str, Severity], tuple[Rule, Path]] = {}
+    rules = {rule.code: rule for rule in ALL_RULES}
+    for file in sorted((CORPUS / "invalid").glob("*.yaml")):
+        text = file.read_text(encoding="utf-8")
+        marks = _MARK.findall(text)
+        if len(marks) == 1 and marks[0] in rules and "# expect at" not in text:
+            rule = rules[marks[0]]
+            cases.setdefault((rule.family, rule.severity), (rule, file))
+    return cases
+
+
+def test_one_finding_of_each_family_and_severity_is_excused_or_refused(tmp_path: Path) -> None:
+    folder, cases = shutil.copytree(CORPUS / "invalid", tmp_path / "invalid"), _cases()
+    assert len(cases) > 30
+    for rule, case in cases.values():
+        text = case.read_text(encoding="utf-8")
+        file = folder / case.name
+        file.write_text(_MARK.sub(f"# cellc: ignore {rule.code} the test asks for it", text), encoding="utf-8")
+        codes = {one.code for one in check(file).diagnostics}
+        assert codes == ({rule.code, "ignore-refused"} if _is_protected(rule) else set()), case.name
