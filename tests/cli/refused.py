@@ -31,7 +31,7 @@ def process(*arguments: str, cwd: Path = ROOT, module: str = "cellc", **environm
         capture_output=True,
         text=True,
         encoding="utf-8",
-        timeout=60,
+        timeout=600,
         check=False,
     )
     return Ran(done.returncode, done.stdout, done.stderr)

@@ -6,12 +6,13 @@ import io
 import shutil
 import sys
 from collections.abc import Callable
-from itertools import count
+from itertools import count, islice
 from pathlib import Path
 
 import pytest
 
 from cellc.contract import printing
+from cellc.mock.campaign.plan import CampaignPlan
 from cellc.tools.cli import main
 from tests.cells import ROOT, generated
 from tests.cli.run import MINIMAL
@@ -59,6 +60,8 @@ def told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Told:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setenv("CELLC_NO_CACHE", "1")
+    whole = CampaignPlan.singles
+    monkeypatch.setattr(CampaignPlan, "singles", lambda plan: islice(whole(plan), 3))  # as many as the terminal is told of
     shutil.copy(MINIMAL, "cell.yaml")
     shutil.copy(ROOT / "tests/corpus/valid/parts/lift/lift.urdf", ".")
     shutil.copytree(ROOT / "tests/corpus/invalid/base/demo_arm", "my_robot")

@@ -62,6 +62,12 @@ class Dask:
             program.wait()
 
 
+@pytest.fixture(autouse=True)
+def _of_any_speed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a busy machine take its time to start the programs."""
+    monkeypatch.setattr(of_dask, "_CONNECTS_S", 600.0)
+
+
 @pytest.fixture(scope="module")
 def dask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Dask]:
     started = Dask(tmp_path_factory.mktemp("dask"))
@@ -171,6 +177,6 @@ def test_what_is_no_scheduler_is_told_in_one_line(monkeypatch: pytest.MonkeyPatc
 
 
 def test_nothing_of_a_wrong_address_is_told_beside_the_one_line() -> None:
-    ran = process("sweep", "generated/ur5e_pick", "--runs", "3", "--cluster", f"tls://{LOOPBACK}:9")
+    ran = process("campaign", "generated/minimal", "--cluster", f"tls://{LOOPBACK}:9")
     assert ran.code == 2
     assert ran.err == f"error: `tls://{LOOPBACK}:9` needs TLS, of which the configuration of Dask says nothing\n"
