@@ -61,7 +61,9 @@ def told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Told:
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setenv("CELLC_NO_CACHE", "1")
     whole = CampaignPlan.singles
-    monkeypatch.setattr(CampaignPlan, "singles", lambda plan: islice(whole(plan), 3))  # as many as the terminal is told of
+    monkeypatch.setattr(
+        CampaignPlan, "singles", lambda plan: islice(whole(plan), 3)
+    )  # as many as the terminal is told of
     shutil.copy(MINIMAL, "cell.yaml")
     shutil.copy(ROOT / "tests/corpus/valid/parts/lift/lift.urdf", ".")
     shutil.copytree(ROOT / "tests/corpus/invalid/base/demo_arm", "my_robot")
