@@ -168,7 +168,7 @@ def test_confirmations_say_what_a_person_states_by_them(cell: str, distro: str) 
 
 @every_build
 def test_every_way_after_a_loss_leads_back_to_a_gate(cell: str, distro: str) -> None:
-    text = build(cell, distro).texts["audit.md"].split("\n## After a loss\n")[1].split("\n## ")[0]
+    text = build(cell, distro).texts["audit.md"].split("\n## After a crash or lost connection\n")[1].split("\n## ")[0]
     for way in re.split(r"\n\n(?!1\. )", text.strip()):
         assert re.search(r"[Rr]epeat from gate G\d|Repeat layers L1 to L5", way), way
         numbers = [int(number) for number in re.findall(r"^(\d+)\. ", way, re.MULTILINE)]
@@ -207,7 +207,7 @@ def test_people_of_the_spec_answer_for_what_it_says(cell: str, distro: str) -> N
 @every_build
 def test_audit_expects_no_name_of_a_driver_that_the_launch_file_gives_to_another(cell: str, distro: str) -> None:
     given_away = {source for one in processes(cell, distro, "real") for source in one.remaps}
-    assert not {row[0].strip("`") for row in tables(cell, distro)["Expected of drivers"]} & given_away
+    assert not {row[0].strip("`") for row in tables(cell, distro)["Other driver interfaces"]} & given_away
 
 
 @every_build

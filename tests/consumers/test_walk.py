@@ -34,7 +34,7 @@ def commands(text: str) -> list[str]:
 
 def table_rows(cell: str, distro: str) -> list[list[str]]:
     """Return the rows of the tables at the top of the page."""
-    top = build(cell, distro).texts["README.md"].split("\n## Every shell, once\n")[0]
+    top = build(cell, distro).texts["README.md"].split("\n## Set up each shell\n")[0]
     lines = [line for line in top.splitlines() if line.startswith("| [")]
     return [[part.strip() for part in line.split("|")[1:-1]] for line in lines]
 
@@ -55,15 +55,15 @@ def test_table_says_what_the_sections_say_and_leads_to_them(cell: str, distro: s
         titles = re.findall(r"^#+ (.*)$", texts[page], re.MULTILINE)
         assert [re.sub(r"[^a-z0-9 -]", "", one.lower()).replace(" ", "-") for one in titles].count(anchor) == 1
         assert f"Passed when {shows}." in section
-        assert f", signed by {owner}. **Stop on:** " in section
-        assert command == "by people" or command.strip("`") in section
+        assert f"Signed by: `{owner}`. **Stop on:** " in section
+        assert command == "manual" or command.strip("`") in section
 
 
 @every_build
 def test_every_gate_leaves_evidence_of_its_own(cell: str, distro: str) -> None:
     files = []
     for code, text in sections(cell, distro).items():
-        (file,) = re.findall(r"^Evidence `(.+?)`, signed by .+\. \*\*Stop on:\*\* \S", text, re.MULTILINE)
+        (file,) = re.findall(r"^Evidence: `(.+?)`\. Signed by: `.+`\. \*\*Stop on:\*\* \S", text, re.MULTILINE)
         assert file.startswith(f"{code}-")
         assert set(_KEPT.findall(text)) <= {file}
         files.append(file)

@@ -61,11 +61,11 @@ def _so(device: dict[str, Any]) -> set[str]:
 @pytest.mark.parametrize("distro", DISTROS)
 def test_nobody_releases_brakes_or_fingers_before_the_stop_was_tried_and_the_area_is_empty(distro: str) -> None:
     lines = _gates("ur5e_pick", distro)["G5"]
-    empty, tried = _place(lines, "no person and no object is within reach"), _place(lines, "trip the stop")
+    empty, tried = _place(lines, "no person and no loose object is within reach"), _place(lines, "trip the stop")
     # Drives that have no power cannot lose it: a stop that is tried on them is not tried.
     assert empty < _place(lines, "Set the payload") < _place(lines, "release the brakes") < tried
-    assert tried < _place(lines, "power the drives again") < _place(lines, "no program of the arm plays")
-    assert _place(lines, "no program of the arm plays") < _place(lines, "Authorize hardware that moves")
+    assert tried < _place(lines, "power the drives again") < _place(lines, "no program runs on the robot while the gripper")
+    assert _place(lines, "no program runs on the robot while the gripper") < _place(lines, "Authorize hardware that moves")
 
 
 @pytest.mark.parametrize("cell", CELLS)
@@ -74,7 +74,7 @@ def test_power_comes_before_the_trial_of_the_stop_and_fingers_after_it(cell: str
     tried = _place(lines, "trip the stop")
     assert all(number < tried for number, line in enumerate(lines) if "open the brakes" in line)
     assert all(
-        number > tried for number, line in enumerate(lines) if "action homing" in line or "fingers moved" in line
+        number > tried for number, line in enumerate(lines) if "homing action" in line or "fingers moved" in line
     )
 
 
@@ -83,7 +83,7 @@ def test_mock_is_ended_before_anything_real_is_started(cell: str) -> None:
     # A mock that is left has the names and the domain of the real cell, and answers in its place.
     gates = _gates(cell, "jazzy")
     for code in ("G2", "L6"):
-        assert gates[code][-1].startswith("End every launch of the mock")
+        assert gates[code][-1].startswith("Stop every launch of the mock")
 
 
 @pytest.mark.parametrize("cell", ["ur5e_pick", "fr3_hand"])

@@ -74,7 +74,7 @@ def _interface(kind: str, type_: str, **changes: Any) -> Interface:
             _interface("topic", "sensor_msgs/msg/Image", owner="robot", on_stale="reject_goal", max_age_s=0.1),
             [
                 "topic sensor_msgs/msg/Image, rate not stated",
-                "frame of its header, unit per message type, time not stated",
+                "frame header.frame_id, unit per message type, time not stated",
                 "owner robot; stale after 0.1 s: reject_goal",
             ],
         ),

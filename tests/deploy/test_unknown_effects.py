@@ -56,6 +56,6 @@ def test_its_component_comes_up_unconfigured_and_a_person_activates_it(built: Co
 
 
 def test_the_audit_asks_its_supplier(built: Compiled) -> None:
-    (line,) = (line for line in built.texts["audit.md"].splitlines() if "What moves, or falls" in line)
+    (line,) = (line for line in built.texts["audit.md"].splitlines() if "What moves or falls" in line)
     assert "supplier nobody" in line
     assert "the activation of silent" in line.replace("\\_", "_")

@@ -75,13 +75,13 @@ def test_gates_stand_in_order_with_evidence_and_stop(page: str, letter: str, num
     assert [section.split()[0] for section in sections] == [f"{letter}{number}" for number in numbers]
     for section in sections:
         assert "- [ ] " in section
-        assert re.search(rf"Evidence `{section.split()[0]}-[\w.-]+`, signed by ", section)
+        assert re.search(rf"Evidence: `{section.split()[0]}-[\w.-]+`\. Signed by: ", section)
         assert re.search(r"\*\*Stop on:\*\* \S", section)
 
 
 def test_inventory_asks_for_a_commit_where_the_source_lies_that_the_workspace_imports() -> None:
     page = artifacts_of("ur5e_pick")["gates/promotion.md"]
-    assert "gripper.driver is `robotiq_driver 3b6cf8f`. Run this in the workspace" in page
+    assert "gripper.driver is `robotiq_driver 3b6cf8f`. Run this in the build workspace" in page
     assert "git -C src/ros2_robotiq_gripper rev-parse HEAD" in page
     assert "  ros2_robotiq_gripper:\n" in artifacts_of("ur5e_pick")["sources.repos"]
     # Its number never moved: no package could agree with the pin.
@@ -177,22 +177,22 @@ def test_first_motion_of_a_robot_whose_driver_holds_it_is_read_at_its_panel() ->
 def test_recovery_tells_of_a_manager_a_network_and_a_controller_that_are_gone() -> None:
     for cell, distro in (("ur5e_pick", "jazzy"), ("fr3_hand", "humble")):
         audit = artifacts_of(cell, distro)["audit.md"].split("\n## Recovery\n")[1].replace("\\", "")
-        for title in ("A controller manager ended:", "arm, network_lost:", "arm, controller_rebooted:"):
+        for title in ("If a controller manager ended:", "arm, network_lost:", "arm, controller_rebooted:"):
             steps = audit.split(f"\n{title}\n\n")[1].split("\n\n")[0]
             assert re.search("[Rr]epeat from gate G3", steps), title
 
 
 def test_ending_gives_claims_back_before_the_driver_ends_and_tools_come_before_what_carries_them() -> None:
     def steps(cell: str, distro: str) -> str:
-        return artifacts_of(cell, distro)["audit.md"].split("\n## Ending\n")[1].split("\n## ")[0]
+        return artifacts_of(cell, distro)["audit.md"].split("\n## Shutdown\n")[1].split("\n## ")[0]
 
     for cell, distro, words in (
         (
             "ur5e_pick",
             "jazzy",
-            ("--deactivate arm", "gripper: Make sure that nothing is held", "Stop the program", "Ctrl-C"),
+            ("--deactivate arm", "gripper: Make sure that no part is held", "Stop the program", "Ctrl-C"),
         ),
-        ("fr3_hand", "humble", ("--deactivate arm", "by Ctrl-C", "Release FCI", "Close the brakes")),
+        ("fr3_hand", "humble", ("--deactivate arm", "with Ctrl-C", "Release FCI", "Close the brakes")),
     ):
         places = [steps(cell, distro).replace("\\", "").index(word) for word in words]
         assert places == sorted(places)
@@ -204,7 +204,7 @@ def test_calibration_is_read_off_a_robot_that_is_powered_into_a_file_whose_folde
     artifacts = artifacts_of("ur5e_pick")
     layer = artifacts["gates/network.md"].split("\n## L2")[1].split("\n## ")[0]
     assert 'target_filename:="$(pwd)"/cells/ur5e_pick/arm_calibration.yaml' in layer
-    assert "powered on with closed brakes" in layer
+    assert "robot powered on, brakes closed" in layer
     assert "ros2 launch ur_calibration" not in artifacts["gates/promotion.md"]
     assert "<exec_depend>ur_calibration</exec_depend>" in artifacts["package.xml"]
 
@@ -276,9 +276,9 @@ def test_recorder_keeps_what_comes_while_it_waits_for_its_disk() -> None:
     }
 
 
-def test_sentence_names_everyone_on_the_way_to_the_drives() -> None:
+def test_data_flow_names_everyone_on_the_way_to_the_drives() -> None:
     readme = artifacts_of("ur5e_pick")["README.md"]
-    (sentence,) = (line for line in readme.splitlines() if line.startswith("Camera publishes"))
+    flow = readme.partition("\n## Data flow\n")[2].partition("\n## ")[0]
     steps = [
         "perception publishes",
         "task sends goals to move_group",
@@ -286,5 +286,5 @@ def test_sentence_names_everyone_on_the_way_to_the_drives() -> None:
         "writes to arm",
     ]
     steps += ["vendor controller of arm", "safety_plc stops the cell"]
-    places = [sentence.index(step) for step in steps]
+    places = [flow.index(step) for step in steps]
     assert places == sorted(places)

@@ -38,7 +38,7 @@ def test_a_program_of_the_driver_is_told_to_plugin_and_helper_and_needs_remote_c
     helper = safe_load(texts["config/arm_state_helper.yaml"])["arm_state_helper"]["ros__parameters"]
     assert helper["headless_mode"] is True
     gates = texts["gates/promotion.md"]
-    assert "The driver ends any program on the robot when it starts" in _gate(gates, "G3")
+    assert "When the driver starts, it stops any program on the robot" in _gate(gates, "G3")
     assert "LOCAL" not in gates
     assert "resend_robot_program" in _gate(gates, "G7")
     assert "External Control URCap" not in _gate(gates, "G0")
@@ -48,7 +48,7 @@ def test_a_person_plays_at_the_pendant_or_over_the_dashboard(tmp_path: Path) -> 
     pendant = artifacts_of("ur5e_pick")
     robot = ElementTree.fromstring(pendant["urdf/ur5e_pick.real.urdf"])
     assert [one.text for one in robot.iter("param") if one.get("name") == "headless_mode"] == ["false"]
-    assert "Have operator load the program with External Control and press Play" in _gate(
+    assert "Have operator load the External Control program and press Play" in _gate(
         pendant["gates/promotion.md"], "G7"
     )
     remote = _ways(tmp_path, "program: {played_by: operator, mode: remote}")["gates/promotion.md"]
@@ -82,7 +82,7 @@ def test_in_remote_mode_nobody_is_sent_to_a_pendant_that_starts_nothing(
 def test_the_tcp_stands_in_the_gate_as_the_pendant_shows_it() -> None:
     # By hand: the gripper is 11 mm beyond tool0 and turned by 90 deg about z, the TCP 162 mm beyond the gripper.
     gate = _gate(artifacts_of("ur5e_pick")["gates/promotion.md"], "G5")
-    assert "the TCP of arm is 0.00 0.00 173.00 mm in arm_tool0" in gate.replace("\\", "")
+    assert "the TCP of arm is frame tcp: 0.00 0.00 173.00 mm in arm_tool0" in gate.replace("\\", "")
     assert "rotation vector 0.0000 0.0000 1.5708 rad, roll pitch yaw 0.00 0.00 90.00 deg" in gate
     assert "timeout 10 ros2 topic echo --once /arm_tcp/pose" in gate
 
@@ -101,10 +101,10 @@ def test_payload_has_its_inertia_its_frame_and_who_tells_it(tmp_path: Path) -> N
     text = spec_text("fr3_hand").replace(stated, f"{stated}, inertia: 0.0011 0.0024 0.0017 0 0 0 kg m^2")
     gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G5").replace("\\", "")
     assert (
-        "payload of arm to 0.92 kg, tool included, center of mass -5 5 46 mm, inertia 0.0011 0.0024 0.0017 0 0 0 kg m^2"
+        "payload of arm by its installation: 0.92 kg with tool, center of mass -5 5 46 mm, inertia 0.0011 0.0024 0.0017 0 0 0 kg m^2"
         in gate
     )
-    assert "in fr3_link8, by its installation" in gate
+    assert "kg m^2 in fr3_link8. Record" in gate
 
 
 @pytest.mark.parametrize(("distro", "service"), [("humble", "/service_server"), ("jazzy", "/service_server")])

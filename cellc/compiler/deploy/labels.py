@@ -25,9 +25,9 @@ _FRAMES = {
     "control_msgs/action/GripperCommand": "joints",
     "control_msgs/action/ParallelGripperCommand": "joints",
     "std_msgs/msg/String": "none",
-    "sensor_msgs/msg/Image": "of its header",
-    "sensor_msgs/msg/PointCloud2": "of its header",
-    "sensor_msgs/msg/CameraInfo": "of its header",
+    "sensor_msgs/msg/Image": "header.frame_id",
+    "sensor_msgs/msg/PointCloud2": "header.frame_id",
+    "sensor_msgs/msg/CameraInfo": "header.frame_id",
 }
 _UNSTAMPED = ("std_msgs/msg/",)
 _PLAIN_TEXT = "std_msgs/msg/String"

@@ -15,23 +15,25 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST
 from cellc.compiler.deploy.gates import Check, Gate
-from cellc.compiler.formats.escape import markdown, markdown_comment
+from cellc.compiler.formats.escape import code, markdown, markdown_comment
 from cellc.compiler.formats.json_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.versions import compatibility
 from cellc.contract.gates import GATES, Gates, GateSetting, PinAnswer
 
 _PROMOTION = (
-    "Pass the gates in order, each with its evidence. Skip none. If a gate fails, repeat it from its first line."
+    "Pass the gates in order and record the evidence of each. Skip none. If a gate fails, repeat it from its first "
+    "line."
 )
 _NETWORK = (
-    "Pass the layers from the cable up, with drives disabled. Fix a failure at its own layer. Do not weaken a "
-    "firewall, a watchdog or a limit to pass."
+    "Pass the layers from the cable up, with drives disabled. Fix each failure in its own layer. Do not relax a "
+    "firewall, a watchdog or a limit in order to pass."
 )
 _WHERE = (
-    "Run commands in the folder with `cells/` and `generated/`, in a shell set up as in `README.md`. Set `E` to the "
-    "folder of the attempt. Keep the shell of a launch or recording open. If a command times out or finds no node, run "
-    "it once more before its answer counts. Write an evidence file by hand where no command writes it."
+    "Run commands in the folder that contains `cells/` and `generated/`, in a shell set up as in `README.md`. Set `E` "
+    "to the evidence folder of this attempt. Leave the shells of launches and recordings open. If a command times out "
+    "or finds no node, run it once more before you record a failure. If no command writes the evidence file, write it "
+    "by hand."
 )
 
 
@@ -64,7 +66,7 @@ def _page(plan: Deployment, title: str, text: str, gates: tuple[Gate, ...]) -> s
 def _gate(gate: Gate) -> str:
     passed = f"*{gate.state[0].upper()}{gate.state[1:]}.* Passed when {markdown(gate.shows)}."
     signed = (
-        f"Evidence `{gate.evidence}`, signed by {markdown(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
+        f"Evidence: `{gate.evidence}`. Signed by: {code(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
     )
     checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
     measured = ". ".join(f"{markdown(text[0].upper() + text[1:])}: ________" for text in gate.measured)

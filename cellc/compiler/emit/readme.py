@@ -59,7 +59,7 @@ _FILES = (
     ("launch/activate.launch.xml", "activates hardware that moves on activation; a person authorizes it"),
     ("launch/claim.launch.xml", "activates the controllers that claim joints on real hardware; a person authorizes it"),
     (_GOAL, "sends one small goal to the controller on real hardware; a person authorizes it"),
-    ("config/bring_up.json", "steps of the bring-up, each with its proof, its request and the effect that must show"),
+    ("config/bring_up.json", "steps of the bring-up, each with its proof, its request and its required effect"),
     ("scripts/bring_up", "the program that runs these steps"),
     (VERSIONS_PROGRAM, "the first of these steps: compares the version tuple with the installed packages"),
     (FIRST_GOAL_PROGRAM, "sends that goal from the current position, and cancels one"),
@@ -68,12 +68,12 @@ _FILES = (
     ("contract.json", "contract of each interface: type, QoS, rate, age, owner, failure behavior"),
     ("rehearsals.json", "runs of the mock, each with its expected outcome"),
     ("graph/cell.svg", "the cell from two sides"),
-    ("graph/nodes.svg", "who talks to whom: each node once, with a list of the arrows"),
+    ("graph/nodes.svg", "node graph: each node once, with a list of the interfaces"),
     ("graph/responsibility.svg", "contract and owner of each arrow"),
     ("gates/promotion.md", "checklist of gates G0 to G7 for one attempt; `gates/network.md` has layers L1 to L6"),
-    ("gates/gates.json", "what the gates set in robots, and what is known of each version, for programs"),
+    ("gates/gates.json", "for programs: what the gates set in robots, and what is known about each version"),
     ("audit.md", "open questions, version tuple, command paths, expected nodes and interfaces, owners"),
-    ("config/recording_qos.yaml", "what an attempt records, with the command"),
+    ("config/recording_qos.yaml", "topics that an attempt records, with their QoS and the command"),
     ("manifest.json", "version tuple, hash of every file, configuration ID"),
 )
 
@@ -99,16 +99,16 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "is in `manifest.json`.",
         f"![{cell.name} from two sides, with its frames](graph/cell.svg)",
         *_gates(plan),
-        "## Every shell, once",
-        "From the folder that holds `cells/` and `generated/`, with ROS 2 sourced:",
+        "## Set up each shell",
+        "In the folder that contains `cells/` and `generated/`, with ROS 2 sourced:",
         _shell_of(cell),
         *_enforced(cell),
-        "To try it on the mock, in three commands:",
+        "To try the cell on the mock:",
         _fenced((plan.header.command, f"cellc mock generated/{cell.name}", start_mock(cell))),
         *_questions(plan.questions),
-        "## The cell in one sentence",
-        markdown(_sentence(cell)),
-        f"![Who talks to whom in {cell.name}](graph/nodes.svg)",
+        "## Data flow",
+        "\n".join(f"- {markdown(sentence)}" for sentence in _flow(cell)),
+        f"![Node graph of {cell.name}](graph/nodes.svg)",
         f"![Every arrow of {cell.name} with its owner](graph/responsibility.svg)",
         "`audit.md` lists what the mock cannot prove, by device and vendor. Only the gates can show it.",
         "## What is here",
@@ -121,16 +121,16 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 def _gates(plan: Deployment) -> Iterator[str]:
     yield "## From power-off to a trajectory"
     yield (
-        "Pass the gates from top to bottom, each with its evidence and a signature. If a gate fails, repeat it from "
-        "the start. People at the cell enable the drives (G5) and start motion (G6, G7); no file here does. For "
-        "power-off see Ending in `audit.md`. After a stop see Recovery."
+        "Pass the gates from top to bottom. Each needs its evidence and a signature. If a gate fails, repeat it from "
+        "its first line. Only people at the cell enable the drives (G5) and authorize motion (G6, G7). For power-off "
+        "see Shutdown in `audit.md`. After a stop see Recovery there."
     )
     yield _table(PROMOTION_CHECKLIST, plan.promotion)
     yield "Pass G3 layer by layer, from the cable to the command path:"
     yield _table(NETWORK_CHECKLIST, plan.network)
     number = len(plan.questions)
     if number:
-        yield f"**Missing in the spec: {number}.** Each stops gate G0. See [{_OPEN}](#{_ANCHOR})."
+        yield f"**Open questions in the spec: {number}.** Each stops gate G0. See [{_OPEN}](#{_ANCHOR})."
 
 
 def _table(file: str, gates: tuple[Gate, ...]) -> str:
@@ -141,7 +141,7 @@ def _table(file: str, gates: tuple[Gate, ...]) -> str:
 def _row(file: str, gate: Gate) -> tuple[str, ...]:
     anchor = f"{gate.code} {gate.title}".lower().replace(",", "").replace(" ", "-")
     # Up to a pipe: what shows is the first program.
-    command = markdown(code(gate.key_command.partition(" | ")[0])) if gate.key_command else "by people"
+    command = markdown(code(gate.key_command.partition(" | ")[0])) if gate.key_command else "manual"
     return f"[{gate.code}]({file}#{anchor}) {gate.title}", markdown(gate.shows), command, markdown(gate.owner)
 
 
@@ -181,11 +181,12 @@ def _enforced(cell: Cell) -> Iterator[str]:
     if cell.versions.rmw.startswith("rmw_zenoh"):
         return
     yield (
-        "To enforce access, make the keys in a shell as above. They hold for its domain and middleware; make new keys "
-        "after a change of either. A process then starts only in its enclave of `security/policy.xml`. The launch "
-        "files name it. Copy to each host only its own enclaves, and keep `private/` away from the cell. For manual "
-        "commands, set the enclave in a shell that launches nothing. Use the enclave below to look, and "
-        f"{code(commissioning_enclave(cell))} for a command by which a gate or a recovery acts:"
+        "To enforce access control, create the keys in a shell set up as above. They are valid for its ROS domain and "
+        "middleware. Create new keys after a change of either. A process then starts only in its enclave of "
+        "`security/policy.xml`, which the launch files set. Copy only its own enclaves to each host. Keep `private/` "
+        "off the computers of the cell. For manual commands, set the enclave in a shell that launches nothing. Use the "
+        "enclave below for commands that only read, and "
+        f"{code(commissioning_enclave(cell))} for other commands of a gate or a recovery:"
     )
     yield _fenced(
         (
@@ -193,7 +194,7 @@ def _enforced(cell: Cell) -> Iterator[str]:
             'ros2 security create_keystore "$ROS_SECURITY_KEYSTORE"  # once, and the next line after each build',
             f'ros2 security generate_artifacts -k "$ROS_SECURITY_KEYSTORE" -p {_POLICY.format(cell.name)}',
             "export ROS_SECURITY_ENABLE=true ROS_SECURITY_STRATEGY=Enforce",
-            f"export ROS_SECURITY_ENCLAVE_OVERRIDE={people_enclave(cell)}  # only to look, never to launch",
+            f"export ROS_SECURITY_ENCLAVE_OVERRIDE={people_enclave(cell)}  # to read only, never to launch",
         )
     )
 
@@ -205,7 +206,7 @@ def _fenced(lines: Iterable[str]) -> str:
 def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
     if questions:
         yield f"## {_OPEN}"
-        yield "Answer each of these in the spec, at the path in brackets. `audit.md` says whom to ask:"
+        yield "Answer these questions in the spec, at the path in brackets. `audit.md` says whom to ask:"
         yield "\n".join(
             f"- {markdown(f'{question.subject} ({code(spec_path(question.path))})')}" for question in questions
         )
@@ -224,18 +225,14 @@ def _present(cell: Cell, plan: Deployment, name: str) -> bool:
     return phase is None or phase in phases(plan.bring_up, "real")
 
 
-def _sentence(cell: Cell) -> str:
-    """Return the data flow as one sentence, from the sensors to the drives and the stop."""
-    clauses = [
-        *_streams(cell),
-        *_dynamic_frames(cell),
-        *_actions(cell),
-        *_managers(cell),
-        *_drives(cell),
-        _stop(cell),
-    ]
-    text = "; ".join(clauses)
-    return text[0].upper() + text[1:] + "."
+def _flow(cell: Cell) -> Iterator[str]:
+    """Yield the data flow in sentences, from the sensors to the drives and the stop."""
+    yield from _streams(cell)
+    yield from _dynamic_frames(cell)
+    yield from _actions(cell)
+    yield from _managers(cell)
+    yield from _drives(cell)
+    yield _stop(cell)
 
 
 def _written(cell: Cell, kind: InterfaceKind) -> Iterator[Interface]:
@@ -251,7 +248,7 @@ def _streams(cell: Cell) -> Iterator[str]:
 def _dynamic_frames(cell: Cell) -> Iterator[str]:
     for frame in cell.frames:
         if frame.kind is FrameKind.DYNAMIC:
-            yield f"{frame.authority} publishes {frame.name} in {frame.parent}, stamped at its observation"
+            yield f"{frame.authority} publishes frame {frame.name} in {frame.parent}, stamped at its observation"
 
 
 def _actions(cell: Cell) -> Iterator[str]:
@@ -276,7 +273,7 @@ def _managers(cell: Cell) -> Iterator[str]:
             if device.control.hardware is not None and "real" in device.control.hardware.targets:
                 yield f"controller manager {manager.name} writes to {device.name} through {through}"
             else:
-                yield f"no controller manager writes to {device.name} on real hardware, where {through} moves it"
+                yield f"{through} moves {device.name} on real hardware, where no controller manager writes to it"
 
 
 def _drives(cell: Cell) -> Iterator[str]:
@@ -287,7 +284,7 @@ def _drives(cell: Cell) -> Iterator[str]:
 
 def _stop(cell: Cell) -> str:
     stop = cell.safety.stop
-    return f"{stop.authority} stops the cell by a path ({stop.path}) without software"
+    return f"{stop.authority} stops the cell without software (path: {stop.path})"
 
 
 def _names(interface: Interface, side: str) -> str:

@@ -134,11 +134,11 @@ def _cell_answer(pin: Pin, facts: DistroFacts, together: ReleaseSet | None) -> t
         return Answer.INCOMPATIBLE, f"{facts.title} has {', '.join(facts.rmw)}"
     released = facts.packages.get(name, "")
     if not released:
-        return Answer.UNKNOWN, "no matrix names it"
+        return Answer.UNKNOWN, "no matrix lists it"
     if version_number(pin.text) == version_number(released):
         return Answer.OK, f"{facts.title} releases {released}"
     if together is not None and name in together.packages:
-        return Answer.OK, f"{together.name} had it, with all that is pinned beside it"
+        return Answer.OK, f"{together.name} had it, together with the other pinned parts"
     # MoveIt and Zenoh's middleware stay below 3 for years: their second number is what changes with the distribution.
     digits = 2 if name in ("moveit", "rmw_zenoh_cpp") and version_numbers(released)[:1] <= (2,) else 1
     if version_numbers(pin.text)[:digits] != version_numbers(released)[:digits]:
@@ -148,10 +148,10 @@ def _cell_answer(pin: Pin, facts: DistroFacts, together: ReleaseSet | None) -> t
 
 def _os_answer(written: str, facts: DistroFacts) -> tuple[Answer, str]:
     if any(written == due or written.startswith(f"{due}.") for due in facts.os):
-        return Answer.OK, f"{facts.title} is built for it"
+        return Answer.OK, f"{facts.title} supports it"
     if any(written == due or written.startswith(f"{due}.") for due in facts.os_tier3):
         return Answer.UNKNOWN, "third tier: built from source, untested by the distribution"
-    return Answer.INCOMPATIBLE, f"{facts.title} is built for {', '.join(facts.os)}"
+    return Answer.INCOMPATIBLE, f"{facts.title} supports {', '.join(facts.os)}"
 
 
 def _of_devices(cell: Cell) -> Iterator[Judgment]:
@@ -181,20 +181,20 @@ def _firmware_answer(pin: Pin, rows: tuple[VersionRow, ...]) -> tuple[Answer, st
         inside = (not least or numbers >= least) and (not below or numbers < below)
         bounds = f"from {row.minimum or 'any'}" + (f", below {row.below}" if row.below else "")
         return (Answer.OK if inside else Answer.INCOMPATIBLE), f"{bounds}: {_origin(row)}"
-    return Answer.UNKNOWN, "no matrix names it"
+    return Answer.UNKNOWN, "no matrix lists it"
 
 
 def _unnamed_answer(pin: Pin, device: Device, rows: tuple[VersionRow, ...], distro: str) -> tuple[Answer, str]:
     foreign = foreign_lines(device, pin.part, distro)
     if foreign:
-        return Answer.INCOMPATIBLE, f"it is of {foreign[0].distro}: {_origin(foreign[0])}"
+        return Answer.INCOMPATIBLE, f"it belongs to {foreign[0].distro}: {_origin(foreign[0])}"
     release = own_release(device, distro)
     if release is not None:
         together = f"the packages of `{pin.holder}` belong together: {release.name}"
         return (Answer.UNKNOWN, f"{together}, built from source") if release.built else (Answer.OK, together)
     here = [row for row in rows if row.distro in (None, distro) and row.known]
     known = ", ".join(known for row in here for known in row.known)
-    return Answer.UNKNOWN, f"{distro} knows {known}: {_origin(here[0])}" if here else "no matrix names it"
+    return Answer.UNKNOWN, f"{known} on {distro}: {_origin(here[0])}" if here else "no matrix lists it"
 
 
 def _known_answer(row: VersionRow, distro: str) -> tuple[Answer, str]:
@@ -204,7 +204,7 @@ def _known_answer(row: VersionRow, distro: str) -> tuple[Answer, str]:
         pin = row.built_from[0]
         built = f"{distro} does not release it; `sources.repos` builds it from {pin.name} at {pin.ref[:12]}"
         return Answer.UNKNOWN, f"{built}: {_origin(row)}"
-    return Answer.OK, f"{distro} knows {', '.join(row.known)}: {_origin(row)}"
+    return Answer.OK, f"{', '.join(row.known)} on {distro}: {_origin(row)}"
 
 
 def _origin(row: VersionRow) -> str:

@@ -62,7 +62,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Expected topics": interfaces_section(cell, InterfaceKind.TOPIC),
         "Expected services": interfaces_section(cell, InterfaceKind.SERVICE),
         "Expected actions": interfaces_section(cell, InterfaceKind.ACTION),
-        "Expected of drivers": drivers_section(cell),
+        "Other driver interfaces": drivers_section(cell),
         "Expected TF publishers": tf_section(cell),
         "Attempt record": record_section(cell),
         **(
@@ -72,9 +72,9 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         ),
         "Approvals": table(("area", "question", "owner"), approvals(cell)),
         "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
-        "Ending": _numbered(ending(cell)),
+        "Shutdown": _numbered(ending(cell)),
         "Recovery": "\n".join(recovery(cell)),
-        "After a loss": "\n".join(_after_a_loss(cell)) or "None.",
+        "After a crash or lost connection": "\n".join(_after_a_loss(cell)) or "None.",
         "What the mock cannot prove": "\n".join(_not_provable(cell)),
     }
     blocks = [markdown_comment(plan.header.text), f"# {cell.name}: audit"]
@@ -94,9 +94,9 @@ def responsibilities(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 def ending(cell: Cell) -> Iterator[str]:
     """Yield the steps from motion to power-off; a device is ended before the one that carries it."""
-    yield "Make sure that nothing is held, and that no person and no object is below a tool or a part that may fall"
+    yield "Make sure that no part is held. Nothing and no person may be below a tool or a part that may fall."
     if motion_clients(cell):
-        yield "End move.launch.xml on each computer, which ends all motion clients"
+        yield "Stop move.launch.xml on every computer, which stops all motion clients"
     joints = {joint.name for device in cell.devices for joint in device.joints}
     for manager in cell.managers:
         claiming = " ".join(
@@ -108,13 +108,13 @@ def ending(cell: Cell) -> Iterator[str]:
         )
         command = f"ros2 control switch_controllers --deactivate {claiming} -c {manager.node}"
         if claiming:
-            yield f"Release the claims by {code(command)}"
+            yield f"Release the claims with {code(command)}"
     for device in _outermost_first(cell):
         yield from (f"{device.name}: {step}" for step in device.procedures.safety.ending)
-    yield "End cell.launch.xml by Ctrl-C on each computer. ros2 node list must show no node of this cell."
+    yield "Stop cell.launch.xml with Ctrl-C on every computer. ros2 node list must show no node of this cell."
     for device in _outermost_first(cell):
         yield from (f"{device.name}: {step}" for step in device.procedures.safety.ended)
-    yield "End the recording and sign the evidence"
+    yield "Stop the recording and sign the evidence"
 
 
 def _outermost_first(cell: Cell) -> list[Device]:
@@ -131,14 +131,14 @@ def _losses(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield the recovery from a loss that no device reports: of a manager or a computer."""
     seen = "Check each robot and each tool. Without its controller manager a tool may have dropped its part."
     ended = (
-        "End every launch file of the cell by Ctrl-C on each computer. Any part left waits forever for its services."
+        "Stop every launch of the cell with Ctrl-C on every computer. Remaining processes wait forever for services."
     )
-    alone = "Check by ros2 node list that no node of this cell is left. A second launch would start it twice."
-    begin = "Repeat from gate G3. Authorize activation and claims again"
+    alone = "Check with ros2 node list that no node of this cell is left. A second launch would start it twice."
+    begin = "Repeat from gate G3. Authorize activation and claims again."
     if cell.managers:
-        yield "A controller manager ended", (seen, ended, alone, begin)
+        yield "If a controller manager ended", (seen, ended, alone, begin)
     if len(cell.hosts) > 1:
-        yield "A computer, or the network between two, was lost", (seen, ended, "Repeat layers L1 to L5", begin)
+        yield "If a computer or the network between computers failed", (seen, ended, "Repeat layers L1 to L5", begin)
 
 
 def _after_a_loss(cell: Cell) -> Iterator[str]:
@@ -166,13 +166,13 @@ def _not_provable(cell: Cell) -> Iterator[str]:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock.mock_cannot_prove)
     if cell.groups and not cell.scene and cell.octomap is None:
-        yield "- collisions with the surroundings: `scene` is empty, so paths are planned through table and fence"
+        yield "- collisions with the surroundings: `scene` is empty, so planned paths may pass through table and fence"
     if cell.octomap is not None:
         yield f"- the occupancy map of {code(cell.octomap.source)}: the mock plans without it"
     if cell.servo is not None:
         yield f"- {code(cell.servo.node)} (MoveIt Servo): the mock does not execute it and sends it no command"
     for device, name, said in cell.signed_for_mock():
-        signed = f"that {code(name)} touches no hardware: only {said.by} states it, {said.date}"
+        signed = f"that {code(name)} touches no hardware: stated by {said.by} alone, {said.date}"
         yield f"- {markdown(f'{device.name}: {signed}')}"
 
 
@@ -194,7 +194,7 @@ def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
         return _asked_of_device(cell, cell.device(str(question.path[1])), part)
     if section == "versions":
         if "rollback" in question.path:
-            return _person(approvals.data), f"To which {part} does the cell roll back when a new one fails?"
+            return _person(approvals.data), f"Which {part} does the cell roll back to when a new one fails?"
         return _person(approvals.graph), f"What is the {question.subject} of the machine that runs the cell?"
     if section == "safety":
         return _person(approvals.safety), f"What is the {question.subject}?"
@@ -204,14 +204,15 @@ def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
 def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:
     if part == "calibration" and device.body.kinematics is not None:
         tool = code(device.body.kinematics.tool)
-        return _person(cell.owners.approvals.vendor), f"Which kinematics does {device.name} have? {tool} reads them."
+        question = f"What is the kinematic calibration of {device.name}? Read it with {tool}."
+        return _person(cell.owners.approvals.vendor), question
     if part in _READ_ON_THE_DEVICE:
         owner = _person(cell.owners.approvals.vendor)
-        return owner, f"Which {part} does {device.name} have, by its nameplate or panel?"
+        return owner, f"What is the {part} of {device.name}? See its nameplate or panel."
     if part == "model":
         moments = " and ".join(device.control.unknown_effects)
-        return f"supplier {device.vendor}", f"What moves, or falls, at {moments} of {device.model}?"
-    text = f"Which {part} of {device.model} do you release for ROS 2 {cell.distro}, or is there none?"
+        return f"supplier {device.vendor}", f"What moves or falls at {moments} of {device.model}?"
+    text = f"Which {part} for {device.model} do you release for ROS 2 {cell.distro}, if any?"
     return f"supplier {device.vendor}", text
 
 
@@ -238,7 +239,7 @@ def _person(owner: str) -> str:
 
 def _version_section(cell: Cell) -> str:
     """Write the tuple as a table."""
-    return table(("holder", "part", "pinned", "answer", "reason"), _rows(cell))
+    return table(("of", "part", "pinned", "answer", "reason"), _rows(cell))
 
 
 def _rows(cell: Cell) -> Iterator[tuple[str, ...]]:
