@@ -16,8 +16,8 @@ from cellc.tools.cli.limit_option import limit_option
 def audit(file: str) -> None:
     """Print the audit of the cell in FILE, as `cellc build` writes it to audit.md.
 
-    The exact version tuple with what is known of it, what is expected of the running cell, every command path, and
-    the blockers as questions to their owner or supplier.
+    It has the version tuple with the known compatibility of each part, the expected nodes and interfaces, every command
+    path, and the blockers as questions to their owner or supplier.
 
     \b
     cellc audit cells/bench/cell.yaml

@@ -28,18 +28,16 @@ OUTPUT = click.option(
     type=click.Path(path_type=Path),
     default=Path("generated"),
     show_default=True,
-    help="Folder that holds a folder for each cell.",
+    help="Parent folder of the folders of the cells.",
 )
 
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=str))
 @OUTPUT
-@click.option(
-    "--check", "only_compare", is_flag=True, help="Write nothing; fail where a folder is not what its cell makes."
-)
-@click.option("--full", is_flag=True, help="Compile what is unchanged too, as CI does, instead of reading the cache.")
-@click.option("--force", is_flag=True, help="Discard edits that were made by hand in generated files.")
+@click.option("--check", "only_compare", is_flag=True, help="Write nothing; fail if a folder is not up to date.")
+@click.option("--full", is_flag=True, help="Also compile unchanged cells instead of using the cache, as CI does.")
+@click.option("--force", is_flag=True, help="Discard manual edits of generated files.")
 @SELECT
 @IGNORE
 @FORMAT
@@ -60,10 +58,10 @@ def build(
 ) -> None:
     """Check each cell in FILES and write its ROS 2 package to OUTPUT/<cell>.
 
-    A folder means every cell.yaml below it. With --matrix each tuple has a folder of its own in OUTPUT.
+    A folder means every cell.yaml below it. With --matrix each version tuple has its own folder in OUTPUT.
 
-    Errors stop a cell from being written. Blockers do not: they refuse the real target, not the mock, and are summed
-    here; `cellc check` shows each. Files that you put beside the generated ones stay. No option hides an error.
+    A cell with errors is not written. Blockers refuse the real target only; they are summed up here, and `cellc check`
+    lists them. Your own files beside the generated ones are kept. No option hides an error.
 
     \b
     cellc build cells/bench/cell.yaml          writes generated/bench

@@ -13,7 +13,7 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, R
 @click.command()
 @FOLDER
 @PAIRS
-@click.option("--list", "list_only", is_flag=True, help="Print the runs, and run none.")
+@click.option("--list", "list_only", is_flag=True, help="Print the names of the runs and stop.")
 @RECORDS
 @EVIDENCE
 @JSON
@@ -23,10 +23,10 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, R
 @limit_option
 @options_as(CampaignOptions)
 def campaign(options: CampaignOptions, list_only: bool) -> None:
-    """Run every fault at every step of the generated FOLDER, and print the matrix.
+    """Inject every fault at every step of the rehearsals in the generated FOLDER, and print the matrix.
 
-    A run fails where it ends in another outcome than its fault allows, later than its bound, or beyond a limit of a
-    joint; exit 1 where one does. `cellc replay` makes one run again.
+    A run fails if its outcome is not allowed for the fault, if it comes after its bound, or if a joint exceeds a limit.
+    Exit 1 if a run fails. `cellc replay` repeats one run.
 
     \b
     cellc campaign generated/bench                 fault by step, over all cores

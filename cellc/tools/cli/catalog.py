@@ -33,9 +33,11 @@ class _Figure(click.ParamType[float]):
 @click.command()
 @click.argument("words", nargs=-1, metavar="[MODEL | WORD...]", shell_complete=complete_model)
 @click.option("--kind", type=click.Choice(device_kinds()), help="Devices of one kind.")
-@click.option("--reach", type=_Figure("LENGTH", meters), help="Arms that reach as far, such as `900 mm`.")
-@click.option("--payload", type=_Figure("MASS", kilograms), help="Arms that carry as much, such as `5 kg`.")
-@click.option("--ros", type=click.Choice([distro.value for distro in Distro]), help="Devices whose driver is for it.")
+@click.option("--reach", type=_Figure("LENGTH", meters), help="Arms with at least this reach, such as `900 mm`.")
+@click.option("--payload", type=_Figure("MASS", kilograms), help="Arms with at least this payload, such as `5 kg`.")
+@click.option(
+    "--ros", type=click.Choice([distro.value for distro in Distro]), help="Devices with a driver for this distribution."
+)
 @click.option("--all", "everything", is_flag=True, help="With --output, write the pages of all devices.")
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder of the pages.")
 def catalog(
@@ -47,7 +49,7 @@ def catalog(
     everything: bool,
     output: Path | None,
 ) -> None:
-    """List the devices of the catalog; show MODEL, or those whose model, vendor, driver or summary has each WORD.
+    """List the devices of the catalog; show MODEL, or the devices with each WORD in model, vendor, driver or summary.
 
     \b
     cellc catalog                                  every device

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 FIX = click.option(
     "--fix",
     is_flag=True,
-    help="Fix what has one safe answer in the files: misspelled keys and units, the modeline.",
+    help="Correct the files where the fix is certain: misspelled keys and units, the modeline.",
 )
 # A corrected key can show a misspelled one below it; no spec is nested deeper.
 _PASSES = 16
@@ -37,7 +37,7 @@ _PASSES = 16
 @FORMAT
 @FAIL_ON
 @click.option(
-    "--sarif", metavar="FILE", type=click.Path(path_type=Path), help="Write the findings to FILE too, as SARIF 2.1.0."
+    "--sarif", metavar="FILE", type=click.Path(path_type=Path), help="Also write the findings to FILE, as SARIF 2.1.0."
 )
 @fleet_options
 @limit_option
@@ -51,9 +51,9 @@ def check(
     sarif: Path | None,
     fleet: FleetOptions,
 ) -> None:
-    """Check each cell in FILES and point at what is wrong; a folder means every cell.yaml below it.
+    """Check each cell in FILES and report problems with file, line and fix.
 
-    The file of a device, or of a robot description, is judged by itself.
+    A folder means every cell.yaml below it. A device file or a robot description is checked by itself.
 
     \b
     cellc check cells/bench/cell.yaml          one cell

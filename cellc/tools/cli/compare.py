@@ -18,13 +18,13 @@ from cellc.tools.cli.limit_option import limit_option
     type=click.Choice(["text", "markdown"]),
     default="text",
     show_default=True,
-    help="How the answers are written.",
+    help="Output format.",
 )
 @limit_option
 def compare(files: tuple[str, ...], output_format: str) -> None:
-    """Put the cells in FILES beside each other: what motion rests on in each, and who has which duty.
+    """Compare the cells in FILES: the motion contract of each, and who has which duty.
 
-    One trajectory meets different contracts on two robots: what starts commands, who has the deadline, which stop
+    The same trajectory meets different contracts on two robots: who starts commands, who has the deadline, which stop
     counts, which versions belong together, and what no mock shows. Findings are those of `cellc check`.
 
     \b

@@ -18,13 +18,15 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("sides", nargs=-1, required=True, metavar="[BEFORE] AFTER", type=click.Path(path_type=str))
 @FORM
-@click.option("--breaking", is_flag=True, help="Fail only where a consumer outside of the cell breaks.")
-@click.option("--rehearse", is_flag=True, help="Run the rehearsals of both sides on the mock, and compare outcomes.")
+@click.option("--breaking", is_flag=True, help="Fail only if a consumer outside the cell breaks.")
+@click.option(
+    "--rehearse", is_flag=True, help="Run the rehearsals of both sides on the mock and compare their outcomes."
+)
 @limit_option
 def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: bool) -> None:
-    """Tell what changed in a cell: specs, generated folders, or git revisions of them; exit 1 where something did.
+    """Show what changed in a cell, between specs, generated folders or their Git revisions; exit 1 if anything did.
 
-    One path is HEAD against the work tree, as with `git diff`.
+    With one path, compare HEAD with the work tree, as `git diff` does.
 
     \b
     cellc diff cells/x/cell.yaml                 HEAD and the work tree

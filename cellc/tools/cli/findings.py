@@ -28,7 +28,7 @@ FORMAT = click.option(
     type=click.Choice(["text", "json", "sarif", "github"]),
     default="text",
     show_default=True,
-    help="How findings are written.",
+    help="Output format of findings.",
 )
 SELECT = click.option(
     "--select",
@@ -42,14 +42,14 @@ IGNORE = click.option(
     multiple=True,
     metavar="CODES",
     shell_complete=complete_codes,
-    help="Leave these codes or families out; wins over --select.",
+    help="Leave out these codes or families; overrides --select.",
 )
 FAIL_ON = click.option(
     "--fail-on",
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.BLOCKER, Severity.WARNING)]),
     default=Severity.ERROR.value,
     show_default=True,
-    help="Least severity that makes the exit code 1.",
+    help="Lowest severity for exit code 1.",
 )
 
 

@@ -56,13 +56,15 @@ MATRIX = click.option(
     "--matrix",
     multiple=True,
     metavar="PART=TEXT,TEXT",
-    help="Try each cell with these in its version tuple, such as ros=humble,jazzy; repeatable. Specs stay.",
+    help="Try each cell with these versions, such as ros=humble,jazzy; repeatable. Specs are not changed.",
 )
-_JOBS = click.option("--jobs", type=click.IntRange(1, 1024), metavar="N", help="Processes; as many as pay by default.")
+_JOBS = click.option(
+    "--jobs", type=click.IntRange(1, 1024), metavar="N", help="Number of processes; chosen automatically by default."
+)
 _CLUSTER = click.option(
-    "--cluster", metavar="ADDRESS", help="A scheduler of Dask instead, such as tcp://10.0.0.7:8786."
+    "--cluster", metavar="ADDRESS", help="Address of a Dask scheduler to use instead, such as tcp://10.0.0.7:8786."
 )
-_TABLE = click.option("--json", "as_json", is_flag=True, help="Write the table of cells as JSON, and nothing else.")
+_TABLE = click.option("--json", "as_json", is_flag=True, help="Write only the table of cells, as JSON.")
 
 
 def fan_options(command: Callable[..., None]) -> Callable[..., None]:

@@ -27,13 +27,13 @@ _DIFF_STYLES = {"+": Style.GREEN, "-": Style.RED, "@": Style.CYAN}
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILES...", type=click.Path(path_type=str))
-@click.option("--check", is_flag=True, help="Write nothing, and fail where a file would change.")
-@click.option("--diff", is_flag=True, help="Write nothing, and show what would change.")
+@click.option("--check", is_flag=True, help="Write nothing; fail if a file would change.")
+@click.option("--diff", is_flag=True, help="Write nothing; show what would change.")
 def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
-    """Put FILES into their canonical form: order of keys, spacing, spelling of quantities.
+    """Format FILES: order of keys, spacing, spelling of quantities.
 
-    A folder means every cell.yaml below it with what it includes, and every device.yaml; `-` reads standard input
-    and writes standard output. Every comment stays with what it belongs to, and no value changes.
+    A folder means every cell.yaml below it with its includes, and every device.yaml; `-` reads standard input and
+    writes standard output. Comments stay in place, and no value changes.
 
     \b
     cellc format .                             every cell and device below

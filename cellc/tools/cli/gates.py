@@ -12,7 +12,7 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JOURNAL, JSON,
 
 @click.command()
 @FOLDER
-@click.option("--sweep", "runs", type=int, metavar="N", help="Judge rates of success too, by up to N runs of a sweep.")
+@click.option("--sweep", "runs", type=int, metavar="N", help="Also check success rates, with up to N runs of a sweep.")
 @JOURNAL
 @PAIRS
 @RECORDS
@@ -24,9 +24,9 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JOURNAL, JSON,
 @limit_option
 @options_as(GatesOptions)
 def gates(options: GatesOptions) -> None:
-    """Run rehearsals and campaign of the generated FOLDER, and judge gates L6, G1 and G2 by them, line by line.
+    """Run the rehearsals and the campaign of the generated FOLDER, and check gates L6, G1 and G2 line by line.
 
-    What only a robot or a person can show stays UNKNOWN; exit 1 where a line failed.
+    Lines that only a robot or a person can show stay UNKNOWN. Exit 1 if a line fails.
 
     \b
     cellc gates generated/bench

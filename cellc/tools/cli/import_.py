@@ -36,25 +36,31 @@ if TYPE_CHECKING:
     "-o",
     "--output",
     type=click.Path(path_type=Path, file_okay=False),
-    help="Device folder; ./MODEL if absent.",
+    help="Device folder; ./MODEL by default.",
 )
 @click.option(
     "--srdf",
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
-    help="SRDF whose pairs of links may touch; the robot's own beside its description if absent.",
+    help="SRDF with the disabled collision pairs; by default the one beside the description.",
 )
 @click.option(
     "--controllers",
     type=click.Path(path_type=Path, exists=True, dir_okay=False),
-    help="Parameters of controllers for the cell; those beside the description if absent.",
+    help="Controller parameters for the cell; by default those beside the description.",
 )
-@click.option("--kind", type=click.Choice(device_kinds()), help="What the robot is; by its evidence if absent.")
-@click.option("--cell", "with_cell", is_flag=True, help="Write a cell.yaml beside the folder too, which moves it.")
-@click.option("--check", "only_check", is_flag=True, help="Tell which files of the imported folder ROBOT changed.")
+@click.option(
+    "--kind", type=click.Choice(device_kinds()), help="Kind of device; derived from the description by default."
+)
+@click.option(
+    "--cell", "with_cell", is_flag=True, help="Also write a cell.yaml beside the folder that moves the robot."
+)
+@click.option(
+    "--check", "only_check", is_flag=True, help="List the files of the imported folder that ROBOT would change."
+)
 @click.option(
     "--ros", type=click.Choice([distro.value for distro in Distro]), default="jazzy", help="Distribution of the cell."
 )
-@click.option("--force", is_flag=True, help="Discard edits of files that an earlier import wrote.")
+@click.option("--force", is_flag=True, help="Discard edits of files from an earlier import.")
 @limit_option
 def import_(
     robot: str,
@@ -68,9 +74,9 @@ def import_(
     ros: str,
     force: bool,
 ) -> None:
-    """Make a device folder of ROBOT: a URDF or xacro file, the folder of a ROS package, or an installed Python package.
+    """Create a device folder from ROBOT: a URDF or xacro file, a ROS package folder, or an installed Python package.
 
-    NAME:=VALUE are arguments of the xacro. What a person wrote into a device.yaml stays.
+    NAME:=VALUE are xacro arguments. Your own entries in an existing device.yaml are kept.
 
     \b
     cellc import my_robot.urdf -o devices/my_robot --cell

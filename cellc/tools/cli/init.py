@@ -41,14 +41,14 @@ _SIGNALS = "io"
     "-o",
     "--output",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="File to write; cells/NAME/cell.yaml if absent, or cell.yaml beside the folder of a device.",
+    help="File to write; by default cells/NAME/cell.yaml, or cell.yaml beside a device folder.",
 )
-@click.option("--force", is_flag=True, help="Replace a file that exists.")
+@click.option("--force", is_flag=True, help="Replace an existing file.")
 def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, force: bool) -> None:
-    """Write a cell NAME with the given devices, such as `cellc init bench MODEL MODEL`; without models they are listed.
+    """Write a cell NAME with the given devices; without MODEL, list the models.
 
-    A device is called after its kind (arm, gripper, camera) unless DEVICE= names it. A model is one of the catalog, or
-    the folder that `cellc import` wrote.
+    A device is named after its kind (arm, gripper, camera) unless DEVICE= names it. MODEL is a model of the catalog or
+    a folder that `cellc import` wrote.
 
     \b
     cellc init bench                           the models

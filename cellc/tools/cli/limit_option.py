@@ -26,7 +26,7 @@ def _packages(command: _Command) -> _Command:
         metavar="FOLDERS",
         expose_value=False,
         callback=_apply_packages,
-        help='Folders where packages lie, as "$AMENT_PREFIX_PATH" has them; repeatable.',
+        help='Folders of packages, in the format of "$AMENT_PREFIX_PATH"; repeatable.',
     )(command)
 
 

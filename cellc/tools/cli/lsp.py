@@ -26,11 +26,10 @@ class _Shown(logging.Handler):
 @click.command()
 @limit_option
 def lsp() -> None:
-    """Answer an editor over standard input and output, until it says goodbye.
+    """Run the language server over standard input and output, until the editor ends it.
 
-    Findings while you type, as `cellc check` tells them; hover, definition, completion, quick fixes, outline and form.
-    docs/editor.md has the settings of VS Code, Neovim, Emacs and Helix. It needs the package
-    `pygls`.
+    It offers the findings of `cellc check` while you type, hover, definition, completion, quick fixes, outline and
+    formatting. docs/editor.md has the settings for VS Code, Neovim, Emacs and Helix. It needs the package `pygls`.
 
     \b
     cellc lsp                                  as an editor calls it

@@ -15,27 +15,27 @@ from cellc.version import __version__
 
 # Command → module; the function in it has the command's name. In the order in which a cell comes to need them.
 _COMMANDS = {
-    "init": "Write a new cell from device names.",
-    "import": "Make a device folder of a robot as its vendor ships it.",
-    "catalog": "List the devices of the catalog, find some, or show one.",
-    "check": "Find what is wrong before anything moves.",
+    "init": "Write a new cell from names of devices.",
+    "import": "Create a device folder from a robot description of its vendor.",
+    "catalog": "List, find or show devices of the catalog.",
+    "check": "Check cells, devices and robot descriptions.",
     "explain": "Explain a diagnostic code.",
     "show": "Show a resolved value and its source.",
-    "format": "Put files of cells and devices into their canonical form.",
-    "build": "Check cells and write their artifacts.",
-    "watch": "Check cells, and build them, whenever a file is saved.",
-    "mock": "Execute the rehearsals of a generated folder.",
-    "campaign": "Run every fault at every step of them.",
-    "sweep": "Draw what is uncertain, and tell how often they succeed.",
-    "replay": "Make one run of a campaign or a sweep again.",
-    "gates": "Judge the gates that the mock can judge.",
-    "view": "Write one HTML page of a cell: 3D, rehearsals, findings.",
+    "format": "Format the files of cells and devices.",
+    "build": "Check cells and write their ROS 2 packages.",
+    "watch": "Check cells, and build them, each time a file is saved.",
+    "mock": "Run the rehearsals of a generated folder on the mock.",
+    "campaign": "Inject every fault at every step of the rehearsals.",
+    "sweep": "Estimate success rates of rehearsals by random draws.",
+    "replay": "Repeat single runs of a campaign or a sweep.",
+    "gates": "Check the gates that the mock can check.",
+    "view": "Write one HTML page of a cell with 3D view, rehearsals and findings.",
     "audit": "Print versions, expectations, command paths and open questions.",
-    "diff": "Tell what changed in a cell, and what that means.",
-    "compare": "Put cells beside each other: what motion rests on, who has which duty.",
-    "upgrade": "Tell what another distribution of ROS 2 would change.",
-    "diagnose": "Tell what a symptom may mean, and what to look at.",
-    "lsp": "Answer an editor: the language server of cells and devices.",
+    "diff": "Show what changed in a cell, and what that means.",
+    "compare": "Compare the motion contracts and duties of several cells.",
+    "upgrade": "Show what another ROS 2 distribution would change.",
+    "diagnose": "List possible causes of a symptom, and what to check.",
+    "lsp": "Run the language server for editors.",
     "schema": "Print or write the JSON schemas.",
     "completion": "Print the completion script of a shell.",
 }
@@ -69,7 +69,7 @@ class _LazyGroup(click.Group):
 def cellc(context: click.Context) -> None:
     """Compile a declarative robot cell: check it, write its ROS 2 package, rehearse it on a mock.
 
-    Exit codes: 0 good, 1 findings, 2 usage, 70 cellc or a disk under it failed, 128 + N ended by signal N. cellc never
+    Exit codes: 0 success, 1 findings, 2 usage error, 70 internal or disk error, 128 + N ended by signal N. cellc never
     enables real motion.
     """
     command = context.invoked_subcommand

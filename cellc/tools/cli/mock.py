@@ -63,10 +63,10 @@ class _Mock(click.Command):
 @limit_option
 @options_as(RehearsalOptions)
 def mock(options: RehearsalOptions, folders: tuple[str, ...], matrix: tuple[str, ...]) -> None:
-    """Execute the rehearsals of the generated FOLDER; exit 1 where one does not end as it should.
+    """Run the rehearsals of the generated FOLDER on the mock; exit 1 if one does not end as expected.
 
-    Several folders, or one of several, give one table. With --matrix cells are named instead, and each is built with
-    each tuple for the time of the call.
+    Several folders, or a folder of folders, give one table. With --matrix name cells instead; each is built with each
+    version tuple for this call.
 
     \b
     cellc mock generated/bench                 every rehearsal

@@ -14,9 +14,9 @@ from cellc.tools.cli.words import complete_rehearsal, complete_run
 @click.command()
 @FOLDER
 @click.argument("runs", nargs=-1, required=True, metavar="RUN...", shell_complete=complete_run)
-@click.option("--rehearsal", metavar="NAME", shell_complete=complete_rehearsal, help="That a run of a sweep is of.")
+@click.option("--rehearsal", metavar="NAME", shell_complete=complete_rehearsal, help="Rehearsal of a sweep run.")
 @click.option(
-    "--journal", type=click.Path(path_type=str, dir_okay=False), help="Of the sweep; any other one is refused."
+    "--journal", type=click.Path(path_type=str, dir_okay=False), help="Journal of the sweep; any other is refused."
 )
 @RECORDS
 @EVIDENCE
@@ -26,9 +26,9 @@ from cellc.tools.cli.words import complete_rehearsal, complete_run
 @limit_option
 @options_as(ReplayOptions)
 def replay(options: ReplayOptions) -> None:
-    """Make each RUN of the generated FOLDER again: of its campaign, or `sweep:NUMBER`; exit 1 where one fails.
+    """Repeat each RUN of the generated FOLDER: a run of its campaign, or `sweep:NUMBER`; exit 1 if one fails.
 
-    `cellc campaign --list` prints the runs of a campaign; a run that failed is printed with its command.
+    `cellc campaign --list` prints the runs of a campaign. A failed run is printed with its replay command.
 
     \b
     cellc replay generated/bench 'pick/stick:arm_elbow_joint@3'

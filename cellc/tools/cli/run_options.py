@@ -29,11 +29,11 @@ REHEARSALS = click.option(
     multiple=True,
     metavar="NAME",
     shell_complete=complete_rehearsal,
-    help="This one only; repeatable.",
+    help="Run only this rehearsal; repeatable.",
 )
-PAIRS = click.option("--pairs", default=0, metavar="N", help="N runs more, with two faults each.")
+PAIRS = click.option("--pairs", default=0, metavar="N", help="Add N runs with two faults each.")
 JOURNAL = click.option(
-    "--journal", type=click.Path(path_type=str, dir_okay=False), help="Keep each run here, and go on from it."
+    "--journal", type=click.Path(path_type=str, dir_okay=False), help="Store each run in FILE, and resume from it."
 )
 JSON = click.option("--json", "as_json", is_flag=True, help="Write the results as JSON.")
 RECORDS = click.option(
@@ -48,9 +48,9 @@ EVIDENCE = click.option(
     callback=_refuse_empty,
     help="Write bags, records, key figures and a report.",
 )
-SEED = click.option("--seed", default=0, show_default=True, help="Seed of everything that is drawn.")
+SEED = click.option("--seed", default=0, show_default=True, help="Seed of all random draws.")
 EDITED = click.option(
-    "--edited", is_flag=True, help="Run a folder that was edited; every result says so, no gate is signed."
+    "--edited", is_flag=True, help="Run an edited folder; every result is marked, and no gate is signed."
 )
 
 
@@ -75,11 +75,11 @@ def options_as(kind: type[FolderOptions]) -> Callable[[Command], Command]:
 def live_options(command: Command) -> Command:
     """Add the options that show rehearsals in Foxglove; they come as one argument, ``live``."""
 
-    @click.option("--live", is_flag=True, help="Show the rehearsals in Foxglove, in real time.")
+    @click.option("--live", is_flag=True, help="Show the rehearsals in Foxglove in real time.")
     @click.option(
-        "--listen", metavar="HOST:PORT", help="With --live: where Foxglove connects; 127.0.0.1:8765 by default."
+        "--listen", metavar="HOST:PORT", help="With --live: address for Foxglove; 127.0.0.1:8765 by default."
     )
-    @click.option("--speed", type=float, metavar="X", help="With --live: X times as fast as real time.")
+    @click.option("--speed", type=float, metavar="X", help="With --live: play back at X times real time.")
     @wraps(command)
     def within(live: bool, listen: str | None, speed: float | None, **others: Any) -> None:
         needless = [option for option, value in (("--listen", listen), ("--speed", speed)) if value is not None]

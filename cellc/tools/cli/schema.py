@@ -17,9 +17,9 @@ from cellc.contract.store.swap import write_whole
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Write all schemas to a folder.")
 @click.option("--reference", is_flag=True, help="Print the reference of a cell or a device as Markdown.")
 def schema(name: str | None, output: Path | None, reference: bool) -> None:
-    """Print the schema NAME (the cell's if absent), or write all to a folder.
+    """Print the schema NAME (by default that of a cell), or write all schemas to a folder.
 
-    Editors complete and explain a cell through the first line
+    Editors complete and explain a cell if its first line is
     `# yaml-language-server: $schema=PATH/cell.schema.json`.
 
     \b

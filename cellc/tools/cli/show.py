@@ -20,7 +20,7 @@ from cellc.tools.report.resolved import Leaf, Tree, flatten, resolved_tree
 def show(file: str, path: str) -> None:
     """Show the resolved value at PATH of the cell in FILE, such as `devices.arm.joints`, and its source.
 
-    Without PATH the sections are listed.
+    Without PATH, list the sections.
 
     \b
     cellc show cells/bench/cell.yaml devices.arm.joints

@@ -15,7 +15,7 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JOURNAL, JSON
 
 @click.command()
 @FOLDERS
-@click.option("--runs", default=1000, show_default=True, metavar="N", help="Runs of each rehearsal, at most.")
+@click.option("--runs", default=1000, show_default=True, metavar="N", help="Maximum number of runs of each rehearsal.")
 @REHEARSALS
 @JOURNAL
 @EVIDENCE
@@ -27,11 +27,11 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JOURNAL, JSON
 @limit_option
 @options_as(SweepOptions)
 def sweep(options: SweepOptions, folders: tuple[str, ...], matrix: tuple[str, ...]) -> None:
-    """Draw what is uncertain in the generated FOLDER, and print how often its rehearsals succeed.
+    """Draw the uncertain quantities of the generated FOLDER at random, and print how often its rehearsals succeed.
 
-    Rehearsals are those with an expected rate, or the first. It ends as soon as the verdict is certain; exit 1 where a
-    rate does not hold, or N runs do not decide it. Several folders, or one of several, give one table. With --matrix
-    cells are named instead, and each is built with each tuple for the time of the call.
+    Sweeps the rehearsals with an expected success rate, or the first one. Stops as soon as the verdict is certain. Exit
+    1 if a rate does not hold, or if N runs do not decide it. Several folders, or a folder of folders, give one table.
+    With --matrix name cells instead; each is built with each version tuple for this call.
 
     \b
     cellc sweep generated/bench --runs 10000 --journal sweep.jsonl

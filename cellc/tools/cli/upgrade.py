@@ -17,16 +17,17 @@ from cellc.tools.cli.limit_option import limit_option
     "target",
     required=True,
     type=click.Choice([distro.value for distro in Distro]),
-    help="The distribution to go to; an older one too.",
+    help="Target distribution; may be an older one.",
 )
-@click.option("--write", is_flag=True, help="Write the new pins into the spec; nothing else of it changes.")
+@click.option("--write", is_flag=True, help="Write the new pins into the spec and change nothing else.")
 @FORM
 @limit_option
 def upgrade(spec: str, target: str, write: bool, output_format: str) -> None:
-    """Tell what another distribution of ROS 2 would change in the cell of SPEC; exit 1 where anything would.
+    """Show what another ROS 2 distribution would change in the cell of SPEC; exit 1 if anything would change.
 
-    Pins with their sources, parameters that appear, vanish or change their default, names at the ROS graph, the
-    package as `cellc diff` tells it, and gates to pass again. What no matrix knows becomes UNKNOWN, with a question.
+    Lists pins with their sources, parameters that are added, removed or change their default, names in the ROS graph,
+    changes of the package as in `cellc diff`, and gates to repeat. A part that no matrix lists becomes UNKNOWN, with a
+    question.
 
     \b
     cellc upgrade cells/bench/cell.yaml --ros kilted

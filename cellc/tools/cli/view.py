@@ -32,7 +32,7 @@ _HEAD_BYTES = 200
 @click.command()
 @click.argument("folder", metavar="CELL", type=click.Path(path_type=str))
 @click.option(
-    "-o", "--output", type=click.Path(path_type=Path, dir_okay=False), help="Page to write; NAME.html if none."
+    "-o", "--output", type=click.Path(path_type=Path, dir_okay=False), help="Page to write; NAME.html by default."
 )
 @click.option(
     "--rehearsal",
@@ -40,16 +40,16 @@ _HEAD_BYTES = 200
     multiple=True,
     metavar="NAME",
     shell_complete=complete_rehearsal,
-    help="Play back only this one; may be given several times.",
+    help="Play back only this rehearsal; repeatable.",
 )
-@click.option("--against", metavar="OTHER", help="Also draw the poses of this spec, folder or git revision.")
-@click.option("--seed", default=0, show_default=True, help="Seed of planning and of seeded faults.")
+@click.option("--against", metavar="OTHER", help="Also draw the poses of this spec, folder or Git revision.")
+@click.option("--seed", default=0, show_default=True, help="Seed of planning and faults.")
 @limit_option
 def view(folder: str, output: Path | None, names: tuple[str, ...], against: str | None, seed: int) -> None:
-    """Write one HTML page of CELL, a spec or a generated folder: 3D, rehearsals played back, findings, gates.
+    """Write one HTML page of CELL, a spec or a generated folder: 3D view, played-back rehearsals, findings, gates.
 
-    The page needs nothing else, neither network nor server: it opens from a file, on a phone too, and prints. Of a spec
-    with errors, what can be linked is drawn, and the rest is listed; a URDF or xacro file is drawn as a robot alone.
+    The page is self-contained: it opens from a file without network or server, also on a phone, and prints. For a spec
+    with errors it draws the parts that link and lists the rest. A URDF or xacro file is drawn as a robot alone.
 
     \b
     cellc view cells/bench/cell.yaml                       writes bench.html

@@ -33,17 +33,17 @@ _SETTLED_S = 0.02
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILES...", type=click.Path(path_type=str))
-@click.option("--build", "builds", is_flag=True, help="Build each cell too, once no error is left.")
+@click.option("--build", "builds", is_flag=True, help="Also build each cell once it has no errors.")
 @OUTPUT
 @SELECT
 @IGNORE
 @limit_option
 def watch(files: tuple[str, ...], builds: bool, output: Path, select: tuple[str, ...], ignore: tuple[str, ...]) -> None:
-    """Check the cells in FILES, and again each that is changed, until Ctrl-C.
+    """Check the cells in FILES, and check a cell again each time one of its files is saved, until Ctrl-C.
 
-    A folder means every cell.yaml below it, and for those that come later. What a cell reads counts: included
-    files, devices, descriptions, meshes and measured files, those of its `packages` too. Other files do not. The
-    compiler stays loaded, so that an answer takes a fraction of a second.
+    A folder means every cell.yaml below it, new ones included. All files that a cell reads are watched: includes,
+    devices, descriptions, meshes, measured files and its `packages`. The compiler stays loaded, so an answer takes a
+    fraction of a second.
 
     \b
     cellc watch cells/bench/cell.yaml          check on save
