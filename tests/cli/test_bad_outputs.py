@@ -133,7 +133,7 @@ def test_import_does_not_replace_the_robot_that_it_reads(tmp_path: Path) -> None
     shutil.copy(CORPUS / "valid/parts/demo_arm/demo_arm.urdf", tmp_path / "robot.urdf")
     before = (tmp_path / "robot.urdf").read_bytes()
     ran = run("import", (tmp_path / "robot.urdf").as_posix(), "-o", tmp_path.as_posix())
-    assert_refused(ran, "robot.urdf` would be replaced by what is made of it")
+    assert_refused(ran, "robot.urdf` would be replaced by the output")
     assert (ran.code, everything_below(tmp_path)) == (2, ["robot.urdf"])
     assert (tmp_path / "robot.urdf").read_bytes() == before
 
@@ -203,7 +203,7 @@ def test_one_cell_named_twice_is_no_fault(tmp_path: Path) -> None:
     [
         (("init", "Bench", "ur5e"), "`Bench` is no package name"),
         (("init", "bench"), "name at least one model"),
-        (("init", "bench", "arm=ur5e", "arm=ur5e"), "two devices are called `arm`"),
+        (("init", "bench", "arm=ur5e", "arm=ur5e"), "two devices have the name `arm`"),
         (("init", "bench", "ur5e", "--ros", "foxy"), "foxy"),
         (("schema", "cel"), "there is no schema `cel`"),
         (("explain", ""), "there is no code"),

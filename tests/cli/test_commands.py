@@ -37,8 +37,8 @@ def test_build_sums_blockers_and_names_the_commands_that_tell_more(tmp_path: Pat
     ran = run("build", MINIMAL, "-o", str(tmp_path))
     assert ran.code == 0
     assert "blocker[" not in ran.out
-    assert "the real target stays closed: 3 controller-without-client, 3 unknown-version, 1 missing-approval" in ran.out
-    assert f"`cellc check {MINIMAL}` shows each, `cellc audit {MINIMAL}` asks the person who can answer" in ran.out
+    assert "not cleared for hardware: 3 controller-without-client, 3 unknown-version, 1 missing-approval" in ran.out
+    assert f"`cellc check {MINIMAL}` lists them, `cellc audit {MINIMAL}` names the person who can answer" in ran.out
 
 
 def test_build_that_an_error_stops_lists_its_blockers_too(tmp_path: Path) -> None:
@@ -47,7 +47,7 @@ def test_build_that_an_error_stops_lists_its_blockers_too(tmp_path: Path) -> Non
     ran = run("build", str(spec), "-o", str(tmp_path / "out"))
     assert ran.code == 1
     assert "error[" in ran.out
-    assert "stays closed" not in ran.out
+    assert "not cleared" not in ran.out
 
 
 def test_check_of_several_cells_reports_each() -> None:
@@ -206,7 +206,7 @@ def test_progress_of_many_runs_has_their_rate_and_what_is_left(done: int, second
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ("--live --evidence x", "--live does not go with --evidence."),
+        ("--live --evidence x", "--live cannot be combined with --evidence."),
         ("--speed 2", "--speed needs --live."),
         ("--listen 127.0.0.1:1", "--listen needs --live."),
         ("--live --speed 0", "--speed must be greater than 0, got 0.0."),

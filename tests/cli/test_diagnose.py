@@ -31,9 +31,9 @@ def test_unknown_symptom_is_told_with_the_layers_and_exit_code_1() -> None:
 def test_unknown_symptom_gets_the_nearest_with_the_word_that_none_fits() -> None:
     ran = run("diagnose", "the gripper smells of octopus")
     assert ran.code == 1
-    assert ran.out.startswith("UNKNOWN: no known symptom fits; the nearest, which may not be meant:\n")
+    assert ran.out.startswith("UNKNOWN: no known symptom fits; the nearest are:\n")
     assert "  tool and load: the gripper" in ran.out
-    assert "likeliest: " in ran.out
+    assert "most likely: " in ran.out
 
 
 def test_without_a_symptom_all_are_listed_under_their_layers() -> None:

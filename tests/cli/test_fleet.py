@@ -206,7 +206,7 @@ def test_the_mock_builds_cells_with_a_matrix_for_the_time_of_the_call(
 def test_what_is_about_one_folder_is_refused_for_many(command: str, option: str, built: Path) -> None:
     ran = run(command, built.as_posix(), option)
     assert ran.code == 2
-    assert f"{option.partition('=')[0]} is about one folder" in ran.err
+    assert f"{option.partition('=')[0]} needs exactly one folder" in ran.err
 
 
 def test_a_pattern_that_no_shell_has_replaced_stands_for_what_it_matches(cells: Path) -> None:

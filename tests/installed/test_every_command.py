@@ -49,7 +49,7 @@ CALLS = (
     (f"audit {SPEC}", 0, "Cell bench."),
     ("audit nothing.yaml", 1, NO_SPEC),
     ("catalog ur5e", 0, "# `ur5e`"),
-    ("catalog nothing_such", 1, "error: no device of the catalog answers all of that"),
+    ("catalog nothing_such", 1, "error: no device of the catalog meets all of these"),
     (f"compare {SPEC} {SPEC}", 0, "bench"),
     (f"compare {SPEC} nothing.yaml", 1, NO_SPEC),
     ("completion bash", 0, "complete -o nosort"),

@@ -47,7 +47,7 @@ def test_only_the_arm_whose_program_starts_with_old_set_points_jumps() -> None:
 def test_rates_and_silences_are_those_of_the_vendors() -> None:
     ur, franka = _row(_compared(), "timing").answers
     assert any("500 Hz" in text for text in ur)
-    assert any("slowed down as arm_speed_scaling/speed_scaling_factor says" in text for text in ur)
+    assert any("slowed down by arm_speed_scaling/speed_scaling_factor" in text for text in ur)
     assert any("1000 Hz" in text for text in franka)
     assert "arm: trajectories run as planned, or are aborted" in franka
 
@@ -67,14 +67,14 @@ def test_a_direct_library_takes_duties_back(tmp_path: Path) -> None:
     assert set(after) - set(before) == {
         "arm: the application knows the address 192.168.56.101; no graph shows it",
     }
-    assert "the application's own process has the deadline" in str(_row(compared, "servo deadline").answers[1])
+    assert "the application's own process must provide deadline" in str(_row(compared, "servo deadline").answers[1])
     assert _row(compared, "safety").same
 
 
 def test_what_all_answer_alike_stands_once() -> None:
     out = run("compare", spec_of("minimal").as_posix(), spec_of("minimal").as_posix()).out
     assert out.count("the same in all") == len(_CONTRACT) + len(_DUTIES)
-    assert out.count("common evidence: rate, jitter and missed cycles") == 1
+    assert out.count("common evidence: measured rate, jitter and missed cycles") == 1
 
 
 def test_each_row_of_the_tables_has_a_column_for_each_cell() -> None:

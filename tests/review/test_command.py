@@ -105,7 +105,7 @@ def test_json_is_what_its_schema_says() -> None:
         (("nowhere.yaml",), "there is no file or folder `nowhere.yaml`"),
         (("main..longer",), "expected a spec or a folder after `main..longer`"),
         (("nosuch..main", SMALL), "there is no revision `nosuch`"),
-        (("--", "-x..main", SMALL), "`-x` is no revision"),
+        (("--", "-x..main", SMALL), "`-x` is not a revision"),
         (("main:nowhere.yaml", SMALL), "revision `main` has no `nowhere.yaml`"),
         (("main", SMALL, SMALL), "expected one or two of spec, folder and revision, got 3"),
         (("/dev/null", SMALL), "/dev/null"),
@@ -133,4 +133,4 @@ def test_outside_of_a_repository_a_revision_is_refused(tmp_path: Path, monkeypat
     monkeypatch.setenv("GIT_CEILING_DIRECTORIES", "")
     ran = run("diff", "main..HEAD", "cell.yaml")
     assert ran.code == 2
-    assert "in no git repository that may be read" in ran.err
+    assert "not in a readable Git repository" in ran.err

@@ -47,10 +47,10 @@ def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
     sections: dict[str, str] = {
         "Joints": table(("joint", "type", "range", "velocity", "effort", "home"), _joints(entry)),
         "Frames": table(("name in a spec", "link", ""), _frames(model)),
-        "States": table(("state", "outputs that make it", "sensors that tell it", ""), _states(model)),
+        "States": table(("state", "outputs that set it", "sensors that report it", ""), _states(model)),
         "Packages": table(("part", "ROS 2", "versions", "source"), _versions(model)),
         "What it does": table(("moment", "what moves", "what happens", "source"), _effects(model)),
-        "Controllers of its own": table(("kind", "plugin"), _controllers(model)),
+        "Its own controllers": table(("kind", "plugin"), _controllers(model)),
         "Network": table(("port", "who opens it", "for"), _ports(model)),
         "Safety": "\n".join(_safety(model)) or "None.",
         "What the mock cannot prove": _list(model.mock_cannot_prove),

@@ -105,7 +105,7 @@ def _built(result: CellResult, output: Path, only_compare: bool, force: bool) ->
         if in_the_way := tuple(check_places(result.artifacts, folder)):  # nothing is shown of what a link leads to
             return _Built(replace(result, findings=result.findings.with_more(in_the_way), artifacts=None))
         differences = compare(result.artifacts, folder)
-        problem = f"`{folder.as_posix()}` is not what the cell makes" if differences else ""
+        problem = f"`{folder.as_posix()}` is out of date; run `cellc build`" if differences else ""
         return _Built(replace(result, artifacts=None), tuple(_differences(differences, folder)), problem)
     findings, report = written(result.findings, result.artifacts, folder, force)
     messages = () if report is None else (summary_of(report, folder),)
@@ -140,7 +140,7 @@ def summary_of(report: WriteReport, folder: Path) -> str:
 
 def _differences(differences: tuple[Difference, ...], folder: Path) -> list[Line]:
     if not differences:
-        return [f"{folder.as_posix()}: as the cell makes it"]
+        return [f"{folder.as_posix()}: up to date"]
     if not folder.is_dir():
-        return [f"{folder.as_posix()}: there is no such folder; `cellc build` without `--check` writes it"]
+        return [f"{folder.as_posix()}: no such folder; run `cellc build`"]
     return [line for difference in differences for line in render_difference(difference, folder)]

@@ -39,5 +39,5 @@ def campaign(options: CampaignOptions, list_only: bool) -> None:
     kept = {"--evidence": options.evidence, "--records": options.records}
     written = next((option for option, path in kept.items() if path is not None), "")
     if list_only and written:
-        raise click.UsageError(f"{written} does not go with --list, which runs nothing.")
+        raise click.UsageError(f"{written} cannot be combined with --list.")
     raise click.exceptions.Exit(list_runs(options) if list_only else run_campaign(options))

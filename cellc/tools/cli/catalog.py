@@ -57,7 +57,7 @@ def catalog(
     cellc catalog --kind arm --reach "900 mm" --payload "5 kg" --ros jazzy
     """
     if (output is not None) != everything:
-        raise click.UsageError("--all and --output belong together: they write the pages of every device.")
+        raise click.UsageError("--all and --output must be given together; they write the pages of every device.")
     # Pages load what draws.
     from cellc.tools.browse.page import page, pages
 
@@ -72,6 +72,6 @@ def catalog(
         return
     matching = found(Wanted(words=words, kind=kind, reach_m=reach, payload_kg=payload, distro=ros))
     if not matching:
-        refuse("no device of the catalog answers all of that: ask for less, or bring your own with `cellc import`")
+        refuse("no device of the catalog meets all of these; relax one, or add your own device with `cellc import`")
         raise click.exceptions.Exit(1)
     show(*listed(matching))

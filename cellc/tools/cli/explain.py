@@ -33,7 +33,7 @@ def explain(code: str | None, everything: bool, output: Path | None) -> None:
     codes = all_codes()
     if output is not None:
         if not everything:
-            raise click.UsageError("--output writes the pages of all codes: give --all too")
+            raise click.UsageError("--output writes the pages of all codes; add --all")
         write_pages(output, render_handbook())
         show(f"wrote {output.as_posix()}")
     elif everything:

@@ -75,7 +75,7 @@ def fan_options(command: Callable[..., None]) -> Callable[..., None]:
     @wraps(command)
     def within(jobs: int | None, cluster: str | None, **others: Any) -> None:
         if jobs is not None and cluster is not None:
-            raise click.UsageError("--jobs does not go with --cluster, whose workers are all taken.")
+            raise click.UsageError("--jobs cannot be combined with --cluster, which uses all its workers.")
         command(fan=Fan(jobs, cluster), **others)
 
     return within
@@ -90,7 +90,7 @@ def fleet_options(command: Callable[..., None]) -> Callable[..., None]:
     @wraps(command)
     def within(matrix: tuple[str, ...], fan: Fan, as_json: bool, **others: Any) -> None:
         if as_json and others.get("output_format", "text") != "text":
-            raise click.UsageError("--json does not go with --format.")
+            raise click.UsageError("--json cannot be combined with --format.")
         command(fleet=FleetOptions(read_matrix(matrix), fan, as_json), **others)
 
     return within
@@ -158,7 +158,7 @@ _OF_ONE_FOLDER = {
 
 
 def refuse_for_many(options: FolderOptions) -> None:
-    """Raise UsageError for the first option that was given, each of which is about one folder."""
+    """Raise UsageError for the first option that was given, each of which needs exactly one folder."""
     for name, option in _OF_ONE_FOLDER.items():
         if getattr(options, name, None):
-            raise click.UsageError(f"{option} is about one folder.")
+            raise click.UsageError(f"{option} needs exactly one folder.")

@@ -96,9 +96,7 @@ def import_(
 
     folder = output or Path(model_name(robot_read))
     if (folder / DESCRIPTION).exists() and (folder / DESCRIPTION).samefile(robot_read.file):
-        raise click.UsageError(
-            f"`{robot_read.file.as_posix()}` would be replaced by what is made of it: name another folder"
-        )
+        raise click.UsageError(f"`{robot_read.file.as_posix()}` would be replaced by the output; name another folder")
     semantic = srdf or semantic_file(robot_read.file, robot_read.description.name)
     joints = [joint.name for joint in role.chain.joints]
     moved = controllers_near(robot_read.file, joints) if controllers is None else read_controllers(controllers, joints)
@@ -117,7 +115,7 @@ def import_(
     show(*role.lines())
     _tell_kept(folder, import_report)
     _stop_at_errors(import_report.checked)
-    show(f"open questions stand at the head of {folder.as_posix()}/device.yaml")
+    show(f"open questions are at the top of {folder.as_posix()}/device.yaml")
     if with_cell:
         beside = packages_elsewhere(robot_read, folder)
         _write_cell(folder, FirstCell(role, import_report.away, moved, ros, beside))
@@ -135,13 +133,11 @@ def _tell_kept(folder: Path, written: Written) -> None:
     from cellc.tools.importing.folder import LOCK
 
     if written.kept:
-        changed = (
-            f"kept, with what the vendor changed: {', '.join(written.changed)}" if written.changed else "as it was"
-        )
+        changed = f"kept, with changes of the vendor: {', '.join(written.changed)}" if written.changed else "unchanged"
         show(f"{folder.as_posix()}/device.yaml is {changed}")
     if written.lost:
         show(
-            f"{folder.as_posix()}/{LOCK} was damaged: device.yaml has nothing of what the vendor changed since; "
+            f"{folder.as_posix()}/{LOCK} was damaged: device.yaml lacks later changes of the vendor; "
             "compare it by hand, or remove device.yaml and import again"
         )
 
@@ -194,7 +190,7 @@ def _tell_changes(folder: Path) -> None:
     show(*(f"changed: {name}" for name in changed))
     if changed:
         raise click.exceptions.Exit(1)
-    show(f"{folder.as_posix()} is as it was imported")
+    show(f"{folder.as_posix()} is unchanged since its import")
 
 
 def _write_cell(folder: Path, first: FirstCell) -> None:
@@ -204,7 +200,7 @@ def _write_cell(folder: Path, first: FirstCell) -> None:
 
     file, name = folder.parent / SPEC_FILE, f"{folder.name}_cell"
     if file.exists() or file.is_symlink():  # one that leads nowhere is kept too
-        show(f"kept {file.as_posix()} as it was")
+        show(f"kept {file.as_posix()} unchanged")
     else:
         write_whole(file, cell_text(name, f"./{folder.name}", first))
         show(f"wrote {file.as_posix()}")

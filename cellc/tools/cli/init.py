@@ -92,7 +92,7 @@ def _named(devices: tuple[str, ...], beside: Path) -> dict[str, NamedDevice]:
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
             raise click.UsageError(f"`{name}` is no device name: use letters, digits and underscores")
         if name in entries:
-            raise click.UsageError(f"two devices are called `{name}`: name them apart, such as `{name}_2={model}`")
+            raise click.UsageError(f"two devices have the name `{name}`: name them apart, such as `{name}_2={model}`")
         entries[name] = device
     return entries
 

@@ -36,13 +36,13 @@ def replay(options: ReplayOptions) -> None:
     """
     swept = [run.startswith(SWEPT) for run in options.runs]
     if any(swept) and not all(swept):
-        raise click.UsageError("runs of a sweep do not go with runs of the campaign.")
+        raise click.UsageError("runs of a sweep cannot be combined with runs of the campaign.")
     of_sweep = {"--rehearsal": options.rehearsal, "--journal": options.journal}
     needless = next((option for option, given in of_sweep.items() if given is not None and not swept[0]), "")
     if needless:
         raise click.UsageError(f"{needless} needs a run of a sweep, `{SWEPT}NUMBER`.")
     if options.records is not None and swept[0]:
-        raise click.UsageError("--records does not go with a run of a sweep.")
+        raise click.UsageError("--records cannot be combined with a run of a sweep.")
     if swept[0]:
         from cellc.mock.command.sweep import replay_swept
 

@@ -76,9 +76,7 @@ def live_options(command: Command) -> Command:
     """Add the options that show rehearsals in Foxglove; they come as one argument, ``live``."""
 
     @click.option("--live", is_flag=True, help="Show the rehearsals in Foxglove in real time.")
-    @click.option(
-        "--listen", metavar="HOST:PORT", help="With --live: address for Foxglove; 127.0.0.1:8765 by default."
-    )
+    @click.option("--listen", metavar="HOST:PORT", help="With --live: address for Foxglove; 127.0.0.1:8765 by default.")
     @click.option("--speed", type=float, metavar="X", help="With --live: play back at X times real time.")
     @wraps(command)
     def within(live: bool, listen: str | None, speed: float | None, **others: Any) -> None:
@@ -86,7 +84,7 @@ def live_options(command: Command) -> Command:
         if needless and not live:
             raise click.UsageError(f"{needless[0]} needs --live.")
         if live and others["evidence"] is not None:
-            raise click.UsageError("--live does not go with --evidence.")
+            raise click.UsageError("--live cannot be combined with --evidence.")
         if speed is not None and not speed > 0.0:
             raise click.UsageError(f"--speed must be greater than 0, got {speed}.")
         command(live=Live(listen or "127.0.0.1:8765", speed or 1.0) if live else None, **others)

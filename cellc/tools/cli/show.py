@@ -44,7 +44,7 @@ def _at(tree: Tree, path: str) -> Tree:
     rest = f"managers.{path}" if path.partition(".")[0] == "control" else path
     while rest:
         if isinstance(tree, Leaf):
-            raise click.UsageError(f"`{path}` goes on below a value; there is nothing at `{rest}`")
+            raise click.UsageError(f"`{path}` leads below a value; there is nothing at `{rest}`")
         keys = [key for key in tree if rest == key or rest.startswith(f"{key}.")]
         if not keys:
             wanted = rest.partition(".")[0]

@@ -70,17 +70,17 @@ def _start(cell: Cell) -> Iterator[str]:
         state = f", starts {device.control.startup_state}" if is_loaded else ""
         yield f"{device.name}: {real_driver(device)}{state}"
         if program is not None:
-            yield f"{device.name}: its program is played by {program.played_by}, {program.mode}"
+            yield f"{device.name}: its program is started by {program.played_by}, {program.mode}"
         effects = {} if hardware is None else hardware.effects
         for moment, effect in effects.items():
             if effect.motion is not Motion.NONE or effect.authority is CommandAuthority.TAKEN:
                 yield f"{device.name}: {moment.value}: {_effect(effect)}"
         if device.control.unknown_effects:
-            yield f"{device.name}: not stated what {' and '.join(device.control.unknown_effects)} does"
+            yield f"{device.name}: not stated: what {' and '.join(device.control.unknown_effects)} does"
 
 
 def _effect(effect: Effect) -> str:
-    moves = {Motion.NONE: "nothing moves", Motion.UNKNOWN: "UNKNOWN what moves"}.get(effect.motion, effect.motion.value)
+    moves = {Motion.NONE: "nothing moves", Motion.UNKNOWN: "UNKNOWN motion"}.get(effect.motion, effect.motion.value)
     taken = ", takes command" if effect.authority is CommandAuthority.TAKEN else ""
     return f"{moves}{taken}: {effect.does}"
 
@@ -88,23 +88,23 @@ def _effect(effect: Effect) -> str:
 def _timing(cell: Cell) -> Iterator[str]:
     for manager in cell.managers:
         host = cell.hosts.get(manager.host)
-        where = "a computer of no name" if host is None else f"{manager.host} ({host.scheduling})"
+        where = "an unnamed computer" if host is None else f"{manager.host} ({host.scheduling})"
         yield f"{manager.node}: {shortest(manager.update_rate_hz)} Hz on {where}"
     for adapted in cell.adapters:
         period, timeout = shortest(adapted.command_period_s), shortest(adapted.command_timeout_s)
-        yield f"{adapted.device}: its adapter sends every {period} s, and stops after {timeout} s without a command"
+        yield f"{adapted.device}: its adapter sends every {period} s, and stops after {timeout} s without commands"
     for device in _moving(cell):
         if device.control.hardware is not None and device.control.hardware.command_timeout_s is not None:
             timeout = shortest(device.control.hardware.command_timeout_s)
-            yield f"{device.name}: ends what it does after {timeout} s without a command"
+            yield f"{device.name}: stops its motion after {timeout} s without commands"
         if device.site.network is not None:
-            link = "a link of its own" if device.site.network.dedicated_link else "any link"
+            link = "a dedicated link" if device.site.network.dedicated_link else "any link"
             yield f"{device.name}: {link}, real-time kernel {device.site.network.realtime.replace('_', ' ')}"
         if device.kind == "arm":
             scaled = (
-                f"slowed down as {device.control.speed_scaling} says"
+                f"slowed down by {device.control.speed_scaling}"
                 if device.control.speed_scaling
-                else "as planned, or are aborted"
+                else "as planned or are aborted"
             )
             yield f"{device.name}: trajectories run {scaled}"
 
@@ -135,9 +135,9 @@ def _mock_limit(cell: Cell) -> Iterator[str]:
 
 
 _MOTION = (
-    ("start command", _start, "a diagram of the states, as they were seen"),
-    ("timing", _timing, "rate, jitter and missed cycles, as measured"),
-    ("safety", _safety, "a procedure for enabling, stop and recovery, and who signed it"),
+    ("start command", _start, "an observed state diagram"),
+    ("timing", _timing, "measured rate, jitter and missed cycles"),
+    ("safety", _safety, "a signed procedure for enabling, stop and recovery"),
     ("versions", _versions, "the same tuple on every machine"),
     ("what the mock cannot prove", _mock_limit, "a list of untested physics and safety"),
 )
@@ -165,7 +165,7 @@ def _records(cell: Cell) -> Iterator[str]:
     yield f"clocks {', '.join(clocks) or _NOT_STATED}; {len(cell.recording.attempt_fields)} fields of every attempt"
     for device in _moving(cell):
         if device.architecture != "ros2":
-            yield f"{device.name}: what its own loop sees is in no bag; only its library can log it"
+            yield f"{device.name}: no bag has the data of its own loop; only its library can log it"
     yield f"owner {cell.owners.responsibilities.logging}"
 
 
@@ -183,7 +183,7 @@ def _ownership(cell: Cell) -> Iterator[str]:
 def _servo(cell: Cell) -> Iterator[str]:
     driven = {device.name for device in _driven(cell)}
     for device in _moving(cell):
-        loop = "its own node has the deadline" if device.name in driven else _LOOP[device.architecture]
+        loop = "its own node must meet the deadline" if device.name in driven else _LOOP[device.architecture]
         yield f"{device.name} ({device.architecture}): {loop}"
     for controller in _commanding(cell):
         yield f"{controller.label}: watchdog: {watchdog(cell, controller)}"
@@ -191,9 +191,9 @@ def _servo(cell: Cell) -> Iterator[str]:
 
 
 _LOOP = {
-    "ros2": "every command crosses the controller manager; its deadline is met by the computer, or missed",
-    "direct_sdk": "the application's own process has the deadline, the watchdog and the stop",
-    "hybrid": "the vendor's loop has the deadline; ROS 2 sends goals and reads states",
+    "ros2": "every command passes the controller manager; the computer meets its deadline or misses it",
+    "direct_sdk": "the application's own process must provide deadline, watchdog and stop",
+    "hybrid": "the vendor's loop must meet the deadline; ROS 2 sends goals and reads states",
 }
 
 
@@ -218,11 +218,19 @@ def _driven(cell: Cell) -> Iterator[Device]:
 
 
 _DUTIES = (
-    ("discovery and types", _discovery, "ROS 2 has graph and types; a direct SDK has what the application configures"),
-    ("frames", _frames, "ROS 2 has TF and stamps; a direct SDK has a library of its own; one authority either way"),
-    ("time and records", _records, "ROS 2 has clocks, bags and diagnostics; a direct SDK has a logger of its own"),
-    ("command ownership", _ownership, "ROS 2 has claims and actions; a direct SDK has a state machine of its own"),
-    ("servo deadline", _servo, "neither is automatic: it is measured, in the vendor's loop or in a qualified one"),
-    ("safety", _boundary, "the robot's and the cell's authority, on a path of its own, by every architecture"),
+    (
+        "discovery and types",
+        _discovery,
+        "ROS 2 has a graph and types; a direct SDK has the configuration of the application",
+    ),
+    ("frames", _frames, "ROS 2 has TF and stamps; a direct SDK has its own library; both need one authority"),
+    ("time and records", _records, "ROS 2 has clocks, bags and diagnostics; a direct SDK has its own logger"),
+    ("command ownership", _ownership, "ROS 2 has claims and actions; a direct SDK has its own state machine"),
+    (
+        "servo deadline",
+        _servo,
+        "neither is real-time by itself; measure it, in the vendor's loop or in a qualified one",
+    ),
+    ("safety", _boundary, "authority of the robot and the cell, on a separate path, in every architecture"),
 )
 """Duty, who has it in the cell, and what the architectures bring."""

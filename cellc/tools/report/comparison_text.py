@@ -23,8 +23,8 @@ def render_comparison(compared: Comparison, columns: int) -> Iterator[Line]:
 
 
 def _parts(compared: Comparison) -> Iterator[tuple[str, Sequence[Row], str]]:
-    yield "What motion rests on", compared.motion, "common evidence"
-    yield "Who has which duty", compared.duties, "by architecture"
+    yield "Motion contracts", compared.motion, "common evidence"
+    yield "Duties", compared.duties, "by architecture"
 
 
 def _answers(cells: Sequence[str], row: Row, columns: int) -> Iterator[Line]:

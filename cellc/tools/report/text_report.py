@@ -105,8 +105,8 @@ def summed_blockers(diagnostics: Iterable[Diagnostic], file: str) -> list[Line]:
     codes = ", ".join(f"{number} {code}" for code, number in sorted(by_code.items(), key=lambda one: (-one[1], one[0])))
     command = shlex.quote(file)
     return [
-        f"the real target stays closed: {codes}",
-        f"`cellc check {command}` shows each, `cellc audit {command}` asks the person who can answer",
+        f"not cleared for hardware: {codes}",
+        f"`cellc check {command}` lists them, `cellc audit {command}` names the person who can answer",
     ]
 
 
@@ -133,7 +133,7 @@ _WHY = {
     "missing": "is missing",
     "outdated": "is from an earlier build",
     "edited": "was edited by hand",
-    "unexpected": "is no longer made by the cell",
+    "unexpected": "is no longer part of the cell",
 }
 
 
@@ -168,26 +168,24 @@ def render_symptoms(layers: Sequence[LayerKnowledge]) -> list[Line]:
     return [
         *shown[1:],
         "",
-        f'{number} symptoms; `cellc diagnose "{example}" cell.yaml` tells the causes of one',
+        f'{number} symptoms; `cellc diagnose "{example}" cell.yaml` lists the causes of one',
     ]
 
 
 def render_nearest(nearest: Sequence[Suspicion], layers: Sequence[str]) -> list[Line]:
     """Return that nothing fits, and what is nearest, each with its likeliest cause."""
-    shown: list[Line] = [
-        "UNKNOWN: no known symptom fits" + ("; the nearest, which may not be meant:" if nearest else "")
-    ]
+    shown: list[Line] = ["UNKNOWN: no known symptom fits" + ("; the nearest are:" if nearest else "")]
     for suspicion in nearest:
         shown.append(("  ", Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD)))
-        shown.append(f"    likeliest: {suspicion.causes[0].text}")
-    shown.append("say it in other words or paste a line of the log; `cellc diagnose` alone lists every symptom")
+        shown.append(f"    most likely: {suspicion.causes[0].text}")
+    shown.append("use other words or paste a line of the log; `cellc diagnose` alone lists every symptom")
     return [*shown, f"rule out in this order: {', '.join(layers)}"]
 
 
 def _suspicion(suspicion: Suspicion) -> Iterator[Line]:
     yield (Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD),)
     if suspicion.evidence:
-        yield f"  the line names: {', '.join(suspicion.evidence)}"
+        yield f"  named in the line: {', '.join(suspicion.evidence)}"
     for name in suspicion.unknown:
         yield f"  {name} is not part of this cell"
     for number, cause in enumerate(suspicion.causes, 1):
@@ -204,4 +202,4 @@ def _cause(number: int, cause: Cause) -> Iterator[Line]:
         yield "     ", Styled(mark, Style.BLUE), f" {step.action}"
         yield "       ", Styled("ruled out if", Style.GREEN), f" {step.refuted}"
     if cause.omitted:
-        yield f"     and the same for {cause.omitted} more; name one in the symptom to see it alone"
+        yield f"     likewise for {cause.omitted} more; name one in the symptom to see it alone"

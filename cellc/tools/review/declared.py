@@ -93,9 +93,7 @@ def _changes(one: Declaration, before: Distro, after: Distro) -> Iterator[Upgrad
 
 def _vanished(one: Declaration, name: str, was: ParameterFacts, after: Distro) -> UpgradeParameter:
     by_hand = any(is_named(name, given) for given in one.written)
-    question = (
-        f"`{name}` of {_names(one)}: {after} ignores it without a word, and the spec writes it" if by_hand else ""
-    )
+    question = f"`{name}` of {_names(one)}: {after} ignores it silently, and the spec states it" if by_hand else ""
     return _change(one, name, "vanishes", "", _shown(was.default), None, question)
 
 
@@ -105,7 +103,7 @@ def _differing(
     if was.default != now.default:
         sides = _shown(was.default), _shown(now.default)
         question = (
-            f"`{name}` of {_names(one)}: its default goes from {sides[0]} to {sides[1]}, and the cell states none"
+            f"`{name}` of {_names(one)}: its default changes from {sides[0]} to {sides[1]}, and the cell states none"
         )
         yield _change(one, name, "changes", "default", *sides, question if _counts(one, name) else "")
     for key, what in _BESIDE_DEFAULT.items():

@@ -70,7 +70,7 @@ def check_with(file: str, wanted: Mapping[str, str]) -> Checked:
     for part, text in wanted.items():
         path = ("versions", part)
         if not cell.states(*path):
-            raise UpgradeError(f"{file}: `versions.{part}` must be written to be replaced; UNKNOWN is enough")
+            raise UpgradeError(f"{file}: `versions.{part}` must be in the spec to be replaced; UNKNOWN is enough")
         texts[Pin(cell.name, part, cell.text(*path), path)] = _whole(part, text, facts)
     _, moved = edited_check(file, cell, document.value.texts, tuple(texts.items()))
     return moved or check(file)
@@ -130,7 +130,7 @@ def _edits(cell: Cell, pins: Sequence[tuple[Pin, str]], texts: Mapping[str, str]
         if span.line != span.end_line:
             raise UpgradeError(f"{span}: `{pin.part}` spans several lines; write it in one")
         if taken.setdefault(place, text) != text:
-            raise UpgradeError(f"{span}: one text pins several parts, which become different ones; write each out")
+            raise UpgradeError(f"{span}: one text pins several parts that get different versions; write each out")
         said = f"`{pin.part}` of `{pin.holder}`: `{pin.text}` becomes `{text}`"
         yield Edit(*place, span.end_column, _as_yaml(text, _written(span, texts[span.file].split("\n"))), said)
 

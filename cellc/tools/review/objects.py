@@ -142,7 +142,7 @@ class Objects:
             _, _, size = answer[at : max(start - 1, at)].rpartition(b" ")
             content = answer[start : start + int(size)] if start and size.isdigit() else b""
             if _identity(kind, content, identity) != identity:
-                raise RevisionError(f"the repository does not hold {kind} {identity} as its id says")
+                raise RevisionError(f"the repository has a damaged {kind} {identity}")
             read.append(content)
             at = start + len(content) + 1
         return read
@@ -173,7 +173,7 @@ def objects_of(folder: Path) -> Objects:
             return objects
     objects = _opened(tops[0]) if tops else None
     if objects is None:
-        raise RevisionError(f"`{shown}` is in no git repository that may be read")
+        raise RevisionError(f"`{shown}` is not in a readable Git repository")
     return objects
 
 
@@ -235,7 +235,7 @@ def _asked(folder: Path, *arguments: str, given: bytes = b"", ceiling: Path | No
             timeout=_PATIENCE_S,
         )
     except FileNotFoundError:
-        raise RevisionError("git is not installed, which reads revisions") from None
+        raise RevisionError("revisions need git, which is not installed") from None
     except subprocess.TimeoutExpired:
         raise RevisionError(f"git must answer within {_PATIENCE_S} s; look for a pipe below `.git`") from None
     except (OSError, ValueError):  # ValueError: a zero character in an argument

@@ -39,7 +39,7 @@ class Repository:
             RevisionError: no commit has that name.
         """
         if not revision or revision.startswith("-"):
-            raise RevisionError(f"`{revision}` is no revision")
+            raise RevisionError(f"`{revision}` is not a revision")
         identity = self.objects.ask("rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
         if identity is None:
             raise RevisionError(f"there is no revision `{revision}`")

@@ -16,7 +16,7 @@ _A = ReviewArea
 _LIMIT = "the joint may move further or faster than people at the cell expect"
 _STALE = "older data may be used, or a failure goes unseen for longer"
 _PLANNED = "planned motion changes"
-_BURNS = "a tool that takes less is destroyed"
+_BURNS = "a tool with a lower rating is destroyed"
 _MEET = "arms may meet in it"
 _OTHER = "another device may answer at this address"
 _SECOND = "another client commands the joints"
@@ -31,7 +31,7 @@ ROWS: Sequence[Row] = (
     Row("spec safety stop {what}", _A.SAFETY, "the stop", Rule.DANGEROUS, ordered=False),
     Row("spec safety recovery {what}", _A.SAFETY, "recovery", Rule.DANGEROUS, ordered=False),
     Row("area {area} size", _A.SAFETY, "size of the shared area", Rule.DANGEROUS, "m", why=_MEET),
-    Row("area {area} transform_to_parent", _A.SAFETY, "place of the shared area", Rule.DANGEROUS, why=_MEET),
+    Row("area {area} transform_to_parent", _A.SAFETY, "pose of the shared area", Rule.DANGEROUS, why=_MEET),
     Row("area {area} granted_by", _A.SAFETY, "who grants access", Rule.DANGEROUS, why=_MEET),
     Row("area {area} {what}", _A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET),
     Row("contract approvals safety", _A.SAFETY, "approver of safety changes", Rule.DANGEROUS),
@@ -50,7 +50,7 @@ ROWS: Sequence[Row] = (
     Row("mounted {device}", _A.CALIBRATION, "date of mounting", Rule.REVIEW),
     Row("contract root_frame", _A.FRAMES, "root of the tree", Rule.DANGEROUS, breaking=True),
     Row("contract frames {frame} parent", _A.FRAMES, "parent", Rule.REVIEW, breaking=True),
-    Row("contract frames {frame} authority", _A.FRAMES, "publisher", Rule.DANGEROUS, why="another node places it"),
+    Row("contract frames {frame} authority", _A.FRAMES, "publisher", Rule.DANGEROUS, why="another node publishes it"),
     Row("contract frames {frame} calibration", _A.CALIBRATION, "calibration of the frame", Rule.NAMED),
     Row("contract frames {frame} rate_hz", _A.FRAMES, "rate", Rule.REVIEW, "Hz"),
     Row("contract frames {frame} buffer_s", _A.FRAMES, "buffered history", Rule.REVIEW, "s"),

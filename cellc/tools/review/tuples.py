@@ -110,9 +110,9 @@ def _question(before: Judgment, after: Judgment, target: Distro) -> str:
     if after.answer is Answer.OK or not pin.known or after.built_from:
         return ""
     if text == UNKNOWN:
-        return f"{what}: no matrix names what goes with {target}; `{pin.text}` was pinned before"
+        return f"{what}: no matrix lists a version for {target}; `{pin.text}` was pinned before"
     if after.answer is Answer.INCOMPATIBLE:
-        return f"{what}: `{text}` does not go with {target}: {after.evidence}"
+        return f"{what}: `{text}` is not compatible with {target}: {after.evidence}"
     if text != pin.text or pin.part in PACKAGED:
-        return f"{what}: whether `{text}` goes with {target} no matrix says: {after.evidence}"
+        return f"{what}: no matrix says whether `{text}` is compatible with {target}: {after.evidence}"
     return ""

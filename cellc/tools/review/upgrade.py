@@ -129,7 +129,7 @@ def _rollback(cell: Cell, moves: Sequence[PinMove]) -> str:
     known = UNKNOWN not in (cell.versions.rollback.image, cell.versions.rollback.configuration)
     if known or all(move.text == move.pin.text for move in moves):
         return ""
-    return "`rollback`: which image and configuration does the cell go back to? Those of now are named nowhere"
+    return "`rollback`: to which image and configuration does the cell roll back? The spec names neither"
 
 
 def _given(facts: Facts) -> NodeParameters:

@@ -20,7 +20,7 @@ def render_upgrade(upgrade: Upgrade) -> Iterator[Line]:
     yield summed_up(upgrade)
     yield from (f"{upgrade.after}  {fact}" for fact in upgrade.facts)
     yield from _section("to decide", upgrade.questions, Style.YELLOW)
-    yield from finding_lines("errors of the check on it, so that no package is compared", upgrade.errors)
+    yield from finding_lines("errors of the check, so no package is compared", upgrade.errors)
     yield ""
     yield "version tuple"
     for pin in upgrade.pins:
@@ -44,7 +44,7 @@ def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
     head = [f"### {as_code(summed_up(upgrade))}", "", *(f"- {as_code(fact)}" for fact in upgrade.facts), ""]
     head += folded("To decide", map(as_code, upgrade.questions), is_open=True)
     errors = (f"{as_code(finding.code)}: {as_code(finding.message)}" for finding in upgrade.errors)
-    head += folded("Errors of the check on it", errors, is_open=True)
+    head += folded("Errors of the check", errors, is_open=True)
     pins = (f"{as_code(_moved(pin))} {pin.answer}: {as_code(pin.evidence)}" for pin in upgrade.pins)
     head += folded("Version tuple", pins, is_open=True)
     head += folded("Declared parameters", (as_code(parameter_line(row)) for row in _alike(upgrade.parameters)))

@@ -74,12 +74,12 @@ def test_unknown_run_names_the_nearest(folders: dict[str, Path]) -> None:
     ("arguments", "words"),
     [
         (["--jobs", "0"], "'--jobs': 0 is not in the range"),
-        (["--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs does not go with --cluster"),
+        (["--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs cannot be combined with --cluster"),
         (["--pairs", "-1"], "the number of pairs is -1; it must be 0 or greater"),
         (["--seed", "-1"], "the seed is -1; it must be 0 or greater"),
         (["--rehearsal", "ready"], "No such option"),
-        (["--list", "--evidence", "nowhere"], "--evidence does not go with --list, which runs nothing"),
-        (["--list", "--records", "all.jsonl"], "--records does not go with --list, which runs nothing"),
+        (["--list", "--evidence", "nowhere"], "--evidence cannot be combined with --list"),
+        (["--list", "--records", "all.jsonl"], "--records cannot be combined with --list"),
     ],
 )
 def test_unusable_options_are_refused(folders: dict[str, Path], arguments: list[str], words: str) -> None:

@@ -67,14 +67,14 @@ def test_several_folders_are_swept_into_one_table(nest_folder: Path) -> None:
         (["gates", "--journal", "runs.jsonl"], "--journal needs --sweep"),
         (["replay", "ready/delay:arm@1", "--journal", "x"], "--journal needs a run of a sweep, `sweep:NUMBER`"),
         (["replay", "ready/delay:arm@1", "--rehearsal", "x"], "--rehearsal needs a run of a sweep"),
-        (["replay", "ready/delay:arm@1", "sweep:1"], "runs of a sweep do not go with runs of the campaign"),
-        (["replay", "sweep:1", "--records", "x"], "--records does not go with a run of a sweep"),
+        (["replay", "ready/delay:arm@1", "sweep:1"], "runs of a sweep cannot be combined with runs of the campaign"),
+        (["replay", "sweep:1", "--records", "x"], "--records cannot be combined with a run of a sweep"),
         (["sweep"], "the folder has no `config/uncertainty.json`; write `uncertainty: {}` in the spec"),
         (["replay", "sweep:x"], "the folder has no `config/uncertainty.json`"),
         (["sweep", "--runs", "1000001"], "at most 1000000"),
         (["sweep", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
         (["replay", "sweep:1", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
-        (["sweep", "--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs does not go with --cluster"),
+        (["sweep", "--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs cannot be combined with --cluster"),
     ],
 )
 def test_what_cannot_be_swept_is_refused(arguments: list[str], words: str) -> None:
