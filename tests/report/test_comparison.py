@@ -49,7 +49,7 @@ def test_rates_and_silences_are_those_of_the_vendors() -> None:
     assert any("500 Hz" in text for text in ur)
     assert any("slowed down by arm_speed_scaling/speed_scaling_factor" in text for text in ur)
     assert any("1000 Hz" in text for text in franka)
-    assert "arm: trajectories run as planned, or are aborted" in franka
+    assert "arm: trajectories run as planned or are aborted" in franka
 
 
 def test_what_a_node_moves_past_the_controllers_is_claimed_by_none() -> None:

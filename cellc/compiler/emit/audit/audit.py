@@ -94,7 +94,7 @@ def responsibilities(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 def ending(cell: Cell) -> Iterator[str]:
     """Yield the steps from motion to power-off; a device is ended before the one that carries it."""
-    yield "Make sure that no part is held. Nothing and no person may be below a tool or a part that may fall."
+    yield "Make sure that no part is held. Keep people and objects out from under any tool or part that may fall."
     if motion_clients(cell):
         yield "Stop move.launch.xml on every computer, which stops all motion clients"
     joints = {joint.name for device in cell.devices for joint in device.joints}
