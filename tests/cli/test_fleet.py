@@ -112,7 +112,7 @@ def test_parts_are_combined_each_with_each_and_what_a_spec_does_not_write_is_tol
         ("jazzy", "ubuntu 22.04", "2.12.4"),
     ]
     assert {row["problem"].partition(": ")[2] for row in _rows(ran)} == {
-        "`versions.moveit` must be written to be replaced; UNKNOWN is enough"
+        "`versions.moveit` must be in the spec to be replaced; UNKNOWN is enough"
     }
 
 
