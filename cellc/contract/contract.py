@@ -10,6 +10,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel, ContractPose
+from cellc.contract.control_law import ControlLaw
 from cellc.contract.entities import TARGETS, ContractInterface, Kpis, Target
 from cellc.contract.file_names import BesidePath, CellName, InnerPath
 from cellc.contract.quantities import (
@@ -194,6 +195,9 @@ class ContractDevice(ContractModel):
     gripper: ContractGripper | None = Field(None, description="What a gripper adds.")
     camera: ContractCamera | None = Field(None, description="What a camera adds.")
     switched: ContractSwitched | None = Field(None, description="What a device that outputs switch adds.")
+    law: ControlLaw | None = Field(
+        None, description="How its real joints follow commands; null where nothing moves it on a path."
+    )
     effects: dict[Moment, ContractEffect] = Field(
         {}, description="What its real hardware does as it is activated and claimed, and as its program starts."
     )

@@ -229,6 +229,34 @@ class Unmet(Term):
     UNKNOWN = "unknown"
 
 
+class Loop(Term):
+    """What holds the joints of a real device at what they are commanded."""
+
+    POSITION = "position"
+    """A position loop of the device's own, whatever the joints carry."""
+    SPRING = "spring"
+    """A torque for each rad from the command: a load moves the joint."""
+    UNKNOWN = "unknown"
+
+
+class Gravity(Term):
+    """Who holds joints behind springs against gravity."""
+
+    SPRING = "spring"
+    """The springs alone: the arm droops under its own weight."""
+    COMPENSATED = "compensated"
+    """The device, for its own links and the payload that it is set to; the springs hold what differs from that."""
+
+
+class Held(Term):
+    """What stays in force when a goal is canceled or aborted."""
+
+    MEASURED = "measured"
+    """Where the joints are: behind springs, they sink once more by as much."""
+    COMMANDED = "commanded"
+    """The last set point."""
+
+
 class BringUpPhase(Term):
     """What is released together in a bring-up: by the launch file on the mock, each by a person on the real target."""
 

@@ -11,13 +11,13 @@ import pytest
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.feasibility.question import (
-    CarriedQuestion,
     MotionQuestion,
     PoseQuestion,
     ViewQuestion,
     motion_question,
 )
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
+from cellc.contract.control_law import LinkMass
 from cellc.contract.transforms import Pose
 from tests.cells import COMPLETE, graph_of
 
@@ -48,7 +48,7 @@ def test_arm_carries_its_payload_without_the_tools_that_are_described(payload_kg
     payload = _arm().robot.payload
     assert payload is not None
     carried = _question(robot=replace(_arm().robot, payload=replace(payload, mass_kg=payload_kg))).carried
-    due = [] if rest_kg is None else [CarriedQuestion("arm_tool0", rest_kg, (0.0, 0.0, 0.058))]
+    due = [] if rest_kg is None else [LinkMass(link="arm_tool0", mass_kg=rest_kg, center=(0.0, 0.0, 0.058))]
     assert [replace(one, mass_kg=round(one.mass_kg, 9)) for one in carried] == due
 
 

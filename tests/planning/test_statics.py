@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from cellc.robot.planning import CarriedMass, RobotModel, holding_efforts
+from cellc.contract.control_law import LinkMass
+from cellc.robot.planning import RobotModel, holding_efforts
 
 _INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
 _LIMIT = '<limit lower="-3" upper="3" velocity="1" effort="1"/>'
@@ -36,7 +37,7 @@ def test_joint_that_slides_holds_the_weight_along_its_axis() -> None:
 
 
 def test_carried_mass_is_held_at_its_center_as_the_links_turn_it() -> None:
-    hand = CarriedMass("hand", 3.0, (0.1, 0.2, 0.0))
+    hand = LinkMass(link="hand", mass_kg=3.0, center=(0.1, 0.2, 0.0))
     level = holding_efforts(ROBOT, {}, [hand])
     assert abs(level["turn"]) == pytest.approx(9.81 * (2 * 0.2 + 3 * 0.5))
     assert abs(level["wrist"]) == pytest.approx(9.81 * 3 * 0.2)

@@ -26,6 +26,7 @@ SI: dict[str, tuple[dict[str, float], float]] = {
     "VOLTAGE": ({"V": 1.0}, 1e4),
     "STIFFNESS": ({"N/m": 1.0, "N/mm": 1e3}, 1e8),
     "ANGULAR_STIFFNESS": ({"N m/rad": 1.0}, 1e8),
+    "ANGULAR_DAMPING": ({"N m s/rad": 1.0}, 1e8),
     "VELOCITY": ({"m/s": 1.0, "mm/s": 1e-3}, 1e4),
     "ACCELERATION": ({"m/s^2": 1.0, "mm/s^2": 1e-3}, 1e6),
     "JERK": ({"m/s^3": 1.0, "mm/s^3": 1e-3}, 1e8),

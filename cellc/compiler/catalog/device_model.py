@@ -22,6 +22,7 @@ from cellc.compiler.catalog.device_bring_up import CommissioningStep, JogFacts, 
 from cellc.compiler.catalog.device_controller import DeviceController
 from cellc.compiler.catalog.device_graph import ActionFacts, CameraFacts, NodeFacts, ServiceFacts, TopicFacts
 from cellc.compiler.catalog.device_interfaces import ControlFacts, DriverFacts, SpeedScalingFacts
+from cellc.compiler.catalog.device_laws import LawFacts
 from cellc.compiler.catalog.limit_facts import LimitFacts
 from cellc.compiler.catalog.robot_facts import MountFacts, PlugFacts, RobotControllerFacts
 from cellc.compiler.catalog.version_rows import VersionRow
@@ -212,6 +213,7 @@ class DeviceModel(CatalogModel):
         kinematics: How a calibration of one very robot is read.
         jog: How people move a joint while the driver does not run.
         limits: Limits that the description lacks or has wrong, and payload, reach and repeatability.
+        laws: How the joints of the real device follow what they are commanded, by the command interface.
         packages: Packages and libraries whose versions the spec pins.
         control: The ``<ros2_control>`` tag: plugins, joints, sensors and gpios.
         driver: Node that moves the device on the real target without ros2_control.
@@ -254,6 +256,7 @@ class DeviceModel(CatalogModel):
     kinematics: KinematicsFacts | None = None
     jog: JogFacts | None = None
     limits: LimitFacts = Field(default_factory=LimitFacts)
+    laws: tuple[LawFacts, ...] = ()
     packages: PackageFacts
     control: ControlFacts | None = None
     driver: DriverFacts | None = None

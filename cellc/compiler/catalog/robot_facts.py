@@ -174,11 +174,11 @@ class PlugFacts(CatalogModel):
 
 
 class StiffnessSpan(CatalogModel):
-    """The least and the most of a stiffness.
+    """The least and the most of a stiffness or a damping.
 
     Attributes:
-        least: Smallest stiffness, in N/m for a translation and N m/rad for a rotation.
-        most: Largest stiffness, in N/m for a translation and N m/rad for a rotation.
+        least: Smallest value, in N/m for a translation, N m/rad for a rotation, N m s/rad for a damping.
+        most: Largest value, in the same unit.
     """
 
     least: float
@@ -190,16 +190,18 @@ class ImpedanceFacts(CatalogModel):
 
     Attributes:
         joint: Stiffness of a joint, in N m/rad.
-        translation: Stiffness along an axis of the tool, in N/m.
-        rotation: Stiffness about an axis of the tool, in N m/rad.
+        damping: Damping of a joint, in N m s/rad; absent if it cannot be set.
+        translation: Stiffness along an axis of the tool, in N/m; absent if it takes none at the tool.
+        rotation: Stiffness about an axis of the tool, in N m/rad; absent if it takes none at the tool.
         acts_on: Command interfaces whose set points the robot's own controller follows with this impedance, such as
             ``[position, velocity]``; commands by any other, such as ``effort``, bypass it.
         source: Document or line of code from which this was read.
     """
 
     joint: StiffnessSpan
-    translation: StiffnessSpan
-    rotation: StiffnessSpan
+    damping: StiffnessSpan | None = None
+    translation: StiffnessSpan | None = None
+    rotation: StiffnessSpan | None = None
     acts_on: tuple[Token, ...] = Field(min_length=1)
     source: Text
 

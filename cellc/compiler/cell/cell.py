@@ -30,6 +30,7 @@ from cellc.compiler.cell.vendor import RecordSource
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
 from cellc.contract.vocabulary import TRAJECTORIES, Behavior, Distro, InterfaceKind
+from cellc.robot.description.model import Inertial
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,8 +218,19 @@ class Cell:
 
     def carried_mass_kg(self, device: Device) -> float:
         """Return the mass of what a device carries, as the descriptions of those say; 0 where they say nothing."""
-        links = (link for name in device.mount.carries for link in self.device(name).body.description.links)
-        return sum(link.inertial.mass for link in links if link.inertial is not None)
+        return sum(inertial.mass for _, inertial in self.tool_masses(device))
+
+    def tool_masses(self, device: Device) -> Iterator[tuple[str, Inertial]]:
+        """Yield the links with a mass that hang on the tool frame of a device: its own, and of what it carries."""
+        hanging = {device.body.tool_frame} if device.body.tool_frame else set[str]()
+        while more := {joint.child for joint in device.body.description.joints if joint.parent in hanging} - hanging:
+            hanging |= more
+        links = [link for link in device.body.description.links if link.name in hanging]
+        carried = list(device.mount.carries)
+        for name in carried:
+            links += self.device(name).body.description.links
+            carried += (other for other in self.device(name).mount.carries if other not in carried)
+        yield from ((link.name, link.inertial) for link in links if link.inertial is not None)
 
     def device(self, name: str) -> Device:
         """Return a device by its name in the spec.

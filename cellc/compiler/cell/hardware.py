@@ -9,7 +9,18 @@ from cellc.compiler.cell.entity import Part
 from cellc.compiler.cell.interface import InnerNode
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import Target
-from cellc.contract.vocabulary import CommandAuthority, InterfaceKind, ManagerLock, Moment, Motion, Need, Unmet
+from cellc.contract.vocabulary import (
+    CommandAuthority,
+    Gravity,
+    Held,
+    InterfaceKind,
+    Loop,
+    ManagerLock,
+    Moment,
+    Motion,
+    Need,
+    Unmet,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +74,28 @@ class NeedReport:
     type: str
     field: str
     value: bool | int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommandLaw:
+    """How joints of a real device follow commands of some interfaces; without ``commands`` those of all others.
+
+    Args:
+        gains: where the figures of a spring are: controller, plugin or impedance; None of what is no spring.
+        stiffness, damping: parameters of the real plugin that have them, joint by joint.
+        lags: damping brakes the motion, not its error.
+        because: why the loop is not known.
+    """
+
+    commands: tuple[str, ...]
+    loop: Loop
+    gains: str | None
+    stiffness: tuple[str, ...]
+    damping: tuple[str, ...]
+    lags: bool
+    gravity: Gravity
+    held: Held
+    because: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -168,12 +201,17 @@ class DeviceDriver:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Adapter:
-    """Watchdog and bounds of a direct SDK; None where the spec leaves them to the default."""
+    """Watchdog, bounds and springs of a direct SDK; None where the spec leaves them to the default.
+
+    ``stiffness`` is in N m/rad and ``damping`` in N m s/rad, joint by joint.
+    """
 
     command_timeout_s: float | None = None
     stop_time_s: float | None = None
     goal_time_s: float | None = None
     path_tolerance: JointFigure | None = None
+    stiffness: tuple[float, ...] | None = None
+    damping: tuple[float, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -201,6 +239,7 @@ class DeviceControl(Part):
         offers: what the driver offers whether the spec names it or not.
         starts: full name of a node of the driver → what the start of its process does.
         speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
+        laws: how the joints of the real one follow commands, by the command interface.
         update_rates_hz: those that the device accepts; any where empty.
         controller_kinds: kinds of controllers that only this device has.
     """
@@ -212,6 +251,7 @@ class DeviceControl(Part):
     offers: tuple[OfferedInterface, ...] = ()
     starts: Mapping[str, Effect] = field(default_factory=dict)
     speed_scaling: str | None = None
+    laws: tuple[CommandLaw, ...] = ()
     update_rates_hz: tuple[float, ...] = ()
     controller_kinds: tuple[str, ...] = ()
 

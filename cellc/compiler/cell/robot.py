@@ -30,6 +30,7 @@ class Payload:
         inertia: about the center of mass, in axes parallel to the tool frame; None where it is not stated.
         set_by: installation or service.
         load: the part of it that a service sets in addition to the tool, or None.
+        part_kg: what the tool holds while it is closed, whether the robot knows of it or not; None where unstated.
     """
 
     mass_kg: float
@@ -37,6 +38,7 @@ class Payload:
     inertia: Moments6 | None
     set_by: str
     load: Load | None
+    part_kg: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,20 +76,31 @@ class CartesianImpedance:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Impedance:
-    """How stiff the robot's own controller holds what it is commanded; ``joint`` in N m/rad, None where unstated."""
+    """How stiff the robot's own controller holds what it is commanded; None where unstated.
+
+    Args:
+        joint: N m/rad.
+        damping: N m s/rad of the same joints.
+    """
 
     joint: tuple[float, ...] | None
     cartesian: CartesianImpedance | None
+    damping: tuple[float, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImpedanceFacts:
-    """What impedance a kind of robot takes: least and most of each, and the command interfaces on which it acts."""
+    """What impedance a kind of robot takes: least and most of each, and the command interfaces on which it acts.
+
+    None where it takes none of a kind; ``joints`` is how many of them it takes, None for all that are commanded.
+    """
 
     joint: tuple[float, float]
-    translation: tuple[float, float]
-    rotation: tuple[float, float]
+    damping: tuple[float, float] | None
+    translation: tuple[float, float] | None
+    rotation: tuple[float, float] | None
     acts_on: tuple[str, ...]
+    joints: int | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -93,15 +93,51 @@ class ViewAnswer:
 
 @dataclass(frozen=True, slots=True)
 class HoldingAnswer:
-    """What holds a joint still, Nm or N without sign, in the pose or goal in which it takes most of what it has.
+    """What holds a joint still, Nm or N without sign, where it takes most of what it has.
 
     Attributes:
         posture: name of the pose or goal, empty for where the cell begins.
+        towards: pose or goal on the way to which it is, from the posture; empty in the posture itself.
     """
 
     joint: str
     effort: float
     posture: str
+    towards: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DroopAnswer:
+    """How far a joint is from its command at rest, where that is farthest; places as in `HoldingAnswer`.
+
+    Attributes:
+        droop: from the joint to its command, rad or m.
+        effort: what its spring gives there, Nm or N.
+        holding: whether a part is held.
+    """
+
+    joint: str
+    droop: float
+    effort: float
+    posture: str
+    towards: str
+    holding: bool
+
+
+@dataclass(frozen=True, slots=True)
+class TipAnswer:
+    """How far the tip of a group is from where it is commanded, at rest in a pose or goal; ``below_m`` along gravity.
+
+    Attributes:
+        contacts: what touches there, and would not where it is commanded.
+    """
+
+    group: str
+    posture: str
+    holding: bool
+    distance_m: float
+    below_m: float
+    contacts: tuple[BodyContact, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +157,9 @@ class MotionAnswer:
         views: where detected objects lie for their cameras.
         rigid: links that touch whatever the joints do, neighbors in the tree apart.
         holding: joints that have a limit of effort, each where gravity takes most of it.
+        droops: joints behind springs, each in the pose or goal in which it droops most.
+        on_paths: the same on the paths of rehearsals.
+        tips: of groups with such joints, in each pose and goal with each load that rehearsals have there.
         areas: volumes that arms share, with what is in them.
     """
 
@@ -133,3 +172,6 @@ class MotionAnswer:
     rigid: tuple[BodyContact, ...] = ()
     holding: tuple[HoldingAnswer, ...] = ()
     areas: tuple[AreaAnswer, ...] = ()
+    droops: tuple[DroopAnswer, ...] = ()
+    on_paths: tuple[DroopAnswer, ...] = ()
+    tips: tuple[TipAnswer, ...] = ()

@@ -15,17 +15,16 @@ from cellc.compiler.feasibility.answers import (
     DisabledAnswer,
     DisabledLinks,
     GoalAnswer,
-    HoldingAnswer,
     MotionAnswer,
     PoseAnswer,
     ViewAnswer,
 )
 from cellc.compiler.feasibility.question import GoalQuestion, GroupQuestion, MotionQuestion, PoseQuestion
+from cellc.compiler.feasibility.weights import weighed
 from cellc.contract.limits import Budget, BudgetError, limits
 from cellc.contract.transforms import Pose
 from cellc.robot.planning import (
     Box,
-    CarriedMass,
     CollisionScene,
     DisabledPair,
     DisabledReason,
@@ -41,7 +40,6 @@ from cellc.robot.planning import (
     beyond_reach,
     decided_collisions,
     disabled_collisions,
-    holding_efforts,
 )
 
 IK_SEEDS = 24
@@ -105,6 +103,7 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], budget: Budget
     poses = tuple(_pose(pose, planners, scene, start) for pose in budget.over(question.poses))
     goals = tuple(_goal(goal, planners[goal.group], robot, start) for goal in budget.over(question.goals))
     postures = _postures(question, goals, start)
+    weights = weighed(question, postures, _all_planners(question, planners, robot, scene), scene, budget)
     rigid = (pair.links for pair in disabled if pair.reason is DisabledReason.ALWAYS)
     return MotionAnswer(
         start=_contacts(scene, start),
@@ -112,9 +111,18 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], budget: Budget
         goals=goals,
         views=_views(question, postures, robot),
         rigid=tuple(BodyContact(*links) for links in rigid),
-        holding=_holding(question, postures, robot),
+        holding=weights.holding,
         areas=_areas(question, postures, scene),
+        droops=weights.droops,
+        on_paths=weights.on_paths,
+        tips=weights.tips,
     )
+
+
+def _all_planners(
+    question: MotionQuestion, known: Mapping[str, Planner], robot: RobotModel, scene: CollisionScene
+) -> dict[str, Planner]:
+    return {group.name: known.get(group.name) or _planner(group, robot, scene) for group in question.groups}
 
 
 def _scene(
@@ -192,21 +200,6 @@ def _areas(
             links = scene.touching(box, scene.model.configuration(_movable(scene.model, positions)))
             answers.append(AreaAnswer(area.name, name, links))
     return tuple(answers)
-
-
-def _holding(
-    question: MotionQuestion, postures: Mapping[str, Mapping[str, float]], robot: RobotModel
-) -> tuple[HoldingAnswer, ...]:
-    """Return the most that holds each joint which has a limit of effort."""
-    carried = [CarriedMass(item.link, item.mass_kg, item.center) for item in question.carried]
-    most: dict[str, HoldingAnswer] = {}
-    for name, positions in postures.items():
-        efforts = holding_efforts(robot, _movable(robot, positions), carried)
-        for joint in question.held:
-            effort = round(abs(efforts.get(joint, 0.0)), 6)
-            if joint in efforts and (joint not in most or effort > most[joint].effort):
-                most[joint] = HoldingAnswer(joint, effort, name)
-    return tuple(most.values())
 
 
 def _movable(robot: RobotModel, positions: Mapping[str, float]) -> dict[str, float]:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.cell.frame import FrameKind
-from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup
+from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup, Step
 from cellc.compiler.formats.urdf.robot import manager_description, start_positions
 from cellc.compiler.formats.xml_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.control_laws import control_laws
 from cellc.compiler.graph.frame_tree import FrameTree
+from cellc.contract.control_law import ControlLaw, LinkMass
 from cellc.contract.transforms import Pose, Vector3, climb
 
 Positions = tuple[tuple[str, float], ...]
@@ -22,7 +24,7 @@ Positions = tuple[tuple[str, float], ...]
 
 @dataclass(frozen=True, slots=True)
 class GroupQuestion:
-    """A group with the limits of its joints; infinite where the cell has none."""
+    """A group with the limits of its joints, infinite where the cell has none, and its tip frame in the tip link."""
 
     name: str
     joints: tuple[str, ...]
@@ -30,6 +32,7 @@ class GroupQuestion:
     upper: tuple[float, ...]
     base_link: str
     tip_link: str
+    transform_tip_to_link: Pose
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,12 +64,23 @@ class ViewQuestion:
 
 
 @dataclass(frozen=True, slots=True)
-class CarriedQuestion:
-    """What an arm carries besides the links that the description has of it: kg, and its center in a link, m."""
+class LawQuestion:
+    """The joints of a device behind springs."""
 
-    link: str
-    mass_kg: float
-    center: Vector3
+    device: str
+    law: ControlLaw
+
+
+@dataclass(frozen=True, slots=True)
+class VisitQuestion:
+    """A pose or goal that a rehearsal goes to, from another, and the devices that hold a part meanwhile.
+
+    ``before`` is empty for where the cell begins, and None where no rehearsal goes there.
+    """
+
+    posture: str
+    before: str | None
+    holding: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,9 +104,11 @@ class MotionQuestion:
     goals: tuple[GoalQuestion, ...]
     views: tuple[ViewQuestion, ...] = ()
     allowed: tuple[tuple[str, str], ...] = ()
-    carried: tuple[CarriedQuestion, ...] = ()
+    carried: tuple[LinkMass, ...] = ()
     held: tuple[str, ...] = ()
     areas: tuple[AreaQuestion, ...] = ()
+    laws: tuple[LawQuestion, ...] = ()
+    visits: tuple[VisitQuestion, ...] = ()
 
 
 def shapes_and_joints(cell: Cell) -> str:
@@ -108,7 +124,7 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
     return MotionQuestion(
         urdf=shapes_and_joints(cell),
         start=tuple(sorted(start_positions(cell).items())),
-        groups=tuple(_group(group, joints, tips[group.name][0]) for group in cell.groups),
+        groups=tuple(_group(group, joints, tips[group.name]) for group in cell.groups),
         poses=_poses(cell),
         goals=tuple(
             question
@@ -121,7 +137,48 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
         carried=tuple(_carried(cell)),
         held=tuple(joint.name for device in cell.devices for joint in device.joints if joint.effort),
         areas=tuple(_areas(graph)),
+        laws=tuple(LawQuestion(name, law) for name, law in graph.once(_laws).items() if law.joints),
+        visits=_visits(cell, [name for name, law in graph.once(_laws).items() if law.part]),
     )
+
+
+def _laws(graph: CellGraph) -> Mapping[str, ControlLaw]:
+    return control_laws(graph.cell)
+
+
+def _visits(cell: Cell, loadable: Sequence[str]) -> tuple[VisitQuestion, ...]:
+    """Return where rehearsals go, with what is held on the way, each once; and what they leave out, with both loads."""
+    known = [*(pose.name for pose in cell.poses), *(goal.name for goal in cell.goals)]
+    found: dict[VisitQuestion, None] = {}
+    for rehearsal in cell.rehearsals:
+        before, closed = "", set[str]()
+        for step in rehearsal.steps:
+            if step.kind == "move" and step.name in known:
+                found[VisitQuestion(step.name, before, tuple(sorted(_holding(cell, closed, loadable))))] = None
+                before = step.name
+            elif step.kind in ("grip", "set"):
+                closed = closed | {step.name} if _closes(cell, step) else closed - {step.name}
+    for name in dict.fromkeys(known):
+        if not any(visit.posture == name for visit in found):
+            found |= dict.fromkeys(VisitQuestion(name, None, holding) for holding in ((), tuple(sorted(loadable))))
+    return tuple(found)
+
+
+def _closes(cell: Cell, step: Step) -> bool:
+    device = next((device for device in cell.devices if device.name == step.name), None)
+    switched = None if device is None else device.switched
+    return step.command == "close" or (switched is not None and step.state is not None and step.state == switched.holds)
+
+
+def _holding(cell: Cell, closed: Iterable[str], loadable: Sequence[str]) -> Iterator[str]:
+    """Yield the devices that hold their part by what is closed: the arm that carries it, or its own fingers."""
+    carriers = {name: device.name for device in cell.devices for name in device.mount.carries}
+    for name in closed:
+        seen = set[str]()
+        while name not in seen:
+            seen.add(name)
+            name = carriers.get(name, name)
+        yield from (device for device in loadable if device in seen)
 
 
 def _areas(graph: CellGraph) -> Iterator[AreaQuestion]:
@@ -130,14 +187,15 @@ def _areas(graph: CellGraph) -> Iterator[AreaQuestion]:
         yield AreaQuestion(area.name, link, pose @ area.transform_to_parent, area.size)
 
 
-def _carried(cell: Cell) -> Iterator[CarriedQuestion]:
+def _carried(cell: Cell) -> Iterator[LinkMass]:
     """Yield what the payload of each arm has beyond the masses of its tools, where the payload has its center."""
     for device in cell.devices:
         if device.robot.payload is None or device.body.tool_frame is None:
             continue
         rest_kg = device.robot.payload.mass_kg - cell.carried_mass_kg(device)
         if rest_kg > 0.0:
-            yield CarriedQuestion(device.body.tool_frame, rest_kg, device.robot.payload.center_of_mass)
+            center = device.robot.payload.center_of_mass
+            yield LinkMass(link=device.body.tool_frame, mass_kg=rest_kg, center=center)
 
 
 def _views(graph: CellGraph) -> Iterator[ViewQuestion]:
@@ -157,10 +215,10 @@ def _views(graph: CellGraph) -> Iterator[ViewQuestion]:
                 seen.add((frame.name, posture))
 
 
-def _group(group: PlanningGroup, joints: Mapping[str, DeviceJoint], tip_link: str) -> GroupQuestion:
+def _group(group: PlanningGroup, joints: Mapping[str, DeviceJoint], tip: tuple[str, Pose]) -> GroupQuestion:
     limits = [_range(joints[name]) for name in group.joints if name in joints]
     lower, upper = tuple(low for low, _ in limits), tuple(high for _, high in limits)
-    return GroupQuestion(group.name, group.joints, lower, upper, group.base_link, tip_link)
+    return GroupQuestion(group.name, group.joints, lower, upper, group.base_link, *tip)
 
 
 def _range(joint: DeviceJoint) -> tuple[float, float]:

@@ -40,7 +40,7 @@ from cellc.compiler.link.hardware import device_driver, offered_interfaces, run_
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.ports import listened
 from cellc.compiler.link.quantities import joint_figure, si
-from cellc.compiler.link.robot import conditions
+from cellc.compiler.link.robot import command_laws, conditions
 from cellc.compiler.link.site import bind_clock
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.devices import EVERY_JOINT, DeviceSpec
@@ -66,6 +66,7 @@ def device_control(
         offers=tuple(offered_interfaces(facts, nodes, known, distro)),
         starts=started_nodes(nodes, known, distro),
         speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
+        laws=command_laws(facts),
         update_rates_hz=() if facts.control is None else tuple(rate.si for rate in facts.control.update_rates),
         controller_kinds=tuple(facts.controllers),
     )
@@ -199,6 +200,8 @@ def _adapter(written: DeviceSpec) -> Adapter | None:
         stop_time_s=si(adapter.stop_time),
         goal_time_s=si(adapter.goal_time),
         path_tolerance=None if adapter.path_tolerance is None else joint_figure(adapter.path_tolerance),
+        stiffness=None if adapter.stiffness is None else adapter.stiffness.si,
+        damping=None if adapter.damping is None else adapter.damping.si,
     )
 
 

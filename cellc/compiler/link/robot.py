@@ -6,9 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from cellc.compiler.catalog import robot_facts as catalog
+from cellc.compiler.catalog.device_laws import LawFacts
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.robot_facts import StartMode
 from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.hardware import CommandLaw
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.robot import (
     CartesianImpedance,
@@ -51,9 +53,37 @@ def robot_controller(facts: DeviceModel, written: DeviceSpec) -> RobotController
 
 
 def program_parameters(facts: DeviceModel, written: DeviceSpec) -> Mapping[str, str]:
-    """Return what the real plugin gets of the start mode of the program."""
+    """Return what the real plugin gets of the start mode of the program, and of the impedance."""
     start = chosen_start_mode(facts, written)
-    return {} if start is None else start.parameters
+    return {**({} if start is None else start.parameters), **dict(_springs(facts, written))}
+
+
+def command_laws(facts: DeviceModel) -> tuple[CommandLaw, ...]:
+    """Return how the joints of the real device follow commands."""
+    return tuple(map(_command_law, facts.laws))
+
+
+def _command_law(facts: LawFacts) -> CommandLaw:
+    return CommandLaw(
+        commands=facts.commands,
+        loop=facts.loop,
+        gains=facts.gains,
+        stiffness=facts.stiffness,
+        damping=facts.damping,
+        lags=facts.damps == "motion",
+        gravity=facts.gravity,
+        held=facts.held,
+        because=facts.because or "",
+    )
+
+
+def _springs(facts: DeviceModel, written: DeviceSpec) -> Iterator[tuple[str, str]]:
+    """Yield the parameters of the real plugin that the impedance of the spec sets."""
+    stated = written.impedance
+    for law in facts.laws if stated is not None else ():
+        assert stated is not None  # the loop has no turn otherwise
+        for names, figures in ((law.stiffness, stated.joint), (law.damping, stated.damping)):
+            yield from zip(names, map(repr, () if figures is None else figures.si), strict=False)
 
 
 def link_centers(spec: CellSpec, devices: tuple[Device, ...], names: FrameNames) -> Outcome[tuple[Device, ...]]:
@@ -161,6 +191,7 @@ def _payload(written: DeviceSpec) -> Payload | None:
         inertia=None if payload.inertia is None else _moments(payload.inertia),
         set_by=payload.set_by,
         load=_load(payload),
+        part_kg=None if payload.part is None else payload.part.si,
     )
 
 
@@ -175,6 +206,7 @@ def _impedance(written: ImpedanceSpec) -> Impedance:
     at = written.cartesian
     return Impedance(
         joint=None if written.joint is None else written.joint.si,
+        damping=None if written.damping is None else written.damping.si,
         cartesian=None if at is None else CartesianImpedance(translation=at.translation.si, rotation=at.rotation.si),
     )
 
@@ -198,17 +230,22 @@ def _accepted(facts: DeviceModel) -> RobotFacts:
         thresholds=controller.thresholds is not None,
         payload_service=controller.payload_service is not None,
         load_service=controller.load_service is not None,
-        impedance_facts=None if controller.impedance is None else _impedance_facts(controller.impedance),
+        impedance_facts=None if controller.impedance is None else _impedance_facts(controller.impedance, facts),
         tcp_kind=None if controller.tcp is None else controller.tcp.controller,
         tcp_topic=None if controller.tcp is None else controller.tcp.topic,
         tool_facts=tool_facts(controller.tool_connector),
     )
 
 
-def _impedance_facts(facts: catalog.ImpedanceFacts) -> ImpedanceFacts:
+def _impedance_facts(taken: catalog.ImpedanceFacts, facts: DeviceModel) -> ImpedanceFacts:
+    def span(one: catalog.StiffnessSpan | None) -> tuple[float, float] | None:
+        return None if one is None else (one.least, one.most)
+
     return ImpedanceFacts(
-        joint=(facts.joint.least, facts.joint.most),
-        translation=(facts.translation.least, facts.translation.most),
-        rotation=(facts.rotation.least, facts.rotation.most),
-        acts_on=facts.acts_on,
+        joint=(taken.joint.least, taken.joint.most),
+        damping=span(taken.damping),
+        translation=span(taken.translation),
+        rotation=span(taken.rotation),
+        acts_on=taken.acts_on,
+        joints=next((len(law.stiffness) for law in facts.laws if law.stiffness), None),
     )

@@ -8,7 +8,9 @@ from cellc.compiler.spec.base import Day, FrameReference, Name, Pin, SpecModel, 
 from cellc.compiler.spec.quantity import (
     Drift,
     Duration,
+    JointDampings,
     JointPosition,
+    JointStiffnesses,
     JointVelocity,
     Position,
     PositiveDuration,
@@ -134,6 +136,17 @@ class AdapterSpec(SpecModel):
     )
     path_tolerance: JointPosition | None = Field(
         None, description="Largest distance of a joint from its command.", examples=["0.05 rad"]
+    )
+    stiffness: JointStiffnesses | None = Field(
+        None,
+        description="Of the springs by which its loop holds the joints, in the order of the description; how far they "
+        "droop is not known if absent.",
+        examples=["600 600 600 600 250 150 50 N m/rad"],
+    )
+    damping: JointDampings | None = Field(
+        None,
+        description="By which its loop brakes their errors; no lag if absent.",
+        examples=["30 30 30 30 10 10 5 N m s/rad"],
     )
 
 

@@ -62,6 +62,7 @@ INERTIA = _dimension("inertia", {"kg m^2": "1", "g m^2": "0.001"}, 1e5)
 VOLTAGE = _dimension("voltage", {"V": "1"}, 1e4)
 STIFFNESS = _dimension("stiffness", {"N/m": "1", "N/mm": "1000"}, 1e8)
 ANGULAR_STIFFNESS = _dimension("angular stiffness", {"N m/rad": "1"}, 1e8)
+ANGULAR_DAMPING = _dimension("angular damping", {"N m s/rad": "1"}, 1e8)
 VELOCITY = _dimension("velocity", {"m/s": "1", "mm/s": "0.001"}, 1e4)
 ACCELERATION = _dimension("acceleration", {"m/s^2": "1", "mm/s^2": "0.001"}, 1e6)
 JERK = _dimension("jerk", {"m/s^3": "1", "mm/s^3": "0.001"}, 1e8)
@@ -281,6 +282,9 @@ AngularStiffnesses = Annotated[
 ]
 JointStiffnesses = Annotated[
     QuantityVector, QuantityType((ANGULAR_STIFFNESS,), "3000 3000 3000 2500 2500 2000 2000 N m/rad", size=0, least=0.0)
+]
+JointDampings = Annotated[
+    QuantityVector, QuantityType((ANGULAR_DAMPING,), "2.75 2.5 2 2 0.7 0.6 0.5 N m s/rad", size=0, least=0.0)
 ]
 JointPosition = Annotated[Quantity, QuantityType((ANGLE, LENGTH), "0.2 rad")]
 JointVelocity = Annotated[Quantity, QuantityType((ANGULAR_VELOCITY, VELOCITY), "30 deg/s")]

@@ -9,6 +9,7 @@ from cellc.compiler.spec.quantity import (
     AngularStiffnesses,
     Forces,
     Inertia,
+    JointDampings,
     JointStiffnesses,
     JointTorques,
     Mass,
@@ -49,6 +50,12 @@ class PayloadSpec(SpecModel):
         description="How the robot gets it: by what is saved on it, or by a service of its driver.",
         examples=["installation"],
     )
+    part: Mass | None = Field(
+        None,
+        description="Mass of what its tool holds while it is closed, at the tip of its group; "
+        "what `mass` has beyond the tool if absent.",
+        examples=["0.1 kg"],
+    )
     load: LoadSpec | None = Field(
         None,
         description="Part of it that a service tells the robot, beside the tool.",
@@ -70,6 +77,11 @@ class ImpedanceSpec(SpecModel):
         None,
         description="Of all joints, in the order of the description.",
         examples=["3000 3000 3000 2500 2500 2000 2000 N m/rad"],
+    )
+    damping: JointDampings | None = Field(
+        None,
+        description="Of the same joints; that of the driver if absent.",
+        examples=["2.75 2.5 2 2 0.7 0.6 0.5 N m s/rad"],
     )
     cartesian: CartesianImpedanceSpec | None = Field(
         None,

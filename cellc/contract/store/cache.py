@@ -51,7 +51,14 @@ class Program:
 
 
 GEOMETRY = Program(
-    ("compiler/feasibility", "robot/planning", "robot/description", "contract/transforms.py"), ("pin", "coal", "numpy")
+    (
+        "compiler/feasibility",
+        "robot/planning",
+        "robot/description",
+        "contract/transforms.py",
+        "contract/control_law.py",
+    ),
+    ("pin", "coal", "numpy"),
 )
 
 _Answer = TypeVar("_Answer")

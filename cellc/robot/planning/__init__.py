@@ -23,12 +23,11 @@ from cellc.robot.planning.problem import (
     UnknownShapeError,
 )
 from cellc.robot.planning.scene import Box, CollisionScene
-from cellc.robot.planning.statics import CarriedMass, holding_efforts
+from cellc.robot.planning.statics import Load, Springs, Weights, holding_efforts
 from cellc.robot.planning.trajectory import LimitUse, TimedTrajectory, TrajectoryPoint, time_parameterize
 
 __all__ = [
     "Box",
-    "CarriedMass",
     "CollisionScene",
     "DisabledPair",
     "DisabledReason",
@@ -39,14 +38,17 @@ __all__ = [
     "JointPath",
     "LimitUse",
     "LimitsError",
+    "Load",
     "ModelError",
     "PlanFailure",
     "Planner",
     "PlanningGroup",
     "RobotModel",
+    "Springs",
     "TimedTrajectory",
     "TrajectoryPoint",
     "UnknownShapeError",
+    "Weights",
     "beyond_reach",
     "decided_collisions",
     "disabled_collisions",

@@ -113,7 +113,7 @@ class RobotModel:
         vector: Array = np.array(pinocchio.neutral(self.kinematics), dtype=np.float64)
         for joint in positions:
             self.joint_of(joint)
-        chosen = {joint: positions.get(joint, self._rest_of(joint)) for joint in self.joints}
+        chosen = {joint: positions.get(joint, self.rest_of(joint)) for joint in self.joints}
         for joint, value in chosen.items():
             self._set_position(vector, joint, value)
         for mimic in self.mimics:
@@ -134,7 +134,7 @@ class RobotModel:
         pinocchio.framesForwardKinematics(self.kinematics, data, self.configuration(positions))
         return to_pose(data.oMf[self.frame_of(base_link)].actInv(data.oMf[self.frame_of(link)]))
 
-    def _rest_of(self, joint: str) -> float:
+    def rest_of(self, joint: str) -> float:
         index = self.joint_of(joint)
         if self.kinematics.nqs[index] == 2:
             return 0.0

@@ -12,6 +12,7 @@ from cellc.compiler.cell.hardware import HardwareComponent
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import start_positions
+from cellc.compiler.graph.control_laws import control_laws
 from cellc.contract.contract import (
     ContractAdapter,
     ContractCamera,
@@ -22,15 +23,17 @@ from cellc.contract.contract import (
     ContractSimulatedJoint,
     ContractSwitched,
 )
+from cellc.contract.control_law import ControlLaw
 from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:
     """Return every device by its name in the spec."""
-    return {device.name: _device(cell, device) for device in cell.devices}
+    laws = control_laws(cell)
+    return {device.name: _device(cell, device, laws.get(device.name)) for device in cell.devices}
 
 
-def _device(cell: Cell, device: Device) -> ContractDevice:
+def _device(cell: Cell, device: Device, law: ControlLaw | None) -> ContractDevice:
     hardware = None if _adapted(cell, device) else device.control.hardware
     return ContractDevice(
         model=device.model,
@@ -44,6 +47,7 @@ def _device(cell: Cell, device: Device) -> ContractDevice:
         gripper=_gripper(cell, device),
         camera=_camera(cell, device),
         switched=_switched(device),
+        law=law,
         effects=_effects(hardware),
         nan_after_inactive=hardware is not None and hardware.direct_activation,
         command_timeout_s=None if hardware is None else hardware.command_timeout_s,

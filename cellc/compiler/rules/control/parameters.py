@@ -81,7 +81,7 @@ def _out_of_range(facts: ParameterFacts, value: ParameterValue) -> str:
     return ""
 
 
-_Stated = tuple[tuple[str, ...], tuple[float, ...], tuple[float, float], str]
+_Stated = tuple[tuple[str, ...], tuple[float, ...], "tuple[float, float] | None", str]
 
 
 @rule(Severity.ERROR)
@@ -95,11 +95,16 @@ def refused_impedance(graph: CellGraph) -> Findings:
         if takes is None:
             yield found(graph, path, f"the driver of `{device.name}` sets no impedance")
             continue
-        joints = len(device.actuated_joints)
-        if stated.joint is not None and len(stated.joint) != joints:
-            message = f"the joint impedance of `{device.name}` must be {joints} figures, got {len(stated.joint)}"
-            yield found(graph, (*path, "joint"), message)
-        for keys, figures, (least, most), unit in _impedance_figures(stated, takes):
+        joints = takes.joints or len(device.actuated_joints)
+        for key, counted in (("joint", stated.joint), ("damping", stated.damping)):
+            if counted is not None and len(counted) != joints:
+                message = f"`{key}` of the impedance of `{device.name}` must be {joints} figures, got {len(counted)}"
+                yield found(graph, (*path, key), message)
+        for keys, figures, span, unit in _impedance_figures(stated, takes):
+            if span is None:
+                yield found(graph, (*path, *keys), f"the driver of `{device.name}` sets no `{keys[-1]}`")
+                continue
+            least, most = span
             refused = [figure for figure in figures if not least <= figure <= most]
             if refused:
                 message = f"`{keys[-1]}` of `{device.name}` must be {least:g} to {most:g} {unit}, got {refused[0]:g}"
@@ -110,6 +115,8 @@ def _impedance_figures(stated: Impedance, takes: ImpedanceFacts) -> Iterator[_St
     """Yield each figure that is written: its keys, values, least and most, and unit."""
     if stated.joint is not None:
         yield ("joint",), stated.joint, takes.joint, "N m/rad"
+    if stated.damping is not None:
+        yield ("damping",), stated.damping, takes.damping, "N m s/rad"
     if stated.cartesian is not None:
         yield ("cartesian", "translation"), stated.cartesian.translation, takes.translation, "N/m"
         yield ("cartesian", "rotation"), stated.cartesian.rotation, takes.rotation, "N m/rad"

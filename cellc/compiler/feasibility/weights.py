@@ -1,0 +1,179 @@
+"""Torques and droop of joints in poses, at goals and on the paths of rehearsals; imported by ``compute`` alone."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from cellc.compiler.feasibility.answers import BodyContact, DroopAnswer, HoldingAnswer, TipAnswer
+from cellc.compiler.feasibility.question import GroupQuestion, MotionQuestion
+from cellc.contract.limits import Budget
+from cellc.robot.planning import CollisionScene, JointPath, Load, Planner, RobotModel, Springs, Weights
+from cellc.robot.planning.problem import Array
+
+_STEP = 0.05
+"""Rad or m of the joint that moves most from one place to the next that is looked at on a path."""
+_ALIKE = 1e-9
+"""Rad or m: by less, no place is worse than another, whatever the last bits of both are."""
+
+Positions = Mapping[str, float]
+_Place = tuple[str, str, tuple[str, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class _At:
+    """Where the joints are: a posture, or a place on the way from it; with the devices that hold a part."""
+
+    posture: str
+    towards: str
+    holding: tuple[str, ...]
+    positions: Positions
+
+
+@dataclass(frozen=True, slots=True)
+class Weighed:
+    """What joints must give, and how far those behind springs droop."""
+
+    holding: tuple[HoldingAnswer, ...]
+    droops: tuple[DroopAnswer, ...]
+    on_paths: tuple[DroopAnswer, ...]
+    tips: tuple[TipAnswer, ...]
+
+
+def weighed(
+    question: MotionQuestion,
+    postures: Mapping[str, Positions],
+    planners: Mapping[str, Planner],
+    scene: CollisionScene,
+    budget: Budget,
+) -> Weighed:
+    """Weigh a cell in all postures, and on the paths that rehearsals take between them.
+
+    Args:
+        postures: all joints by the name of a pose or goal; the empty name is where the cell begins.
+        planners: of every group.
+    """
+    robot = scene.model
+    paths = list(_paths(question, postures, planners, budget))
+    visits = [
+        _At(visit.posture, "", visit.holding, postures[visit.posture])
+        for visit in question.visits
+        if visit.posture in postures
+    ]
+    alone = [_At(name, "", (), positions) for name, positions in postures.items()]
+    return Weighed(
+        holding=_holding(question, (*alone, *paths), robot),
+        droops=_droops(question, visits, robot),
+        on_paths=_droops(question, paths, robot),
+        tips=tuple(_tips(question, visits, planners, scene)) if question.laws else (),
+    )
+
+
+def _paths(
+    question: MotionQuestion, postures: Mapping[str, Positions], planners: Mapping[str, Planner], budget: Budget
+) -> Iterator[_At]:
+    """Yield places on the paths of rehearsals; where no path is found between two postures, on the straight one."""
+    taken = {
+        (visit.before, visit.posture, visit.holding)
+        for visit in question.visits
+        if visit.before in postures and visit.posture in postures
+    }
+    for before, posture, holding in budget.over(sorted((one or "", two, held) for one, two, held in taken)):
+        start, end = postures[before], postures[posture]
+        for group in question.groups:
+            for configuration in _path(group, planners[group.name], start, end):
+                placed = dict(zip(group.joints, configuration, strict=True))
+                yield _At(before, posture, holding, {**start, **placed})
+
+
+def _path(group: GroupQuestion, planner: Planner, start: Positions, end: Positions) -> Iterator[tuple[float, ...]]:
+    first, last = (tuple(at.get(joint, 0.0) for joint in group.joints) for at in (start, end))
+    if first == last:
+        return
+    others = {joint: value for joint, value in start.items() if joint in planner.model.joints}
+    path = planner.in_scene(planner.scene.with_other_positions(others)).plan_to_configuration(first, last)
+    corners = [first, *(section[-1] for section in path.sections)] if isinstance(path, JointPath) else [first, last]
+    for one, other in pairwise(corners):
+        steps = max(1, math.ceil(max(abs(a - b) for a, b in zip(one, other, strict=True)) / _STEP))
+        for step in range(1, steps):
+            yield tuple(a + (b - a) * step / steps for a, b in zip(one, other, strict=True))
+
+
+def _holding(question: MotionQuestion, places: Iterable[_At], robot: RobotModel) -> tuple[HoldingAnswer, ...]:
+    """Return the most that holds each joint which has a limit of effort."""
+    held = tuple(joint for joint in question.held if joint in robot.joints)
+    weights = Weights(robot, robot.joints, question.carried)
+    most: dict[str, HoldingAnswer] = {}
+    for at in places:
+        positions = [at.positions.get(joint, robot.rest_of(joint)) for joint in robot.joints]
+        efforts = dict(zip(robot.joints, weights.efforts(np.array(positions)).tolist(), strict=True))
+        for joint in held:
+            effort = round(abs(efforts[joint]), 6)
+            if joint not in most or effort > most[joint].effort:
+                most[joint] = HoldingAnswer(joint, effort, at.posture, at.towards)
+    return tuple(most.values())
+
+
+def _settled(question: MotionQuestion, at: _At, robot: RobotModel) -> Iterator[tuple[Springs, Array, Array]]:
+    """Yield the springs of each device with where its joints are commanded, and where they come to rest."""
+    for law in question.laws:
+        springs = Springs(law.law, robot, Load(holds=law.device in at.holding), at.positions)
+        commanded = np.array([at.positions.get(joint, 0.0) for joint in springs.joints])
+        yield springs, commanded, springs.balance(commanded)
+
+
+def _droops(question: MotionQuestion, places: Iterable[_At], robot: RobotModel) -> tuple[DroopAnswer, ...]:
+    most: dict[str, DroopAnswer] = {}
+    for at in places:
+        for springs, commanded, rest in _settled(question, at, robot):
+            efforts = springs.held(springs.efforts(rest)).tolist()
+            for joint, droop, effort in zip(springs.joints, (commanded - rest).tolist(), efforts, strict=True):
+                if joint not in most or abs(droop) > abs(most[joint].droop) + _ALIKE:
+                    place = at.posture, at.towards, bool(at.holding)
+                    most[joint] = DroopAnswer(joint, round(droop, 9), round(effort, 9), *place)
+    return tuple(most.values())
+
+
+def _tips(
+    question: MotionQuestion, visits: Iterable[_At], planners: Mapping[str, Planner], scene: CollisionScene
+) -> Iterator[TipAnswer]:
+    robot = scene.model
+    seen: set[_Place] = set()
+    for at in visits:
+        if (at.posture, at.towards, at.holding) in seen:
+            continue
+        seen.add((at.posture, at.towards, at.holding))
+        rest = dict(at.positions)
+        for springs, _, settled in _settled(question, at, robot):
+            rest |= zip(springs.joints, settled.tolist(), strict=True)
+        meets = {True: _contacts(scene, rest), False: _contacts(scene, at.positions)}
+        more = tuple(contact for contact in meets[True] if contact not in meets[False])
+        for group in question.groups:
+            if any(joint in law.law.joints for law in question.laws for joint in group.joints):
+                yield _tip(group, at, rest, robot, more)
+
+
+def _tip(
+    group: GroupQuestion, at: _At, rest: Positions, robot: RobotModel, contacts: tuple[BodyContact, ...]
+) -> TipAnswer:
+    root = robot.links[0]
+    wanted, real = (
+        robot.link_pose(group.tip_link, _movable(robot, positions), base_link=root) @ group.transform_tip_to_link
+        for positions in (at.positions, rest)
+    )
+    distance_m = math.dist(wanted.position, real.position)
+    below_m = wanted.position[2] - real.position[2]
+    return TipAnswer(group.name, at.posture, bool(at.holding), round(distance_m, 9), round(below_m, 9), contacts)
+
+
+def _contacts(scene: CollisionScene, positions: Positions) -> tuple[BodyContact, ...]:
+    configuration = scene.model.configuration(_movable(scene.model, positions))
+    return tuple(BodyContact(*pair) for pair in scene.contacts(configuration))
+
+
+def _movable(robot: RobotModel, positions: Positions) -> dict[str, float]:
+    return {joint: value for joint, value in positions.items() if joint in robot.joints}

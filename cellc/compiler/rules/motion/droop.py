@@ -1,0 +1,136 @@
+"""Rules on joints that a load moves away from their command: against tolerances, goals, and what is below them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from cellc.compiler.cell.device import Device
+from cellc.compiler.feasibility import BodyContact, DroopAnswer, motion_answer
+from cellc.compiler.graph.control_laws import control_laws
+from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain, named
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+from cellc.compiler.rules.tolerances import stated
+from cellc.contract.control_law import ControlLaw
+from cellc.contract.vocabulary import TRAJECTORIES, Held, Loop
+
+_WEIGHED = (*KNOWN_GOALS, "negative-mass", "payload-above-limit", "refused-impedance", "unit-of-another-joint")
+
+
+@dataclass(frozen=True, slots=True)
+class _Bound:
+    """A tolerance of joints, where it is written, and what has it; ``at_rest`` where it counts at the end alone."""
+
+    path: YamlPath
+    owner: str
+    joints: Mapping[str, float]
+    at_rest: bool
+
+
+def _bounds(graph: CellGraph) -> Iterator[_Bound]:
+    """Yield every tolerance that ends a goal of the real target."""
+    for controller in graph.cell.controllers:
+        for key, figures in stated(controller) if controller.behavior in TRAJECTORIES else ():
+            bounds = {joint: figure.value for joint, figure in (figures or {}).items() if figure.value > 0.0}
+            yield _Bound((*controller.path, key), controller.name, bounds, key == "goal_tolerance")
+    for adapted in graph.cell.adapters:
+        path = (*graph.cell.device(adapted.device).path, "adapter", "path_tolerance")
+        yield _Bound(path, adapted.device, dict.fromkeys(adapted.joints, adapted.path_tolerance), False)
+
+
+def _laws(graph: CellGraph) -> dict[str, tuple[Device, ControlLaw]]:
+    """Return the law of each joint behind a spring, with its device."""
+    laws = control_laws(graph.cell)
+    return {joint: (graph.cell.device(name), law) for name, law in laws.items() for joint in law.joints}
+
+
+@rule(Severity.ERROR, assumes=_WEIGHED)
+def droop_beyond_tolerance(graph: CellGraph) -> Findings:
+    """Yield tolerances below what some joint is away from its command at rest, each with the worst joint."""
+    answer, laws = motion_answer(graph), _laws(graph)
+    for bound in _bounds(graph):
+        places = answer.droops if bound.at_rest else (*answer.droops, *answer.on_paths)
+        beyond = [place for place in places if abs(place.droop) > bound.joints.get(place.joint, abs(place.droop))]
+        if not beyond:
+            continue
+        worst = max(beyond, key=lambda one: abs(one.droop) / bound.joints[one.joint])
+        device, law = laws[worst.joint]
+        unit, torque = ("m", "N") if device.joint(worst.joint).slides else ("rad", "Nm")
+        figure = f"{abs(worst.droop):.3g} {unit} from `{worst.joint}` {_where(worst)}"
+        by = f"{abs(worst.effort):.3g} {torque} at {law.joints[worst.joint].stiffness:g} {torque}/{unit}"
+        again = ", and each canceled or aborted goal adds as much" if law.held is Held.MEASURED else ""
+        written = graph.cell.text(*bound.path) or f"{bound.joints[worst.joint]:g} {unit}"
+        message = f"`{bound.path[-1]}` of `{bound.owner}` must be above the droop of its joints, {figure}, {by}{again};"
+        related = (Related("its law is that of this device", graph.cell.locate(*device.path)),)
+        yield found(graph, bound.path, f"{message} got {written}", related=related)
+
+
+def _where(one: DroopAnswer) -> str:
+    loaded = " with a part" if one.holding else ""
+    place = f"at the start and `{one.towards}`" if not one.posture else f"`{one.posture}` and `{one.towards}`"
+    return f"between {place}{loaded}" if one.towards else f"in `{one.posture}`{loaded}"
+
+
+@rule(Severity.ERROR, assumes=_WEIGHED)
+def tip_droop_beyond_tolerance(graph: CellGraph) -> Findings:
+    """Yield goals at which a tip comes to rest farther from its command than it may be from the goal."""
+    uncertainty = graph.cell.uncertainty
+    tolerances = {} if uncertainty is None else uncertainty.tolerances_m
+    groups = {goal.name: goal.group for goal in graph.cell.goals}
+    for name, tolerance_m in tolerances.items():
+        tips = [tip for tip in motion_answer(graph).tips if (tip.posture, tip.group) == (name, groups.get(name))]
+        worst = max(tips, key=lambda tip: tip.distance_m, default=None)
+        if worst is not None and worst.distance_m > tolerance_m:
+            path = ("uncertainty", "tolerances", name)
+            side = "below" if worst.below_m > 0.0 else "above"
+            loaded = "with a part" if worst.holding else "empty"
+            message = f"the tip comes to rest {worst.distance_m * 1e3:.3g} mm from goal `{name}`, "
+            message += f"{abs(worst.below_m) * 1e3:.3g} mm {side} it, {loaded}, and must be within"
+            yield found(graph, path, f"{message} {graph.cell.text(*path)}", related=in_the_chain(graph, name))
+
+
+@rule(
+    Severity.ERROR, assumes=(*_WEIGHED, "pose-in-self-collision", "pose-in-collision-with-scene", "goal-in-collision")
+)
+def droop_into_contact(graph: CellGraph) -> Findings:
+    """Yield poses and goals in which something touches because joints are not where they are commanded."""
+    paths = {pose.name: pose.path for pose in graph.cell.poses}
+    paths |= {goal.name: (*goal.path, "frame") for goal in graph.cell.goals}
+    seen: set[tuple[BodyContact, ...]] = set()
+    for tip in motion_answer(graph).tips:
+        if tip.contacts and tip.contacts not in seen:
+            seen.add(tip.contacts)
+            loaded = " with a part" if tip.holding else ""
+            message = f"in `{tip.posture}`{loaded} the arm droops until {named(tip.contacts)}:"
+            yield found(
+                graph, paths[tip.posture], f"{message} its tip is {tip.distance_m * 1e3:.3g} mm off its command"
+            )
+
+
+@rule(Severity.BLOCKER)
+def unknown_control_law(graph: CellGraph) -> Findings:
+    """Yield devices that move on a path while nothing says how far a load moves their joints."""
+    adapted = {driven.device for driven in graph.cell.adapters}
+    resting = _resting(graph)
+    for owner, law in control_laws(graph.cell).items():
+        if law.loop is not Loop.UNKNOWN:
+            continue
+        device = graph.cell.device(owner)
+        names = dict.fromkeys(name for joint in device.joints for name in resting.get(joint.name, ()))
+        message = f"it is not known how far a load moves the joints of `{owner}`: {law.because}"
+        rests = f"; on it rest {', '.join(names)}" if names else ""
+        yield found(graph, (*device.path, "adapter" if owner in adapted else "model"), message + rests)
+
+
+def _resting(graph: CellGraph) -> Mapping[str, list[str]]:
+    """Return what rests on where a joint is, joint by joint: tolerances of joints, and those of goals."""
+    found: dict[str, list[str]] = {}
+    for bound in _bounds(graph):
+        for joint in bound.joints:
+            found.setdefault(joint, []).append(f"`{bound.path[-1]}` of `{bound.owner}`")
+    groups = {group.name: group for group in graph.cell.groups}
+    judged = {} if graph.cell.uncertainty is None else graph.cell.uncertainty.tolerances_m
+    for goal in graph.cell.goals:
+        for joint in groups[goal.group].joints if goal.name in judged and goal.group in groups else ():
+            found.setdefault(joint, []).append(f"the tolerance of goal `{goal.name}`")
+    return found
