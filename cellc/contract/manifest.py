@@ -9,7 +9,7 @@ from cellc.contract.file_names import CellName, InnerPath
 
 
 class ConfigurationInputs(ContractModel):
-    """What the configuration id is taken over."""
+    """What the configuration ID is taken over."""
 
     calibrations: dict[str, int] = Field(description="Revision of each calibration.")
     tf_publishers: dict[str, str] = Field(description="Authority of each frame.")
@@ -20,7 +20,7 @@ class ConfigurationInputs(ContractModel):
 
 
 class Manifest(ContractModel):
-    """Version tuple, hash of every generated file, and the configuration id."""
+    """Version tuple, hash of every generated file, and the configuration ID."""
 
     format: Literal[1] = Field(description="Version of this format.")
     cell: CellName = Field(description="Name of the cell.")

@@ -13,7 +13,7 @@ PAGE = (ROOT / "SECURITY.md").read_text(encoding="utf-8")
 DOORS = ("tests.cli.run", "tests.pull_request.action", "subprocess")
 PROMISES = [
     [cell.strip() for cell in line.strip("|").split("|")]
-    for line in PAGE.partition("## What is promised")[2].partition("\n## ")[0].splitlines()
+    for line in PAGE.partition("## What is protected")[2].partition("\n## ")[0].splitlines()
     if line.startswith("|") and not line.startswith("|---")
 ][1:]
 

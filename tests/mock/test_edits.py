@@ -142,7 +142,7 @@ def test_every_generated_file_is_executed_or_refused_or_read_by_people_alone(nam
     read = read_folder(ROOT / "generated" / name)
     whole = replace(read, edits=read.listed)
     files = read.contract.files
-    # docs/mock.md, "What it takes from where".
+    # docs/mock.md, "What it reads".
     executed = {"contract.json", "config/uncertainty.json", files.rehearsals, files.urdf_mock, files.bring_up}
     executed |= {*files.parameters.values(), *filter(None, (files.srdf,))}
     assert {*not_executed(whole)} == {

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Header:
     """Names the cell and its spec; the same on every host, wherever the checkout lies.
 
-    The configuration id is in ``manifest.json``, ``contract.json`` and ``README.md`` alone: a change of one value
+    The configuration ID is in ``manifest.json``, ``contract.json`` and ``README.md`` alone: a change of one value
     changes the files that hold it, not every file.
 
     Args:

@@ -36,7 +36,7 @@ def model_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
 
 
 def _generated(evidence: GateEvidence) -> GateCheck:
-    text = "The package is as it was generated, under one configuration id"
+    text = "The package is as it was generated, under one configuration ID"
     if evidence.folder.notes:
         return failed(text, evidence.folder.notes)
     digest = hashlib.sha256(evidence.folder.urdf.encode()).hexdigest()
