@@ -8,15 +8,16 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
-from cellc.contract.entities import Target
-from cellc.contract.vocabulary import BringUpPhase
+from cellc.contract.entities import HardwareState, Target
+from cellc.contract.vocabulary import BringUpPhase, Need
 
 CLAIM_WATCH = "/claim_watch"
-"""The node that deactivates claims of a robot that no longer listens."""
+"""The node that takes the claims of a robot that no longer follows, and keeps them until a person acknowledges."""
+WATCH_WITHIN_S = 0.1
+"""From a message that a robot no longer follows to its claims given up: what the node promises and prints where it is
+later, what the mock plays, and what bounds are certified with. A trial on the robot at gate G7 shows it."""
 
 ManagedState = Literal["inactive", "active"]
-
-HardwareState = Literal["unconfigured", "inactive", "active"]
 
 
 class NodeProof(ContractModel):
@@ -53,13 +54,17 @@ class HardwareProof(ContractModel):
 
 
 class TopicProof(ContractModel):
-    """A message arrives; where ``field`` is given, the newest one must hold ``value`` in it."""
+    """A message arrives; where ``field`` is given, it must be one of ``values``, or ``above``, in the newest one."""
 
     kind: Literal["topic"]
     topic: str = Field(description="Full name of the topic.")
     type: str = Field(description="Type of the message.")
     field: str | None = Field(None, description="Field of the message that is looked at.")
-    value: bool | int | None = Field(None, description="What it must hold.")
+    values: tuple[bool | int, ...] = Field((), description="What it may hold.")
+    above: float | None = Field(None, description="What it must exceed.")
+    unsaid: bool | None = Field(
+        None, description="Whether it holds too where a publisher has said nothing, because it speaks of changes alone."
+    )
 
 
 class ActionProof(ContractModel):
@@ -144,7 +149,14 @@ class Comparison(ContractModel):
     parts: tuple[str, ...] = Field(description="Parts of the tuple that this computer must show.")
 
 
-Request = Transition | Activation | Restart | HardwareActivation | Comparison
+class Acknowledgment(ContractModel):
+    """Tell the watch of a robot that a person authorizes its claims; it refuses while a proof of it is missing."""
+
+    kind: Literal["acknowledge"]
+    service: str = Field(description="Full name of the service, of type std_srvs/srv/Trigger.")
+
+
+Request = Transition | Activation | Restart | HardwareActivation | Comparison | Acknowledgment
 
 
 class BringUpStep(ContractModel):
@@ -161,11 +173,17 @@ class BringUpStep(ContractModel):
 
 
 class Watch(ContractModel):
-    """Controllers that are deactivated as soon as a robot no longer listens; nothing activates them again by itself."""
+    """What ends when a robot no longer follows set points, and stays ended until a person acknowledges."""
 
+    device: str = Field(description="Name of the robot.")
+    host: str = Field(description="Computer that watches it; empty where the cell names none.")
     manager: str = Field(description="Full name of the controller manager.")
     controllers: tuple[str, ...] = Field(description="Controllers that are deactivated.")
-    while_holds: TopicProof = Field(description="What must hold for them to stay active.")
+    actions: tuple[str, ...] = Field((), description="Actions whose goals are canceled.")
+    nodes: tuple[str, ...] = Field((), description="Managed nodes that ask for motion; they are deactivated.")
+    while_hold: dict[Need, TopicProof] = Field(description="What a claim needs, with the proof that it has it.")
+    acknowledge: str = Field(description="Service, of type std_srvs/srv/Trigger, that lets claims be made again.")
+    within_s: float = Field(description="Time from the message that proves otherwise to claims given up.", gt=0.0)
 
 
 class BringUp(ContractModel):

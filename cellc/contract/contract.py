@@ -11,7 +11,7 @@ from pydantic import Field
 
 from cellc.contract.base import ContractModel, ContractPose
 from cellc.contract.control_law import ControlLaw
-from cellc.contract.entities import TARGETS, ContractInterface, Kpis, Target
+from cellc.contract.entities import TARGETS, ContractInterface, HardwareState, Kpis, Target
 from cellc.contract.file_names import BesidePath, CellName, InnerPath
 from cellc.contract.quantities import (
     Coordinate,
@@ -25,7 +25,7 @@ from cellc.contract.quantities import (
     Rate,
     Seconds,
 )
-from cellc.contract.vocabulary import Behavior, Distro, ManagerLock, Moment, Motion, Need, Unmet
+from cellc.contract.vocabulary import Behavior, Distro, LeftBy, ManagerLock, Moment, Motion, Need, Unmet
 
 
 class ContractFiles(ContractModel):
@@ -167,6 +167,19 @@ class ContractEffect(ContractModel):
     largest_step: PositiveMagnitude | None = Field(
         None, description="Distance of a set point that is still followed, rad or m; null without bound."
     )
+    leaves: HardwareState | None = Field(
+        None, description="State of the component afterwards; null for the one that was asked for."
+    )
+    ends: tuple[Need, ...] = Field((), description="What a claim needs and no longer has afterwards.")
+
+
+class ContractStop(ContractModel):
+    """A state in which a device stops by itself."""
+
+    motion: Motion = Field(Motion.NONE, description="What moves.")
+    leaves: HardwareState = Field(description="State of the component meanwhile.")
+    ends: tuple[Need, ...] = Field((), description="What a claim needs and does not have meanwhile.")
+    left_by: LeftBy = Field(description="What ends it once its cause is gone.")
 
 
 class ContractSwitched(ContractModel):
@@ -199,8 +212,10 @@ class ContractDevice(ContractModel):
         None, description="How its real joints follow commands; null where nothing moves it on a path."
     )
     effects: dict[Moment, ContractEffect] = Field(
-        {}, description="What its real hardware does as it is activated and claimed, and as its program starts."
+        {}, description="What its real hardware does as it is activated and claimed, and as its program or link ends."
     )
+    stops: dict[str, ContractStop] = Field({}, description="States in which it stops by itself.")
+    reports: dict[Need, str] = Field({}, description="Topic on which the cell hears whether a claim has what it needs.")
     nan_after_inactive: bool = Field(
         False, description="The driver holds NaN commands after `inactive`; activate it directly."
     )

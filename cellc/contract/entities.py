@@ -16,6 +16,8 @@ from cellc.contract.vocabulary import InterfaceKind
 Target = Literal["mock", "real"]
 TARGETS: tuple[Target, ...] = ("mock", "real")
 """What the hardware interfaces of a cell reach."""
+HardwareState = Literal["unconfigured", "inactive", "active"]
+"""A state of a hardware component of ros2_control."""
 Reliability = Literal["reliable", "best_effort"]
 Durability = Literal["volatile", "transient_local"]
 

@@ -6,6 +6,7 @@ follow from a member of ``FaultKind``. ``cellc.mock.faults`` plays each kind.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from enum import Enum
 from typing import Literal, NamedTuple
 
@@ -38,9 +39,13 @@ class FaultTarget(Enum):
 
     STREAM = Reference.DEVICE, "camera or device with joints"
     STOPPABLE = Reference.DEVICE, "device with hardware"
+    PROTECTED = Reference.DEVICE, "device that stops by itself"
+    GUARDED = Reference.DEVICE, "device with a stop by a door or a light curtain"
+    POWERED = Reference.DEVICE, "device with an emergency stop"
     SCALED = Reference.DEVICE, "device with speed scaling"
     ARM = Reference.DEVICE, "arm"
     PROGRAMMED = Reference.DEVICE, "device with a program that set points pass through"
+    PAUSING = Reference.DEVICE, "device whose program pauses"
     BRAKED = Reference.DEVICE, "device with brakes that a claim needs open"
     SENSED = Reference.DEVICE, "device with sensors that are wired"
     JOINT = Reference.JOINT, "joint"
@@ -127,6 +132,14 @@ _DEVICE = Hits(FaultTarget.STOPPABLE, "Device.", "arm")
 _PROGRAMMED = Hits(FaultTarget.PROGRAMMED, "Device whose set points pass through a program.", "arm")
 _LATE = (Interaction.LATE_SAMPLE,)
 _SILENT = (Interaction.MISSING_RESPONDER,)
+_BY_VENDOR = (
+    AttemptOutcome.HARDWARE_FAULT,
+    AttemptOutcome.CLAIM_FAILURE,
+    AttemptOutcome.TOLERANCE_VIOLATION,
+    AttemptOutcome.TIMEOUT,
+    AttemptOutcome.UNCOMMANDED_MOTION,
+)
+"""Where a driver calls a stop a fault, or reports none, and where the device goes on by itself."""
 _CLAIM_OR_MOTION = (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.UNCOMMANDED_MOTION)
 
 
@@ -262,19 +275,25 @@ class FaultKind(Term):
         "wrong_payload",
         "An arm carries another load than the one set in it: it stops itself whenever it moves.",
         Hits(FaultTarget.ARM, "Arm.", "arm"),
-        (AttemptOutcome.PROTECTIVE_STOP,),
+        (AttemptOutcome.PROTECTIVE_STOP, *_BY_VENDOR),
     )
     PROTECTIVE_STOP = Declared(
         "protective_stop",
-        "A device goes into protective stop: state stays visible, commands are refused.",
-        _DEVICE,
-        (AttemptOutcome.PROTECTIVE_STOP,),
+        "A device stops by itself, as its driver shows it; ``lasting`` until a person has acknowledged at the device.",
+        Hits(FaultTarget.PROTECTED, "Device.", "arm"),
+        (AttemptOutcome.PROTECTIVE_STOP, *_BY_VENDOR),
+    )
+    SAFEGUARD_STOP = Declared(
+        "safeguard_stop",
+        "A door or light curtain stops a device; ``lasting`` until it is closed, at which some devices go on.",
+        Hits(FaultTarget.GUARDED, "Device.", "arm"),
+        (AttemptOutcome.PROTECTIVE_STOP, *_BY_VENDOR),
     )
     EMERGENCY_STOP = Declared(
         "emergency_stop",
-        "A device loses the power of its drives: brakes hold it, state stays visible, commands are refused.",
-        _DEVICE,
-        (AttemptOutcome.EMERGENCY_STOP,),
+        "The drives of a device lose their power, as its driver shows it; ``lasting`` until a person has restored it.",
+        Hits(FaultTarget.POWERED, "Device.", "arm"),
+        (AttemptOutcome.EMERGENCY_STOP, *_BY_VENDOR),
     )
     RESTART_DRIVER = Declared(
         "restart_driver",
@@ -286,7 +305,7 @@ class FaultKind(Term):
         "cut_network",
         "Nothing passes between a device and its host.",
         Hits(FaultTarget.STREAM, "Device.", "arm"),
-        (AttemptOutcome.HARDWARE_FAULT, AttemptOutcome.STALE_STATE),
+        (*_BY_VENDOR, AttemptOutcome.STALE_STATE),
         shows=_LATE,
     )
     PROGRAM_STOP = Declared(
@@ -294,6 +313,12 @@ class FaultKind(Term):
         "The program on a device's own controller stops; it follows no set points until it starts, after ``lasting``.",
         _PROGRAMMED,
         (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.TIMEOUT),  # the latter where nothing watches the program
+    )
+    PROGRAM_PAUSE = Declared(
+        "program_pause",
+        "The program on a device's own controller pauses, goals and claims stay alive; it goes on after ``lasting``.",
+        Hits(FaultTarget.PAUSING, "Device whose program pauses.", "arm"),
+        (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.TIMEOUT, AttemptOutcome.UNCOMMANDED_MOTION),
     )
     PROGRAM_START = Declared(
         "program_start",
@@ -303,7 +328,7 @@ class FaultKind(Term):
     )
     JOG = Declared(
         "jog",
-        "Somebody moves a joint by the pendant, which the robot lets them do while its program is stopped.",
+        "Somebody moves a joint by the pendant, which the robot lets them do while its program is stopped or paused.",
         Hits(FaultTarget.PROGRAMMED_JOINT, "Joint, as `device/joint`.", "arm/elbow_joint"),
         _CLAIM_OR_MOTION,
         By(Amount.DISPLACEMENT, "How far.", "5 deg"),
@@ -326,3 +351,16 @@ class FaultKind(Term):
         Hits(FaultTarget.SENSED, "Device with sensors.", "gripper"),
         (AttemptOutcome.TIMEOUT,),
     )
+
+
+STOP_STATES = {
+    FaultKind.PROTECTIVE_STOP: ("protective_stop", "fault"),
+    FaultKind.SAFEGUARD_STOP: ("safeguard_stop", "user_stop"),
+    FaultKind.EMERGENCY_STOP: ("emergency_stop",),
+}
+"""States in which a device stops by a fault, the nearest first: one without protective stops goes into fault."""
+
+
+def stop_state(kind: FaultKind, known: Container[str]) -> str | None:
+    """Return the state, of those that a device knows, in which a fault stops it; None where it cannot."""
+    return next((name for name in STOP_STATES[kind] if name in known), None)

@@ -157,8 +157,29 @@ class Moment(Term):
     PROGRAM_START = "program_start"
     """The program on the device's own controller, through which set points pass, begins or goes on."""
     PROGRAM_STOP = "program_stop"
+    PROGRAM_PAUSE = "program_pause"
+    """The program keeps its place: by a person at the device, or because the device stops."""
+    PROGRAM_RESUME = "program_resume"
+    """A paused program goes on from where it was."""
     STOP = "stop"
     """The device stops by itself: a reflex, a protective stop, an emergency stop."""
+    POWER_LOST = "power_lost"
+    """The device loses its supply, as at an emergency stop that switches the supply off."""
+    LINK_LOST = "link_lost"
+    """The cable or network between the device and its computer carries nothing any more."""
+    RECONNECT = "reconnect"
+    """It carries again."""
+
+
+class LeftBy(Term):
+    """What ends a stop of a device once its cause is gone, and so what may bring motion back."""
+
+    ITSELF = "itself"
+    """No person acts: a door closes, and the device continues."""
+    PERSON = "person"
+    """A person acknowledges at the device or by its service, and it goes on."""
+    ACTIVATION = "activation"
+    """The driver starts, or activates its component, again; until then nothing follows a set point."""
 
 
 class Motion(Term):
@@ -204,6 +225,10 @@ class Need(Term):
     PROGRAM_RUNNING = "program_running"
     PROGRAM_STOPPED = "program_stopped"
     """No program waits for set points that would be late."""
+    NOT_PAUSED = "not_paused"
+    """The program on the device's own controller does not pause."""
+    NO_STOP = "no_stop"
+    """The safety functions of the device do not stop it."""
     NO_FAULT = "no_fault"
     AREA_EMPTY = "area_empty"
     NOTHING_HELD = "nothing_held"

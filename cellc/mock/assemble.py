@@ -17,6 +17,7 @@ from cellc.mock.bus.timers import StreamDeadline
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import DEFAULT, TimeJump, build_clocks
 from cellc.mock.control import ControllerManager, DeclaredInterfaces, JointFault, Noise
+from cellc.mock.device_view import DeviceView
 from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
@@ -36,11 +37,13 @@ from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.real_bring_up import played
+from cellc.mock.real_start import RealStart
 from cellc.mock.reality import AS_STATED, Displacement, Reality
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
+from cellc.mock.watching import ClaimWatches
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
@@ -127,6 +130,9 @@ def assemble(
     feeds = joint_state_feeds(contract, control, network, ROBOT_STATE_PUBLISHER)
     tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task.name)
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
+    stops, devices = Stops(control), DeviceView(contract, control)
+    watches = ClaimWatches(contract, folder.watches, control, simulation)
+    effects = Effects(devices, stops, watches, simulation)
     plant = Plant(
         contract=contract,
         bring_up=folder.bring_up if bring_up == "mock" else played(folder.real_bring_up, folder.bring_up, contract),
@@ -134,8 +140,10 @@ def assemble(
         clocks=clocks,
         network=network,
         control=control,
-        stops=Stops(control),
-        effects=Effects(contract, folder.watches, control, simulation),
+        stops=stops,
+        watches=watches,
+        effects=effects,
+        start=RealStart(devices, effects, simulation),
         world=World(memory.model.links.displaced(reality.links), control.histories.values()),
         switches=Switches(contract),
         cameras={},
@@ -144,16 +152,19 @@ def assemble(
         planner=MotionPlanner(memory, seed),
         task=task,
     )
-    control.listen(plant.effects.hear)
+    control.listen(watches.look)
     if bring_up == "real":
-        plant.effects.bring_up(folder.real_bring_up)
+        plant.start.bring_up(folder.real_bring_up)
     clocks.listen(partial(_note_jump, plant))
-    images = _add_cameras(plant)
-    tf = TfBroadcast(contract.interfaces.get(TF), task.name, network, simulation)
-    for name, frame in contract.frames.items():
+    _add_objects(plant, _add_cameras(plant), reality)
+    return plant
+
+
+def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality) -> None:
+    tf = TfBroadcast(plant.contract.interfaces.get(TF), plant.task.name, plant.network, plant.simulation)
+    for name, frame in plant.contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
             _add_object(plant, name, frame, images, tf, reality.objects.get(name))
-    return plant
 
 
 def _turned(pose: Pose, turn: Pose) -> Pose:

@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from cellc.contract.bring_up import BringUpStep, Comparison, HardwareActivation, Proof, Restart, Transition
+from cellc.contract.bring_up import (
+    Acknowledgment,
+    BringUpStep,
+    Comparison,
+    HardwareActivation,
+    Proof,
+    Restart,
+    Transition,
+)
 from cellc.contract.contract import ContractManager
 from cellc.contract.vocabulary import BringUpPhase
 from cellc.mock.bus.qos import hears, unmatched_pairs
@@ -82,7 +90,7 @@ class PlanTaker:
         facts: list[str] = []
         for step in self._plant.bring_up:
             if step.phase in phases:
-                self._plant.effects.enter(step.phase)
+                self._plant.start.enter(step.phase)
                 facts += (f"step `{step.name}` believes {what}" for what in self._proofs.believed(step.proof))
                 done, problems = yield from self._step(step)
                 facts += done
@@ -104,11 +112,13 @@ class PlanTaker:
         elif isinstance(asked, HardwareActivation):
             manager = self._plant.control.managers[self._proofs.managers[asked.manager]]
             answer = manager.set_hardware_component_state(asked.component, "active")
-            until_ns = self._plant.now_ns + self._plant.effects.activate(asked.component)
+            until_ns = self._plant.now_ns + self._plant.start.activate(asked.component)
             while self._plant.now_ns < until_ns:
                 yield Wait(until_ns)
             states = (f"hardware component `{asked.component}` is {answer.state or 'unknown'}",)
             facts, problems = (states, ()) if answer.ok else ((), states)
+        elif isinstance(asked, Acknowledgment):
+            self._plant.watches.acknowledge()
         elif isinstance(asked, Comparison):
             facts = (f"step `{step.name}` believes that {len(asked.parts)} parts of the tuple are installed as pinned",)
         elif asked is not None:

@@ -135,7 +135,7 @@ def _run_task(
     """Inject the faults at their times, and run the task to its named end."""
     start_ns = plant.now_ns
     if rehearsal.bring_up == "real":
-        plant.effects.operator_takes_over()
+        plant.start.operator_takes_over()
     for injection in injections:
         if injection.entry.phase is None:
             injection.schedule(ports, start_ns)
@@ -215,6 +215,7 @@ def _findings(plant: Plant) -> tuple[str, ...]:
         *plant.task.buffer.warnings.lines(),
         *plant.network.disconnections,
         *plant.control.dangers,
+        *plant.effects.dangers,
     )
 
 

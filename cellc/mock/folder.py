@@ -12,7 +12,7 @@ from typing import TypeVar
 import yaml
 from pydantic import BaseModel
 
-from cellc.contract.bring_up import BringUp, BringUpStep, Comparison, Transition, Watch
+from cellc.contract.bring_up import BringUp, BringUpStep, Watch
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
 from cellc.contract.limits import limits, option
@@ -144,7 +144,7 @@ def _bring_up(folder: Path, contract: Contract) -> BringUp:
     plan = _read_model(folder, file, BringUp)
     known = {f"{manager.namespace}/controller_manager" for manager in contract.managers.values()}
     for step in plan.mock:
-        asked = None if isinstance(step.request, Transition | Comparison | None) else step.request.manager
+        asked = getattr(step.request, "manager", None)
         if asked is not None and asked not in known:
             raise MockError(file, f"step `{step.name}` asks `{asked}`, which the contract does not have")
     for watch in plan.watches:

@@ -18,10 +18,12 @@ from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
+from cellc.mock.real_start import RealStart
 from cellc.mock.reality import Arrival
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import TransformBuffer
+from cellc.mock.watching import ClaimWatches
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
 
@@ -56,7 +58,9 @@ class Plant:
     Attributes:
         control: controller managers and adapters, with the joint states that they publish.
         stops: of the hardware, until they are acknowledged.
+        watches: who takes claims from devices that follow no set points.
         effects: what devices do beside following commands.
+        start: what devices and people do as the real target is brought up.
         world: where links and objects really are.
         switches: devices that digital outputs switch.
         cameras: by device.
@@ -71,7 +75,9 @@ class Plant:
     network: Network
     control: ControlStack
     stops: Stops
+    watches: ClaimWatches
     effects: Effects
+    start: RealStart
     world: World
     switches: Switches
     cameras: dict[str, Camera]

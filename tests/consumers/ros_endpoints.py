@@ -54,13 +54,11 @@ def asked(program: str, plan: dict[str, Any], phase: str) -> list[tuple[str, str
     exec(compile(program, "scripts/bring_up", "exec"), module.__dict__)
     real = module._loaded
     module._loaded = lambda kind: real(kind) if kind.startswith("lifecycle_msgs/") else _stand_in(kind)
-    module.active_of = lambda graph, one: []
+    module.listed_controllers = lambda graph, manager: []
     read = json.loads(json.dumps(plan), object_hook=lambda entry: SimpleNamespace(**entry))
     steps = [step for target in (read.mock, read.real) for step in target if step.phase == phase]
-    watches = getattr(read, "watches", []) if phase == "watch" else []
     proofs = [one for step in steps for one in (*step.proof, *getattr(step, "effect", ()))]
-    proofs += [one.while_holds for one in watches]
-    graph = module.Graph("claim_watch" if phase == "watch" else f"bring_up_{phase}", plan["enclave"])
+    graph = module.Graph(f"bring_up_{phase}", plan["enclave"])
     said = rclpy.create_node("world", context=graph._context)
     kept = [said.create_publisher(Log, one.topic, 1) for one in proofs if one.kind == "topic"]
     graph.spin(0.2)
@@ -68,11 +66,28 @@ def asked(program: str, plan: dict[str, Any], phase: str) -> list[tuple[str, str
         module.missing(graph, [one])
     for step in steps:
         _tried(module, lambda step=step: module.request(graph, step.request, 0.0) if hasattr(step, "request") else "")
-    for one in watches:
-        _tried(module, lambda one=one: module.switch(graph, one.manager, [], one.controllers, 1, 0.0))
     found = ends(graph._node)
     assert len(kept) == sum(one.kind == "topic" for one in proofs)
     graph.leave()
+    return found
+
+
+def watched(program: str, plan: dict[str, Any]) -> list[tuple[str, str]]:
+    """Let the generated watch subscribe to what is published, serve and prepare its requests; list what it opened."""
+    module: Any = ModuleType("claim_watch_of_a_test")
+    exec(compile(program, "scripts/claim_watch", "exec"), module.__dict__)
+    module.loaded = _stand_in
+    read = json.loads(json.dumps(plan), object_hook=lambda entry: SimpleNamespace(**entry))
+    ros = module.Ros(plan["enclave"])
+    said = rclpy.create_node("world")
+    topics = {proof.topic for entry in read.watches for proof in vars(entry.while_hold).values()}
+    kept = [said.create_publisher(Log, topic, 1) for topic in topics]
+    rclpy.spin_once(ros._node, timeout_sec=0.2)
+    for entry in read.watches:
+        module.Watch(ros, entry).look()
+    found = ends(ros._node)
+    assert len(kept) == len(topics)
+    rclpy.shutdown()
     return found
 
 
@@ -92,7 +107,9 @@ def main() -> None:
     job = json.load(sys.stdin)
     found = {}
     for phase in job["phases"]:
-        found["claim_watch" if phase == "watch" else f"bring_up_{phase}"] = asked(job["program"], job["plan"], phase)
+        found[f"bring_up_{phase}"] = asked(job["program"], job["plan"], phase)
+    if job["watch"]:
+        found["claim_watch"] = watched(job["watch"], job["plan"])
     rclpy.init(args=[])
     for wanted in job["nodes"]:
         found[f"{wanted['namespace']}/{wanted['name']}"] = opened(wanted)

@@ -50,8 +50,10 @@ class StandIn:
     plugins: str = "<plugin>mock_components/GenericSystem</plugin>"
     refuses: set[str] = field(default_factory=set)
     silent: int = 0
+    silent_for: dict[str, float] = field(default_factory=dict)
     log: list[str] = field(default_factory=list)
     on_spin: Callable[[int], None] = lambda _: None
+    on_message: Callable[[str, Any], None] = lambda *_: None
     _spins: Any = field(default_factory=lambda: itertools.count(1))
 
     def spin(self, seconds: float) -> None:
@@ -69,11 +71,18 @@ class StandIn:
     def heard(self, topic: str, kind: str) -> Any:
         return self.messages.get(topic)
 
+    def silent_s(self, topic: str) -> float:
+        return self.silent_for.get(topic, 0.0)
+
     def connects(self, parent: str, child: str) -> bool:
         return {parent, child} <= self.frames
 
     def ask(self, kind: str, name: str, answer_s: float = 3.0, /, **fields: Any) -> Any:
         node, _, service = name.rpartition("/")
+        if service.startswith("acknowledge_"):
+            device = service.removeprefix("acknowledge_")
+            self.log += [] if device in self.refuses else [f"acknowledge {device}"]
+            return SimpleNamespace(success=device not in self.refuses, message="a proof is missing")
         answer = getattr(self, f"_{service}", None)
         if answer is None or (node not in self.nodes_ and node != "/controller_manager"):
             raise self.module.UnansweredError(f"no service {name}")

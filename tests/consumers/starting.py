@@ -66,8 +66,7 @@ def processes(cell: str, distro: str, target: str) -> tuple[Process, ...]:
 def node_name(process: Process) -> str:
     """Return the fully qualified name of the node of a process."""
     if process.executable == "bring_up":  # it names its node after the last phase that it takes
-        watches = "watch" in process.arguments
-        return "/claim_watch" if watches else f"/bring_up_{process.arguments[-1]}"
+        return f"/bring_up_{process.arguments[-1]}"
     return f"{process.namespace}/{process.name or OWN_NAMES.get(process.executable, process.executable)}"
 
 

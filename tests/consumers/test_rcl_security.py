@@ -61,7 +61,8 @@ def opened(cell: str) -> dict[str, list[tuple[Right, str]]]:
     job = {
         "program": build(cell, _DISTRO).texts["scripts/bring_up"],
         "plan": steps,
-        "phases": [*sorted(phases), *(["watch"] if steps.get("watches") else [])],
+        "phases": sorted(phases),
+        "watch": build(cell, _DISTRO).texts.get("scripts/claim_watch", ""),
         "nodes": [
             {
                 "name": node.name,

@@ -51,21 +51,21 @@ def test_steps_of_the_bring_up(spec: str, target: str) -> None:
 
 @pytest.mark.parametrize("spec", [spec for spec, told in MEANT.items() if "watches" in told])
 def test_watches(spec: str) -> None:
-    watches = [watch.model_dump(mode="json") for watch in bring_up(_graph(spec).cell).watches]
+    watches = [watch.model_dump(mode="json", exclude_defaults=True) for watch in bring_up(_graph(spec).cell).watches]
     assert watches == MEANT[spec]["watches"]
 
 
 def _line(step: BringUpStep) -> str:
-    told = step.model_dump(mode="json")
+    told = step.model_dump(mode="json", exclude_defaults=True)
     where = f" on {step.host}" if step.host else ""
     parts = [
         "; ".join(map(_words, told["proof"])),
-        _words(told["request"] or {}),
-        "; ".join(map(_words, told["effect"])),
+        _words(told.get("request", {})),
+        "; ".join(map(_words, told.get("effect", ()))),
     ]
     return f"{told['phase']} {step.name}{where}: " + " -> ".join(part for part in parts if part)
 
 
 def _words(told: Mapping[str, Any]) -> str:
     values = (value for value in told.values() if value is not None)
-    return " ".join(",".join(value) if isinstance(value, list) else str(value) for value in values)
+    return " ".join(",".join(map(str, value)) if isinstance(value, list) else str(value) for value in values)

@@ -68,7 +68,9 @@ def test_no_step_of_a_release_touches_the_device_of_another(cell: str) -> None:
         asked = step.get("request") or {}
         if step["phase"] == "activate" and asked.get("kind") == "hardware":
             assert asked["component"] == components[step["release"]]
-        if step["phase"] == "claim" and (cell, step["release"]) in _CLAIMS:
+        if asked.get("kind") == "acknowledge":
+            assert asked["service"] == f"/claim_watch/acknowledge_{step['release']}"
+        elif step["phase"] == "claim" and (cell, step["release"]) in _CLAIMS:
             assert set(asked["controllers"]) == _CLAIMS[cell, step["release"]]
 
 

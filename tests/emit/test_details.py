@@ -87,6 +87,7 @@ def test_parameters_of_a_node_stand_under_its_name(node: str) -> None:
 def test_package_depends_on_what_it_starts_and_loads() -> None:
     package = ElementTree.fromstring(artifacts_of("ur5e_pick")["package.xml"])
     assert [entry.text for entry in package.findall("exec_depend")] == [
+        "action_msgs",
         "builtin_interfaces",
         "cell_perception",
         "cell_tasks",
@@ -116,6 +117,7 @@ def test_package_depends_on_what_it_starts_and_loads() -> None:
         "rosbag2_storage_mcap",
         "sensor_msgs",
         "sros2",
+        "std_srvs",
         "tf2_msgs",
         "tf2_ros",
         "trajectory_msgs",

@@ -124,9 +124,9 @@ def test_each_action_that_promises_how_soon_a_cancel_holds_has_the_command_that_
 def test_ends_on_the_page_are_those_that_the_driver_and_the_stopper_add() -> None:
     # Universal_Robots_ROS2_Driver 3.8.0, robot_state_helper.cpp: it hears the three modes and asks for a resend.
     page = artifacts_of("ur5e_pick")["gates/network.md"]
-    assert "`/arm_io/robot_mode`: /arm_io → /arm_state_helper\n" in page
-    heard = "`/arm_io/robot_program_running`: /arm_io → /arm_state_helper, /claim_watch\n"
-    assert heard in page
+    for mode in ("robot_mode", "safety_mode", "robot_program_running"):
+        assert f"`/arm_io/{mode}`: /arm_io → /arm_state_helper, /claim_watch\n" in page
+    assert "`/arm_speed/speed_scaling`: /arm_speed → /claim_watch\n" in page
     assert re.search(r"`/arm_io/resend_robot_program`: .* → .*/arm_state_helper\n", page)
     assert "timeout 30 ros2 service info /arm_io/resend_robot_program" in page
     assert "ros2 service info" not in artifacts_of("ur5e_pick", "humble")["gates/network.md"]

@@ -149,7 +149,7 @@ def test_a_deadline_that_is_too_short_for_its_effect_fails(folder: Path) -> None
 
 
 def test_what_the_mock_cannot_judge_stands_in_the_evidence(folder: Path) -> None:
-    said = {"topic": "/arm_io/robot_program_running", "type": "std_msgs/msg/Bool", "field": "data", "value": True}
+    said = {"topic": "/arm_io/robot_program_running", "type": "std_msgs/msg/Bool", "field": "data", "values": [True]}
     result = plan_with(folder, "move", lambda step: step["proof"].append({"kind": "topic", **said}))
     assert result.passed
     facts = [fact for stage in result.bringup for fact in stage.facts]

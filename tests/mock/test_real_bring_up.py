@@ -18,9 +18,9 @@ from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, ManagerLock, Moment, Need, Unmet
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
-from cellc.mock.effects import Effects
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.plant import Plant
+from cellc.mock.real_start import RealStart
 from cellc.mock.result import RehearsalResult
 from tests.cells import generated
 
@@ -189,13 +189,13 @@ def test_activation_takes_as_long_as_the_driver_holds_its_manager(
     lock: ManagerLock, held_s: float, ur5e: GeneratedFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     taken: dict[str, int] = {}
-    activate = Effects.activate
+    activate = RealStart.activate
 
-    def timed(effects: Effects, component: str) -> int:
-        taken[component] = activate(effects, component)
+    def timed(start: RealStart, component: str) -> int:
+        taken[component] = activate(start, component)
         return taken[component]
 
-    monkeypatch.setattr(Effects, "activate", timed)
+    monkeypatch.setattr(RealStart, "activate", timed)
     gripper = ur5e.contract.devices["gripper"]
     effect = gripper.effects[Moment.ACTIVATE].model_copy(update={"lock": lock})
     held = gripper.model_copy(update={"effects": {**gripper.effects, Moment.ACTIVATE: effect}})

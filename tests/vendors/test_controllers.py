@@ -194,7 +194,8 @@ def test_faults_of_a_gen3_are_told_and_reset_as_its_vendor_has_it(case: Case) ->
         (name,) = ends[key]
         assert enclave.allow(right, name.replace("~", controller.full_name))
     (watch,) = target.yaml("config/bring_up.json")["watches"]
-    assert (watch["while_holds"]["topic"], watch["while_holds"]["value"]) == ("/arm_fault/internal_fault", False)
+    (proof,) = watch["while_hold"].values()
+    assert (proof["topic"], proof["values"]) == ("/arm_fault/internal_fault", [False])
     assert watch["controllers"] == ["arm_trajectory", "gripper_action"]
 
 

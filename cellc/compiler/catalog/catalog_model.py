@@ -15,6 +15,7 @@ from cellc.contract.vocabulary import (
     CommandAuthority,
     Distro,
     GateCode,
+    LeftBy,
     ManagerLock,
     Moment,
     Motion,
@@ -52,6 +53,7 @@ BehaviorName = Annotated[Behavior, Strict(False)]
 MomentName = Annotated[Moment, Strict(False)]
 MotionName = Annotated[Motion, Strict(False)]
 AuthorityName = Annotated[CommandAuthority, Strict(False)]
+LeftByName = Annotated[LeftBy, Strict(False)]
 LockName = Annotated[ManagerLock, Strict(False)]
 NeedName = Annotated[Need, Strict(False)]
 UnmetName = Annotated[Unmet, Strict(False)]

@@ -4,9 +4,18 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from cellc.compiler.catalog.catalog_model import CatalogModel, DistroName, GateName, Text, Token
+from cellc.compiler.catalog.catalog_model import (
+    CatalogModel,
+    DistroName,
+    GateName,
+    LeftByName,
+    MomentName,
+    NeedName,
+    Text,
+    Token,
+)
 from cellc.compiler.catalog.robot_facts import DrivenBy, HumanStep, StepCondition
-from cellc.contract.vocabulary import GateCode, RobotSetting
+from cellc.contract.vocabulary import GateCode, LeftBy, Moment, RobotSetting
 
 
 class PortFacts(CatalogModel):
@@ -50,6 +59,9 @@ class SafetyStateFacts(CatalogModel):
     Attributes:
         name: Name of the state, such as ``protective_stop``.
         stops: Whether the device stops in this state.
+        moment: Moment of ``effects`` that says what the stop does.
+        ends: What a claim needs and no longer has in this state, besides what the moment ends.
+        left_by: What ends the stop once its cause is gone.
         reported: How the state is seen, such as a value of a topic or a light.
         gate: Gate of bring-up in which people look for the state; one that only an activation or an action shows cannot
             be seen earlier.
@@ -57,8 +69,17 @@ class SafetyStateFacts(CatalogModel):
 
     name: Token
     stops: bool
+    moment: MomentName = Moment.STOP
+    ends: tuple[NeedName, ...] = ()
+    left_by: LeftByName = LeftBy.ACTIVATION
     reported: Text | None = None
     gate: GateName = GateCode.G4
+
+    @model_validator(mode="after")
+    def _only_a_stop_ends(self) -> "SafetyStateFacts":
+        if not self.stops and (self.ends or self.left_by is not LeftBy.ACTIVATION or self.moment is not Moment.STOP):
+            raise ValueError("must not have `moment`, `ends` or `left_by` where `stops` is false")
+        return self
 
 
 class StateTopicFacts(CatalogModel):

@@ -4,9 +4,9 @@ A component that starts may move fingers, take control of an arm, or keep the co
 of this is in a ROS interface, so that each fact is read from the source of one release, which it names.
 """
 
-from typing import Literal, Union
+from typing import Annotated, Union
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from cellc.compiler.catalog.catalog_model import (
     AuthorityName,
@@ -19,10 +19,8 @@ from cellc.compiler.catalog.catalog_model import (
     UnmetName,
 )
 from cellc.compiler.spec.quantity import JointWay
+from cellc.contract.entities import HardwareState
 from cellc.contract.vocabulary import CommandAuthority, Distro, ManagerLock, Need, Unmet
-
-ComponentState = Literal["unconfigured", "inactive", "active"]
-"""A state of a hardware component of ros2_control."""
 
 
 class EffectFacts(CatalogModel):
@@ -36,6 +34,7 @@ class EffectFacts(CatalogModel):
         needs: What must hold before the moment, and what happens otherwise, for all distributions or for each.
         leaves: State of the component afterwards, if that is not the one asked for; unless active, its controllers are
             deactivated.
+        ends: What a claim needs and no longer has after the moment.
         largest_step: How far a set point may be from the position of the device; the device ignores one that is
             farther.
         does: What happens, in one sentence.
@@ -47,7 +46,8 @@ class EffectFacts(CatalogModel):
     lock: LockName = ManagerLock.NONE
     drops_part: bool = False
     needs: dict[NeedName, Union[UnmetName, dict[DistroName, UnmetName]]] = Field(default_factory=dict)
-    leaves: ComponentState | None = None
+    leaves: HardwareState | None = None
+    ends: tuple[NeedName, ...] = ()
     largest_step: JointWay | None = None
     does: Text
     source: Text
@@ -66,7 +66,8 @@ class NeedStatusFacts(CatalogModel):
         topic: Name of the topic below the node of the controller.
         type: Message type of the topic.
         field: Field of the newest message that is compared.
-        value: Value of the field while the need holds.
+        values: Values of which the field has one while the need holds.
+        above: Value that the field exceeds while the need holds; it excludes ``values``.
         source: Line of code from which this was read.
     """
 
@@ -74,8 +75,15 @@ class NeedStatusFacts(CatalogModel):
     topic: Text
     type: Text
     field: Text
-    value: Union[bool, int]
+    values: tuple[Union[bool, int], ...] = ()
+    above: Annotated[float, Field(allow_inf_nan=False)] | None = None
     source: Text
+
+    @model_validator(mode="after")
+    def _compares_in_one_way(self) -> "NeedStatusFacts":
+        if bool(self.values) == (self.above is not None):
+            raise ValueError("must have `values` or `above`, and not both")
+        return self
 
 
 class StartFacts(CatalogModel):
@@ -89,7 +97,7 @@ class StartFacts(CatalogModel):
         source: Line of code from which this was read.
     """
 
-    initial_state: ComponentState
+    initial_state: HardwareState
     direct_activation: bool = False
     why: Text
     source: Text

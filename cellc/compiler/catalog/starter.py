@@ -145,14 +145,16 @@ def _of_device(name: str, one: NamedDevice, distro: Distro, wires: Wires) -> Ite
         yield "  goal_time: 1 s"
         yield f"  path_tolerance: {_tolerance(chain, {False: 0.2, True: 0.02})}"
         yield f"  goal_tolerance: {_tolerance(chain, {False: 0.01, True: 0.001})}"
-        yield from (f"{name}_io: {{type: {kind}, device: {name}}}" for kind in _telling_kinds(one.model))
+        for kind, topic in _telling_kinds(one.model).items():
+            yield f"{name}_{topic}: {{type: {kind}, device: {name}}}"
     yield from outputs_controller(name, wires)
 
 
-def _telling_kinds(model: DeviceModel) -> dict[str, None]:
-    """Return the kinds of controllers that tell whether the device listens, each once."""
+def _telling_kinds(model: DeviceModel) -> dict[str, str]:
+    """Return the kinds of controllers that tell whether the device listens, each once, with a word for its name."""
     real = None if model.control is None else model.control.hardware.real
-    return {} if real is None else {status.controller: None for status in real.reported_by.values()}
+    topics = {} if real is None else {report.controller: report.topic for report in real.reported_by.values()}
+    return {kind: topic if number else "io" for number, (kind, topic) in enumerate(topics.items())}
 
 
 def _trajectory_kind(model: DeviceModel, distro: Distro) -> str:

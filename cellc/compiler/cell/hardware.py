@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from cellc.compiler.cell.entity import Part
 from cellc.compiler.cell.interface import InnerNode
 from cellc.compiler.cell.site import JointFigure
-from cellc.contract.entities import Target
+from cellc.contract.entities import HardwareState, Target
 from cellc.contract.vocabulary import (
     CommandAuthority,
     Gravity,
@@ -46,6 +46,7 @@ class Effect:
         needs: what must hold before it → what happens otherwise, in the distribution of the cell.
         drops_part: what a gripper holds falls.
         leaves: the state of the component afterwards where it is not the one that was asked for.
+        ends: what a claim needs and no longer has afterwards.
         does: the same as a sentence.
         largest_step: distance, rad or m, of a set point from the device that it still follows; None without bound.
     """
@@ -55,25 +56,28 @@ class Effect:
     lock: ManagerLock
     needs: Mapping[Need, Unmet]
     drops_part: bool
-    leaves: str | None
+    leaves: HardwareState | None
     does: str
     largest_step: float | None = None
+    ends: tuple[Need, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NeedReport:
-    """Where a cell hears whether a need holds: ``field`` of the newest message of a controller's topic is ``value``.
+    """Where a cell hears whether a need holds: by ``field`` of the newest message of a controller's topic.
 
     Args:
         controller_kind: kind of the controller that publishes it.
         topic: name of the topic below the controller's node.
+        values: those of which the field has one while the need holds; none where it must be ``above`` a value.
     """
 
     controller_kind: str
     topic: str
     type: str
     field: str
-    value: bool | int
+    values: tuple[bool | int, ...]
+    above: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,9 +166,9 @@ class HardwareComponent:
         return tuple(need for need, otherwise in unmet.items() if otherwise is Unmet.KEEPS_SET_POINTS)
 
     @property
-    def heard_before_a_claim(self) -> tuple[NeedReport, ...]:
+    def heard_before_a_claim(self) -> Mapping[Need, NeedReport]:
         """Where the cell hears whether these needs hold, as far as the catalog tells."""
-        return tuple(self.reported_by[need] for need in self.kept_by_a_claim if need in self.reported_by)
+        return {need: self.reported_by[need] for need in self.kept_by_a_claim if need in self.reported_by}
 
     @property
     def is_activation_known(self) -> bool:

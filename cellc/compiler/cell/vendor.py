@@ -5,17 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from cellc.compiler.cell.entity import Part
-from cellc.contract.vocabulary import GateCode, RobotSetting
+from cellc.contract.vocabulary import GateCode, LeftBy, Moment, Need, RobotSetting
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SafetyState:
-    """A state of the device's safety controller, how its driver reports it, and the gate that looks for it."""
+    """A state of the device's safety controller, how its driver reports it, and the gate that looks for it.
+
+    Args:
+        moment: the one whose effect says what the stop does.
+        ends: what a claim needs and no longer has in this state, besides what that effect ends.
+        left_by: what ends the stop once its cause is gone.
+    """
 
     name: str
     stops: bool
     reported: str | None
     gate: GateCode
+    moment: Moment = Moment.STOP
+    ends: tuple[Need, ...] = ()
+    left_by: LeftBy = LeftBy.ACTIVATION
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

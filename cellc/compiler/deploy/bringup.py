@@ -9,7 +9,7 @@ in any order; each later step waits for its proof.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
@@ -31,11 +31,13 @@ from cellc.compiler.deploy.readiness import (
     started_active,
 )
 from cellc.compiler.deploy.versions import compared_on
+from cellc.compiler.deploy.watches import heard, watches
 from cellc.compiler.graph.claims import crosses_an_adapter
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.bring_up import (
     CLAIM_WATCH,
+    Acknowledgment,
     ActionProof,
     Activation,
     AloneProof,
@@ -45,7 +47,6 @@ from cellc.contract.bring_up import (
     ControllerProof,
     HardwareActivation,
     HardwareProof,
-    HardwareState,
     LifecycleProof,
     ManagedState,
     MockProof,
@@ -56,13 +57,9 @@ from cellc.contract.bring_up import (
     TopicProof,
     TransformProof,
     Transition,
-    Watch,
 )
-from cellc.contract.entities import Target
-from cellc.contract.vocabulary import Behavior, BringUpPhase, InterfaceKind, Moment, Need
-
-WATCH = "watch"
-"""The request of the bring-up program that deactivates the claims of a robot that no longer listens."""
+from cellc.contract.entities import HardwareState, Target
+from cellc.contract.vocabulary import BringUpPhase, InterfaceKind, Moment, Need
 
 DEADLINE_S = 60.0
 """How long a step waits for its proof, and for its effect."""
@@ -222,6 +219,8 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
         if is_claiming(cell, controller, later):
             claiming.setdefault(moved_with(cell, controller.device), []).append(controller.name)
     for released, names in claiming.items():
+        if target == "real":
+            yield from _acknowledge(cell, manager, released, names)
         yield _step(
             BringUpPhase.CLAIM,
             f"claim_{manager.name}" if len(claiming) == 1 else f"claim_{manager.name}_of_{released}",
@@ -239,6 +238,21 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
             [_controller(manager, name, "active") for name in names],
             released,
         )
+
+
+def _acknowledge(cell: Cell, manager: ControllerManager, released: str, names: Sequence[str]) -> Iterator[BringUpStep]:
+    """Yield what lets claims be made: the person who authorizes them acknowledges, and each proof must hold by then."""
+    for watch in watches(cell):
+        if watch.manager == manager.node and not set(watch.controllers).isdisjoint(names):
+            yield _step(
+                BringUpPhase.CLAIM,
+                f"acknowledge_{watch.device}",
+                manager.host,
+                [*_mocked(cell, "real"), *watch.while_hold.values(), NodeProof(kind="node", node=CLAIM_WATCH)],
+                Acknowledgment(kind="acknowledge", service=watch.acknowledge),
+                [],
+                released,
+            )
 
 
 def _move(cell: Cell, target: Target) -> BringUpStep:
@@ -263,7 +277,8 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     )
     names = (name for name in asked if name not in adapted)
     actions = (ActionProof(kind="action", action=name) for name in (*(adapted if target == "real" else ()), *names))
-    proof: list[Proof] = [*_mocked(cell, target), *claimed, *actions, *_managed_nodes(cell)]
+    followed = (proof for device in cell.devices for proof in heard(cell, device).values() if target == "real")
+    proof: list[Proof] = [*_mocked(cell, target), *claimed, *followed, *actions, *_managed_nodes(cell)]
     return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
 
 
@@ -304,22 +319,11 @@ def _step(
     )
 
 
-def _listening(cell: Cell, manager: ControllerManager) -> Iterator[tuple[Device, TopicProof]]:
-    """Yield what says that a device of a manager follows set points, where a claim must wait for it."""
-    telling = manager.by_kind()
-    for device in components_of(cell, manager, "real"):
-        for report in () if device.control.hardware is None else device.control.hardware.heard_before_a_claim:
-            for controller in telling.get((report.controller_kind, device.name), ()):
-                topic = f"{controller.full_name}/{report.topic}"
-                proof = TopicProof(kind="topic", topic=topic, type=report.type, field=report.field, value=report.value)
-                yield device, proof
-
-
 def _heard(cell: Cell, manager: ControllerManager) -> Iterator[Proof]:
-    """Yield that a robot listens, and that the node is there which takes the claim when it no longer does."""
-    listening = tuple(proof for _, proof in _listening(cell, manager))
-    yield from listening
-    if listening:
+    """Yield that a robot follows, and that the node is there which takes the claim when it no longer does."""
+    proofs = [proof for device in components_of(cell, manager, "real") for proof in heard(cell, device).values()]
+    yield from proofs
+    if proofs:
         yield NodeProof(kind="node", node=CLAIM_WATCH)
 
 
@@ -328,23 +332,10 @@ def _silent(cell: Cell, device: Device) -> Iterator[TopicProof]:
     effect = None if device.control.hardware is None else device.control.hardware.effects.get(Moment.ACTIVATE)
     if effect is not None and Need.PROGRAM_STOPPED in effect.needs:
         for manager in cell.managers:
-            for _, proof in _listening(cell, manager) if device.name in manager.devices else ():
-                if isinstance(proof.value, bool):
-                    yield proof.model_copy(update={"value": not proof.value})
-
-
-def watches(cell: Cell) -> Iterator[Watch]:
-    """Yield who loses a claim when a device follows no set points: of both targets, as only what is active loses it."""
-    for manager in cell.managers:
-        for device, proof in _listening(cell, manager):
-            joints = {joint.name for joint in device.joints}
-            claiming = tuple(
-                owner.name
-                for owner in manager.controllers
-                if is_claiming(cell, owner, ())
-                if joints & set(owner.joints) or (owner.behavior is Behavior.OWN_MOTION and owner.device == device.name)
-            )
-            yield Watch(manager=manager.node, controllers=claiming, while_holds=proof)
+            for other in components_of(cell, manager, "real") if device.name in manager.devices else ():
+                proof = heard(cell, other).get(Need.PROGRAM_RUNNING)
+                if proof is not None:
+                    yield proof.model_copy(update={"values": (False,), "unsaid": True})
 
 
 def _component(device: Device) -> str:

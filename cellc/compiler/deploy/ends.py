@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.interface import Endpoint, Interface
-from cellc.compiler.deploy.bringup import watches
 from cellc.compiler.deploy.readiness import silent_until_activation
+from cellc.compiler.deploy.watches import watches
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import CLAIM_WATCH
 from cellc.contract.vocabulary import InterfaceKind
@@ -60,4 +60,4 @@ def _asking(graph: CellGraph) -> Mapping[tuple[InterfaceKind, str], list[str]]:
 
 
 def _watched(graph: CellGraph) -> frozenset[str]:
-    return frozenset(watch.while_holds.topic for watch in watches(graph.cell))
+    return frozenset(proof.topic for watch in watches(graph.cell) for proof in watch.while_hold.values())

@@ -23,6 +23,9 @@ VERSIONS_PROGRAM = "scripts/installed_versions"
 REQUIRED_PROGRAM = "scripts/required"
 """What ends a launch with one of its programs, where launch has no word for that."""
 
+WATCH_PROGRAM = "scripts/claim_watch"
+"""What takes claims from a robot that no longer follows set points."""
+
 RECORDING = "config/recording_qos.yaml"
 """QoS with which an attempt is recorded."""
 

@@ -8,8 +8,15 @@ from dataclasses import dataclass
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, DeviceJoint
 from cellc.compiler.cell.site import FirstMotion
-from cellc.compiler.deploy.files import BRING_UP_PROGRAM, FIRST_GOAL_PROGRAM, REQUIRED_PROGRAM, VERSIONS_PROGRAM
+from cellc.compiler.deploy.files import (
+    BRING_UP_PROGRAM,
+    FIRST_GOAL_PROGRAM,
+    REQUIRED_PROGRAM,
+    VERSIONS_PROGRAM,
+    WATCH_PROGRAM,
+)
 from cellc.compiler.deploy.processes import motion_clients
+from cellc.compiler.deploy.watches import watches
 from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.vocabulary import Feature, features
 
@@ -98,4 +105,5 @@ def programs(cell: Cell) -> tuple[str, ...]:
     """Return the programs that the package installs."""
     ends = () if Feature.EXIT_ENDS_LAUNCH in features(cell.distro) else (REQUIRED_PROGRAM,)
     goal = (FIRST_GOAL_PROGRAM,) if first_goals(cell) else ()
-    return (BRING_UP_PROGRAM, VERSIONS_PROGRAM, *ends, *goal)
+    watch = (WATCH_PROGRAM,) if any(watches(cell)) else ()
+    return (BRING_UP_PROGRAM, VERSIONS_PROGRAM, *ends, *goal, *watch)

@@ -38,7 +38,7 @@ from cellc.compiler.formats.numbers import positive_zero, shortest
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.pins import is_commit, last_word
-from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, GateCode, InterfaceKind, features
+from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, GateCode, InterfaceKind, LeftBy, features
 
 Row = Mapping[str, str]
 CELL = "cell"
@@ -146,15 +146,18 @@ def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
 
 def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
+        safety = device.procedures.safety
         for gate in GateCode:
-            stops = [state for state in device.procedures.safety.states if state.stops and state.gate is gate]
+            stops = [state for state in safety.states if state.stops and state.gate is gate]
             if stops:
-                echoes = (
-                    f"timeout 10 ros2 topic echo --once {shell_word(topic)}"
-                    for topic in device.procedures.safety.topics
-                )
+                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(topic)}" for topic in safety.topics)
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
                 yield device.name, states, "\n".join(echoes), gate
+
+
+def _self_resuming(graph: CellGraph) -> Iterator[Values]:
+    states = ((device.name, state) for device in graph.cell.devices for state in device.procedures.safety.states)
+    return ((name, state.name) for name, state in states if state.stops and state.left_by is LeftBy.ITSELF)
 
 
 def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
@@ -249,8 +252,7 @@ def _of_this_launch(lines: tuple[str, ...]) -> Iterator[str]:
         wanted = " ".join(f"-e {shell_word(line)}" for line in lines)
         managers = 'grep -lF -e ros2_control_node "$(printenv ROS_LOG_DIR || echo ~/.ros/log)"/*/launch.log'
         newest = f"{managers} | xargs -r -d '\\n' ls -t | head -n 1 | xargs -r -d '\\n'"
-        yield f"{newest} ls -l"
-        yield f"{newest} grep -hF {wanted} | tail -n 1"
+        yield from (f"{newest} ls -l", f"{newest} grep -hF {wanted} | tail -n 1")
 
 
 def _nominal_devices(graph: CellGraph) -> Iterator[Values]:
@@ -266,9 +268,8 @@ def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         calibration = None if device.body.kinematics is None else device.body.kinematics.calibration
         if calibration is not None:
-            path = f"cells/{graph.cell.name}/{calibration.name}"
             facts = (calibration.name, calibration.hash, calibration.measured, calibration.owner, calibration.sha256)
-            yield (device.name, *facts, path)
+            yield device.name, *facts, f"cells/{graph.cell.name}/{calibration.name}"
 
 
 def _cards(graph: CellGraph) -> Iterator[Values]:
@@ -353,6 +354,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "idle_joint_states": (("topic",), _idle_joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
+    "self_resuming": (("device", "state"), _self_resuming),
     "loaded_device": (_PAYLOAD, _loaded_devices),
     "tool_center": (("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "command"), _tool_centers),
     "tool_connector": (("device", "voltage", "tools"), _tool_connectors),

@@ -11,7 +11,7 @@ from cellc.compiler.cell.hardware import OfferedInterface
 from cellc.compiler.cell.interface import Node
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
-from cellc.contract.bring_up import CLAIM_WATCH, BringUp
+from cellc.contract.bring_up import BringUp
 from cellc.contract.entities import TARGETS
 from cellc.contract.vocabulary import BringUpPhase, Feature, Motion, features
 
@@ -72,5 +72,4 @@ def past_controllers(cell: Cell) -> Iterator[tuple[Device, OfferedInterface, str
 def bring_up_nodes(plan: BringUp) -> tuple[str, ...]:
     """Return the names that the program of the bring-up gives its node: after the last phase that it takes."""
     taken = {step.phase for target in TARGETS for step in plan.steps(target)}
-    named = (f"bring_up_{phase}" for phase in BringUpPhase if phase in taken)
-    return (*named, *((CLAIM_WATCH.removeprefix("/"),) if plan.watches else ()))
+    return tuple(f"bring_up_{phase}" for phase in BringUpPhase if phase in taken)

@@ -16,6 +16,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import SOURCES, plans
 from cellc.compiler.deploy.first_goal import first_goals, programs
+from cellc.compiler.deploy.watches import watches
 from cellc.compiler.formats.urdf.hardware import share_folders
 from cellc.compiler.formats.xml_text import comment, element, render
 from cellc.compiler.formats.yaml_text import render as yaml
@@ -27,6 +28,8 @@ _ALWAYS = ("ros2launch", "xacro")
 _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
 # What the program of the bring-up imports: it asks the controller managers and managed nodes, and hears transforms.
 _BRING_UP = ("controller_manager_msgs", "lifecycle_msgs", "rcl_interfaces", "rclpy", "tf2_msgs")
+# What acknowledges claims, and what ends them where a robot no longer follows.
+_WATCH = ("action_msgs", "std_srvs")
 # What the commands of the gates call; the keys of rosdep.
 _GATES = ("liburdfdom-tools", "ros2bag", "ros2cli_common_extensions", "rosbag2_storage_mcap", "sros2", "tf2_ros")
 _EXECUTION = "moveit_simple_controller_manager"
@@ -110,6 +113,8 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
         names |= {*_of_moveit(cell), *(group.solver.package for group in cell.groups)}
     if first_goals(cell):
         names |= set(_FIRST_GOAL)
+    if any(watches(cell)):
+        names |= set(_WATCH)
     if cell.managers:
         names |= set(_CONTROL)
         # Every topic that the bring-up listens to is one whose type it imports.

@@ -25,6 +25,7 @@ from cellc.compiler.deploy.files import (
     RVIZ,
     SOURCES,
     VERSIONS_PROGRAM,
+    WATCH_PROGRAM,
     plans,
 )
 from cellc.compiler.deploy.first_goal import programs
@@ -63,6 +64,7 @@ _FILES = (
     ("scripts/bring_up", "the program that runs these steps"),
     (VERSIONS_PROGRAM, "the first of these steps: compares the version tuple with the installed packages"),
     (FIRST_GOAL_PROGRAM, "sends that goal from the current position, and cancels one"),
+    (WATCH_PROGRAM, "ends goals and claims when a robot stops, pauses or is silent, until a person acknowledges"),
     (REQUIRED_PROGRAM, "ends the launch when a required program ends"),
     (SOURCES, "repositories, pinned to commits, of packages that the distribution does not release"),
     ("contract.json", "contract of each interface: type, QoS, rate, age, owner, failure behavior"),
@@ -217,7 +219,7 @@ def _present(cell: Cell, plan: Deployment, name: str) -> bool:
         return bool(cell.groups)
     if name == "middleware/":
         return bool(cell.hosts)
-    if name in (REQUIRED_PROGRAM, FIRST_GOAL_PROGRAM, _GOAL):
+    if name in (REQUIRED_PROGRAM, FIRST_GOAL_PROGRAM, WATCH_PROGRAM, _GOAL):
         return (FIRST_GOAL_PROGRAM if name == _GOAL else name) in programs(cell)
     if name == SOURCES:
         return bool(unreleased(cell))

@@ -341,7 +341,15 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
 
     return VendorSafety(
         states=tuple(
-            SafetyState(name=state.name, stops=state.stops, reported=state.reported, gate=state.gate)
+            SafetyState(
+                name=state.name,
+                stops=state.stops,
+                reported=state.reported,
+                gate=state.gate,
+                moment=state.moment,
+                ends=state.ends,
+                left_by=state.left_by,
+            )
             for state in safety.states
         ),
         topics=tuple(

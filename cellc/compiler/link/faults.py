@@ -10,6 +10,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.entity import Entity
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.motion import Fault, Step, StepEvent
+from cellc.compiler.cell.stops import stops_of
 from cellc.compiler.link.frames import FrameNames
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import si
@@ -17,7 +18,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.faults import EventSpec, FaultSpec, PhaseSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.contract.faults import FaultTarget, GoalStep
+from cellc.contract.faults import FaultKind, FaultTarget, GoalStep, stop_state
 from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment, Need
 
 SENDS_GOALS = get_args(GoalStep)
@@ -134,6 +135,10 @@ def _of_devices(devices: tuple[Device, ...]) -> dict[FaultTarget, Names]:
             device for device in devices if device.sensing.camera is not None or device in jointed
         ),
         FaultTarget.STOPPABLE: _named(jointed),
+        FaultTarget.PROTECTED: _stopping(jointed, FaultKind.PROTECTIVE_STOP),
+        FaultTarget.GUARDED: _stopping(jointed, FaultKind.SAFEGUARD_STOP),
+        FaultTarget.POWERED: _stopping(jointed, FaultKind.EMERGENCY_STOP),
+        FaultTarget.PAUSING: _named(device for device in claimed if Need.NOT_PAUSED in _claim_needs(device)),
         FaultTarget.SCALED: _named(device for device in jointed if device.control.speed_scaling is not None),
         FaultTarget.ARM: _named(device for device in jointed if device.kind == "arm"),
         FaultTarget.PROGRAMMED: _named(claimed),
@@ -144,6 +149,13 @@ def _of_devices(devices: tuple[Device, ...]) -> dict[FaultTarget, Names]:
         FaultTarget.JOINT: _joints(devices),
         FaultTarget.PROGRAMMED_JOINT: _joints(claimed),
     }
+
+
+def _stopping(devices: Iterable[Device], kind: FaultKind) -> Names:
+    """Return the devices that know a state in which a fault stops them."""
+    return _named(
+        device for device in devices if stop_state(kind, {state.name for state in stops_of(device)}) is not None
+    )
 
 
 def _claim_needs(device: Device) -> Collection[Need]:

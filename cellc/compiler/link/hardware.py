@@ -114,7 +114,8 @@ def _with_effects(component: HardwareComponent, real: HardwareFacts, distro: Dis
                 topic=status.topic,
                 type=status.type,
                 field=status.field,
-                value=status.value,
+                values=status.values,
+                above=status.above,
             )
             for need, status in real.reported_by.items()
         },
@@ -131,6 +132,7 @@ def effect(facts: EffectFacts, distro: Distro | None) -> Effect:
         drops_part=facts.drops_part,
         leaves=facts.leaves,
         does=facts.does,
+        ends=facts.ends,
         largest_step=None if facts.largest_step is None else facts.largest_step.si,
     )
 

@@ -11,13 +11,15 @@ from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.run_trace import StateChange, TraceResult
 from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+from cellc.mock.stops import NORMAL
 
+_READY = ("active", NORMAL)
 _MEASURED = {
     "plan_to_execute_s": ("plan to execute", "s", "plan ready (step 3) to first motion (step 7), longest"),
     "cancel_s": ("cancel to hold", "s", "cancel requested to all joints standing still, longest"),
     "missed_cycles": ("missed cycles", "cycles", "joint states that were due"),
     "stale_state_rejection": ("stale data rejected", "share", "attempts that stale data ended, of those it met"),
-    "protective_stops": ("protective stops", "stops", "hardware components that left active"),
+    "protective_stops": ("protective stops", "stops", "hardware components that left active, or reported a stop"),
     "recovery_time_s": ("recovery time", "s", "hardware left active until it was active again, longest"),
     "wrong_owner_events": (
         "wrong-owner events",
@@ -55,8 +57,8 @@ def kpis(targets: Kpis, result: RehearsalResult, trace: TraceResult, max_state_a
         max_state_age_s: how old a joint state may be.
     """
     attempts = [record for record in result.attempts if record.trace or record.outcome != AttemptOutcome.SUCCEEDED]
-    stops = [change for change in trace.changes if change.kind == "hardware component"]
-    left_active = sum(change.state != "active" for change in stops)
+    stops = [change for change in trace.changes if change.kind in ("hardware component", "stop")]
+    left_active = sum(change.state not in _READY for change in stops)
     wrong_owners = sum(not claim.by_contract for claim in trace.claims)
     wrong_owners += sum(record.outcome == AttemptOutcome.WRONG_OWNER for record in attempts)
     return (
@@ -122,7 +124,7 @@ def _plan_to_execute(attempts: Sequence[AttemptRecord]) -> Iterator[float]:
 def _recoveries(changes: Sequence[StateChange]) -> Iterator[float]:
     left: dict[str, int] = {}
     for change in changes:
-        if change.state != "active":
+        if change.state not in _READY:
             left.setdefault(change.subject, change.stamp_ns)
         elif change.subject in left:
             yield (change.stamp_ns - left.pop(change.subject)) / 1e9

@@ -31,10 +31,13 @@ class Claim:
 
 @dataclass(frozen=True, slots=True)
 class StateChange:
-    """A controller or hardware component was in a state from an instant on; the reason is empty where it was asked."""
+    """A controller or hardware component was in a state from an instant on, or reported a stop while it stayed active.
+
+    The reason is empty where it was asked.
+    """
 
     stamp_ns: int
-    kind: Literal["controller", "hardware component"]
+    kind: Literal["controller", "hardware component", "stop"]
     subject: str
     state: str
     reason: str
@@ -203,6 +206,10 @@ class RunTrace:
         self._missed = sum(history.missed_until(now_ns) for history in self._plant.control.histories.values())
         self._claims = self._book.claims(now_ns)
         self._ended_ns = now_ns
+        reported = (
+            StateChange(stop.stamp_ns, "stop", stop.component, stop.state, "") for stop in self._plant.stops.changes
+        )
+        self._changes = sorted([*self._changes, *reported], key=lambda change: change.stamp_ns)
 
     def result(self) -> TraceResult:
         """Return everything; the run must have ended."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractController
+from cellc.contract.faults import FaultKind, stop_state
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome
 
@@ -108,6 +109,11 @@ def components(contract: Contract) -> dict[str, str]:
 def stoppable(contract: Contract) -> dict[str, str]:
     """Return what stops of every device that stops by itself: its hardware component, or the device on its adapter."""
     return components(contract) | {device: device for device in contract.adapters}
+
+
+def stop_of(contract: Contract, device: str, kind: FaultKind) -> str | None:
+    """Return the state in which a fault stops a device; None where nothing of it stops so."""
+    return stop_state(kind, contract.devices[device].stops) if device in stoppable(contract) else None
 
 
 def joints_of_device(contract: Contract, device: str) -> tuple[str, ...]:

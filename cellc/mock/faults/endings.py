@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from cellc.contract.bring_up import WATCH_WITHIN_S
 from cellc.contract.contract import Contract
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.faults.cases import BORNE, CellStep, Ending, ends_in
+from cellc.mock.faults.cases import BORNE, CellStep, Ending, device_of, ends_in
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S
 from cellc.mock.nodes.observations import DEFAULT_MAX_AGE_S as DEFAULT_OBSERVATION_AGE_S
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ, POSE_TYPE
+from cellc.mock.stops import recovery_state
 from cellc.mock.task.bounds import action_timeout_s, cancel_bound_s, goal_timeout_s, grip_timeout_s, joint_state_age_s
+from cellc.mock.task.context import OUTCOME_OF_STOP
 from cellc.mock.task.move import TF_TIMEOUT_S
 from cellc.mock.task.task import PATIENCE_PERIODS
 from cellc.mock.task.watch import WATCH_S
@@ -133,6 +136,36 @@ def _goal_time_s(contract: Contract, controller: str) -> float | None:
         return contract.adapters[controller].goal_time_s
     controllers = (manager.controllers.get(controller) for manager in contract.managers.values())
     return next((entry.goal_time_s for entry in controllers if entry is not None), None)
+
+
+def stopped_in(bounds: Bounds, device: str, state: str) -> StepEnding:
+    """Return how steps end when a device stops in a state of its own: as soon as the cell hears of it, if it does.
+
+    A stop that no topic reports is noticed by a goal that gets nowhere.
+    """
+    contract, outcome = bounds.contract, OUTCOME_OF_STOP[recovery_state(state)]
+    stop, facts = contract.devices[device].stops[state], contract.devices[device]
+    if device in contract.adapters or stop.leaves != "active":
+        return stopped(bounds, outcome)
+    if set(stop.ends) & set(facts.reports):
+        return stopped(bounds, outcome, WATCH_WITHIN_S)
+    return unfollowed(bounds, device)
+
+
+def unfollowed(bounds: Bounds, device: str, *more: AttemptOutcome) -> StepEnding:
+    """Return how steps end when a device follows nothing and says nothing: those that move it get nowhere.
+
+    Args:
+        more: outcomes that this fault may have besides.
+    """
+
+    def ending(step: CellStep) -> Ending:
+        if not any(device_of(bounds.contract, name) == device for name in step.controllers):
+            return ends_in(*more, AttemptOutcome.SUCCEEDED, within_s=None) if more else BORNE
+        outcomes = (AttemptOutcome.TOLERANCE_VIOLATION, AttemptOutcome.TIMEOUT, AttemptOutcome.SUCCEEDED, *more)
+        return ends_in(*outcomes, within_s=bounds.execution_s(step))
+
+    return ending
 
 
 def stopped(bounds: Bounds, outcome: AttemptOutcome, after_s: float = 0.0) -> StepEnding:

@@ -11,7 +11,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.entities import ContractInterface
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
-from cellc.contract.vocabulary import AttemptOutcome
+from cellc.contract.vocabulary import AttemptOutcome, Moment
 from cellc.mock.bus.qos import served_actions
 from cellc.mock.faults.cases import (
     BORNE,
@@ -26,10 +26,9 @@ from cellc.mock.faults.cases import (
     fault_case,
     image_topic,
 )
-from cellc.mock.faults.endings import Bounds, stateless, stopped, unobserved
+from cellc.mock.faults.endings import Bounds, stateless, stopped, unfollowed, unobserved
 from cellc.mock.faults.ports import FaultPorts
 from cellc.mock.nodes.perception import POSE_TYPE, TF
-from cellc.mock.stops import FAULT
 from cellc.mock.task.bounds import planning_actions, planning_server
 from cellc.mock.task.execute import RESPONSE_S
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
@@ -137,8 +136,8 @@ class Unresponsive:
 class CutNetwork:
     """Cuts a device off from its host; a cut that is over before the driver gives up is borne.
 
-    A camera falls silent. A robot stops by itself when commands stay away, and its driver gives up when states do: the
-    last states are published with new stamps until then.
+    A camera falls silent. A robot stops by itself when commands stay away. Its driver gives up when states do, or
+    never: the last states are published with new stamps meanwhile.
     """
 
     kind: ClassVar[FaultKind] = FaultKind.CUT_NETWORK
@@ -163,9 +162,12 @@ class CutNetwork:
         bounds = Bounds(contract)
         for device in components(contract):
             entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(
-                entry, contract, stopped(bounds, AttemptOutcome.HARDWARE_FAULT, KEEP_ALIVE_S), hits_running_step=True
-            )
+            lost = contract.devices[device].effects.get(Moment.LINK_LOST)
+            if lost is not None and lost.leaves == "active":
+                yield fault_case(entry, contract, unfollowed(bounds, device))
+            else:
+                given_up = stopped(bounds, AttemptOutcome.HARDWARE_FAULT, KEEP_ALIVE_S)
+                yield fault_case(entry, contract, given_up, hits_running_step=True)
         for device, frames in cameras(contract).items():
             yield fault_case(FaultEntry(kind=cls.kind, target=device), contract, unobserved(bounds, frames))
 
@@ -175,9 +177,9 @@ class CutNetwork:
             ports.network.cut({ports.samples.camera_node(self.device)})
             return
         self._cut = True
-        ports.hardware.ignore_commands(self.component)
+        ports.effects.cut(self.device)
         give_up_ns = ports.schedule.now_ns + round(KEEP_ALIVE_S * 1e9)
-        ports.schedule.at(give_up_ns, partial(self._give_up, ports, self.component))
+        ports.schedule.at(give_up_ns, partial(self._give_up, ports))
 
     def end(self, ports: FaultPorts) -> None:
         """Connect again; a driver that gave up lets nothing move before somebody acknowledges."""
@@ -185,14 +187,13 @@ class CutNetwork:
         if self.component is None:
             ports.network.undo_cuts()
         elif self._given_up:
-            ports.hardware.end_cause(self.component)
+            ports.effects.end_cause(self.device)
         else:
-            ports.hardware.accept_commands(self.component)
+            ports.effects.reconnect(self.device)
 
-    def _give_up(self, ports: FaultPorts, component: str) -> None:
+    def _give_up(self, ports: FaultPorts) -> None:
         if self._cut:
-            self._given_up = True
-            ports.hardware.lose(component, FAULT)
+            self._given_up = ports.effects.lose_link(self.device)
 
 
 def _observed(contract: Contract, name: str, interface: ContractInterface) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from cellc.mock.engine.process import Action
 from cellc.mock.nodes.perception import Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
 from cellc.mock.plant import Plant
-from cellc.mock.stops import Stops
+from cellc.mock.real_start import RealStart
 from cellc.mock.task_status import ActionStatus, ForeignGoal, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
@@ -44,10 +44,9 @@ class Schedule(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class HardwarePort:
-    """Joints that do not follow, components that stop, and update loops that miss cycles."""
+    """Joints that do not follow, and update loops that miss cycles."""
 
     control: ControlStack
-    stops: Stops
 
     def stick(self, joint: str) -> None:
         """Hold a joint where it is."""
@@ -85,32 +84,6 @@ class HardwarePort:
             manager.disturbances.skip_cycles(cycles)
         for server in self.control.adapters.values():
             server.skip_cycles(cycles)
-
-    def stop(self, component: str, state: str) -> None:
-        """Stop a component; it lasts until ``end_cause`` and an acknowledgment."""
-        self.stops.enter(component, state)
-        for server in self.control.servers_of_component(component):
-            server.disturbances.protective_stop(component)
-
-    def lose(self, component: str, state: str) -> None:
-        """End the driver of a component: its read fails, and it is unconfigured."""
-        self.stops.enter(component, state)
-        for manager in self.control.managers_of_component(component):
-            manager.disturbances.lose(component)
-
-    def end_cause(self, component: str) -> None:
-        """Let what stopped a component be over; it stays stopped until somebody acknowledges."""
-        self.stops.end_cause(component)
-
-    def ignore_commands(self, component: str) -> None:
-        """Let no command reach a component."""
-        for manager in self.control.managers_of_component(component):
-            manager.disturbances.ignore_commands(component)
-
-    def accept_commands(self, component: str) -> None:
-        """Let commands reach a component again."""
-        for manager in self.control.managers_of_component(component):
-            manager.disturbances.accept_commands(component)
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,6 +218,7 @@ class FaultPorts:
     requests: TaskRequests
     milestones: Milestones
     effects: Effects
+    start: RealStart
     switches: Switches
 
 
@@ -254,7 +228,7 @@ def fault_ports(plant: Plant) -> FaultPorts:
     publisher, clock = plant.robot_state_publisher, plant.clocks.of(plant.task.name)
     return FaultPorts(
         schedule,
-        HardwarePort(plant.control, plant.stops),
+        HardwarePort(plant.control),
         ControllerPort(plant.control, plant.task.actions),
         SamplePort(plant.control.histories.values(), plant.cameras, schedule),
         TransformPort(plant.task.buffer, plant.perceptions, publisher, schedule, clock),
@@ -263,5 +237,6 @@ def fault_ports(plant: Plant) -> FaultPorts:
         plant.task.requests,
         plant.task.milestones,
         plant.effects,
+        plant.start,
         plant.switches,
     )

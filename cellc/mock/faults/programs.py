@@ -10,16 +10,16 @@ from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar, TypeVar
 
+from cellc.contract.bring_up import WATCH_WITHIN_S
 from cellc.contract.contract import Contract
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome, Moment, Need, Unmet
-from cellc.mock.effects import JOGGED, REACTION_NS
+from cellc.mock.effects import JOGGED
 from cellc.mock.errors import FaultMissedError
-from cellc.mock.faults.cases import CellStep, Ending, FaultCase, ends_in, fault_case, joints_of_device
-from cellc.mock.faults.endings import Bounds, stopped
+from cellc.mock.faults.cases import CellStep, Ending, FaultCase, ends_in, fault_case, joints_of_device, stop_of
+from cellc.mock.faults.endings import Bounds, stopped_in, unfollowed
 from cellc.mock.faults.ports import FaultPorts
-from cellc.mock.stops import PROTECTIVE_STOP
 
 JOG_AFTER_NS = 100_000_000
 START_AFTER_NS = 500_000_000
@@ -75,6 +75,36 @@ class ProgramStop(_Program):
 
     def end(self, ports: FaultPorts) -> None:
         """Start again."""
+        ports.effects.met(self.device, self.need)
+
+
+class ProgramPause(_Program):
+    """The program of a robot pauses: the robot stops, and its claims and goals stay alive until it goes on."""
+
+    kind: ClassVar[FaultKind] = FaultKind.PROGRAM_PAUSE
+
+    @classmethod
+    def of(cls, entry: FaultEntry, contract: Contract) -> ProgramPause | None:
+        """Return the fault of an entry; None where nothing of its target pauses."""
+        pausing = claim_needs(contract, Unmet.KEEPS_SET_POINTS).get(entry.target, ())
+        return cls(entry.target, Need.NOT_PAUSED) if Need.NOT_PAUSED in pausing else None
+
+    @classmethod
+    def cases(cls, contract: Contract) -> Iterator[FaultCase]:
+        """Yield every device whose program pauses."""
+        for device in claim_needs(contract, Unmet.KEEPS_SET_POINTS):
+            entry, bounds = FaultEntry(kind=cls.kind, target=device), Bounds(contract)
+            if cls.of(entry, contract) is not None:
+                heard = Need.NOT_PAUSED in contract.devices[device].reports
+                ending = partial(_given_up, bounds) if heard else unfollowed(bounds, device)
+                yield fault_case(entry, contract, ending)
+
+    def begin(self, ports: FaultPorts) -> None:
+        """Pause."""
+        ports.effects.unmet(self.device, self.need)
+
+    def end(self, ports: FaultPorts) -> None:
+        """Go on."""
         ports.effects.met(self.device, self.need)
 
 
@@ -169,10 +199,14 @@ class BrakesClosed:
 
     kind: ClassVar[FaultKind] = FaultKind.BRAKES_CLOSED
 
-    def __init__(self, device: str, component: str, *, programmed: bool) -> None:
-        """Bind the fault to a device; ``programmed`` where its set points pass through a program, which stops too."""
+    def __init__(self, device: str, stop: str, *, programmed: bool) -> None:
+        """Bind the fault to a device; ``programmed`` where its set points pass through a program, which stops too.
+
+        Args:
+            stop: the state in which a device without a program stops.
+        """
         self._device = device
-        self._component = component
+        self._stop = stop
         self._needs = (Need.PROGRAM_RUNNING, Need.BRAKES_OPEN) if programmed else (Need.BRAKES_OPEN,)
         self._stops = not programmed
         self._stopped = False
@@ -180,10 +214,14 @@ class BrakesClosed:
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> BrakesClosed | None:
         """Return the fault of an entry; None where a claim of its target needs no open brakes."""
-        component = None if entry.target not in _braked(contract) else contract.devices[entry.target].hardware_component
-        if component is None:
+        stop = (
+            None
+            if entry.target not in _braked(contract)
+            else stop_of(contract, entry.target, FaultKind.PROTECTIVE_STOP)
+        )
+        if stop is None:
             return None
-        return cls(entry.target, component, programmed=entry.target in claim_needs(contract, Unmet.KEEPS_SET_POINTS))
+        return cls(entry.target, stop, programmed=entry.target in claim_needs(contract, Unmet.KEEPS_SET_POINTS))
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
@@ -193,9 +231,9 @@ class BrakesClosed:
             if device in claim_needs(contract, Unmet.KEEPS_SET_POINTS):
                 yield fault_case(entry, contract, partial(_given_up, bounds))
             else:
-                yield fault_case(
-                    entry, contract, stopped(bounds, AttemptOutcome.PROTECTIVE_STOP), hits_running_step=True
-                )
+                state = stop_of(contract, device, FaultKind.PROTECTIVE_STOP)
+                if state is not None:
+                    yield fault_case(entry, contract, stopped_in(bounds, device, state), hits_running_step=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """Close them."""
@@ -204,14 +242,14 @@ class BrakesClosed:
             ports.effects.unmet(self._device, need)
         self._stopped = claimed and self._stops
         if self._stopped:
-            ports.hardware.stop(self._component, PROTECTIVE_STOP)
+            ports.effects.stop(self._device, self._stop)
 
     def end(self, ports: FaultPorts) -> None:
         """Open them, and start the program; the device stays stopped until that is acknowledged."""
         for need in self._needs:
             ports.effects.met(self._device, need)
         if self._stopped:
-            ports.hardware.end_cause(self._component)
+            ports.effects.end_stop(self._device, self._stop)
 
 
 def _braked(contract: Contract) -> tuple[str, ...]:
@@ -220,6 +258,6 @@ def _braked(contract: Contract) -> tuple[str, ...]:
 
 def _given_up(bounds: Bounds, step: CellStep) -> Ending:
     """Every step ends as soon as the claim is given up; one that asks for nothing may be over before."""
-    within_s = REACTION_NS / 1e9 + bounds.watched_s()
+    within_s = WATCH_WITHIN_S + bounds.watched_s()
     quick = () if step.controllers else (AttemptOutcome.SUCCEEDED,)
     return ends_in(AttemptOutcome.CLAIM_FAILURE, *quick, within_s=within_s)

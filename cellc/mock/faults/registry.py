@@ -77,7 +77,7 @@ class Injection:
         """Let the fault begin, counted from ``start_ns`` or from its event."""
         event = self.entry.event
         if self.entry.phase is not None:
-            ports.effects.expect(self.entry.phase, partial(self._begin, ports))
+            ports.start.expect(self.entry.phase, partial(self._begin, ports))
         elif event is None:
             self._begin_at(ports, start_ns + round((self.entry.at_s or 0.0) * 1e9))
         elif event.after_s > 0.0:

@@ -21,11 +21,11 @@ from cellc.mock.faults.cases import (
     ends_in,
     fault_case,
     joints_of_device,
+    stop_of,
     stoppable,
 )
-from cellc.mock.faults.endings import Bounds, stopped
+from cellc.mock.faults.endings import Bounds, stopped, stopped_in
 from cellc.mock.faults.ports import FaultPorts
-from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 
 NOTICED_AFTER = 0.01
 """rad or m that a joint moves before the torques give the load away."""
@@ -36,52 +36,57 @@ LOOK_S = 0.01
 class _SafetyStop:
     """A device that its safety functions stop; it stays stopped until that is acknowledged.
 
+    Where its own program only pauses meanwhile, the end of the stop is that it goes on: a person has acknowledged at
+    the device, or none had to.
+
     Attributes:
-        outcome: how a step ends that the stop hits.
-        state: what the device tells of itself meanwhile.
+        state: the state of the device.
     """
 
     kind: ClassVar[FaultKind]
-    outcome: ClassVar[AttemptOutcome]
-    state: ClassVar[str]
-    component: str
+    device: str
+    state: str
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> _SafetyStop | None:
-        """Return the fault of an entry; None where nothing of its target can stop."""
-        component = stoppable(contract).get(entry.target)
-        return None if component is None else cls(component)
+        """Return the fault of an entry; None where nothing of its target stops so."""
+        state = stop_of(contract, entry.target, cls.kind) if entry.target in contract.devices else None
+        return None if state is None else cls(entry.target, state)
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield every device with hardware or an adapter."""
+        """Yield every device with hardware or an adapter that stops so."""
         for device in stoppable(contract):
-            entry = FaultEntry(kind=cls.kind, target=device)
-            yield fault_case(entry, contract, stopped(Bounds(contract), cls.outcome), hits_running_step=True)
+            state = stop_of(contract, device, cls.kind)
+            if state is not None:
+                entry = FaultEntry(kind=cls.kind, target=device)
+                yield fault_case(entry, contract, stopped_in(Bounds(contract), device, state), hits_running_step=True)
 
     def begin(self, ports: FaultPorts) -> None:
         """Stop."""
-        ports.hardware.stop(self.component, self.state)
+        ports.effects.stop(self.device, self.state)
 
     def end(self, ports: FaultPorts) -> None:
         """Let what stopped it be over."""
-        ports.hardware.end_cause(self.component)
+        ports.effects.end_stop(self.device, self.state)
 
 
 class ProtectiveStop(_SafetyStop):
-    """A device goes into protective stop: its state stays visible, commands are refused."""
+    """A device goes into protective stop, or into fault where it has no such stop: its state stays visible."""
 
     kind = FaultKind.PROTECTIVE_STOP
-    outcome = AttemptOutcome.PROTECTIVE_STOP
-    state = PROTECTIVE_STOP
+
+
+class SafeguardStop(_SafetyStop):
+    """A door or a light curtain stops a device; it goes on as its vendor has it, once that is over."""
+
+    kind = FaultKind.SAFEGUARD_STOP
 
 
 class EmergencyStop(_SafetyStop):
     """Takes the power from the drives of a device; its own controller stays on, and tells where the joints stand."""
 
     kind = FaultKind.EMERGENCY_STOP
-    outcome = AttemptOutcome.EMERGENCY_STOP
-    state = EMERGENCY_STOP
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,13 +99,12 @@ class RestartDriver:
     """
 
     kind: ClassVar[FaultKind] = FaultKind.RESTART_DRIVER
-    component: str
+    device: str
 
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> RestartDriver | None:
         """Return the fault of an entry; None where its target has no hardware."""
-        component = components(contract).get(entry.target)
-        return None if component is None else cls(component)
+        return cls(entry.target) if entry.target in components(contract) else None
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
@@ -113,11 +117,11 @@ class RestartDriver:
 
     def begin(self, ports: FaultPorts) -> None:
         """End the driver."""
-        ports.hardware.lose(self.component, FAULT)
+        ports.effects.lose_driver(self.device)
 
     def end(self, ports: FaultPorts) -> None:
         """Connect again; that alone lets nothing move."""
-        ports.hardware.end_cause(self.component)
+        ports.effects.end_cause(self.device)
 
 
 class WrongPayload:
@@ -128,9 +132,11 @@ class WrongPayload:
 
     kind: ClassVar[FaultKind] = FaultKind.WRONG_PAYLOAD
 
-    def __init__(self, component: str, joints: tuple[str, ...]) -> None:
-        """Bind the fault to an arm."""
+    def __init__(self, device: str, component: str, state: str, joints: tuple[str, ...]) -> None:
+        """Bind the fault to an arm, and to the state in which it stops."""
+        self._device = device
         self._component = component
+        self._state = state
         self._joints = joints
         self._active = False
         self._stopped_at: dict[str, float] = {}
@@ -141,15 +147,17 @@ class WrongPayload:
         component = stoppable(contract).get(entry.target)
         if component is None or contract.devices[entry.target].kind != "arm":
             return None
-        return cls(component, joints_of_device(contract, entry.target))
+        state = stop_of(contract, entry.target, FaultKind.PROTECTIVE_STOP)
+        return None if state is None else cls(entry.target, component, state, joints_of_device(contract, entry.target))
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
         """Yield every arm."""
         for device in stoppable(contract):
-            if contract.devices[device].kind == "arm":
-                entry = FaultEntry(kind=cls.kind, target=device)
-                yield fault_case(entry, contract, partial(_overloaded, Bounds(contract), device))
+            entry = FaultEntry(kind=cls.kind, target=device)
+            state = stop_of(contract, device, FaultKind.PROTECTIVE_STOP)
+            if contract.devices[device].kind == "arm" and state is not None:
+                yield fault_case(entry, contract, partial(_overloaded, Bounds(contract), device, state))
 
     def begin(self, ports: FaultPorts) -> None:
         """Change the load."""
@@ -168,13 +176,14 @@ class WrongPayload:
         positions = ports.hardware.positions(self._component, self._joints)
         if any(abs(positions[joint] - self._stopped_at[joint]) > NOTICED_AFTER for joint in positions):
             self._stopped_at = positions
-            ports.hardware.stop(self._component, PROTECTIVE_STOP)
-            ports.hardware.end_cause(self._component)
+            ports.effects.stop(self._device, self._state)
+            ports.effects.end_stop(self._device, self._state, resumed=False)
         ports.schedule.at(ports.schedule.now_ns + round(LOOK_S * 1e9), partial(self._look, ports))
 
 
-def _overloaded(bounds: Bounds, device: str, step: CellStep) -> Ending:
+def _overloaded(bounds: Bounds, device: str, state: str, step: CellStep) -> Ending:
     """A step that leaves the arm where it is tolerates the fault."""
     if not any(device_of(bounds.contract, name) == device for name in step.controllers):
         return BORNE
-    return ends_in(AttemptOutcome.PROTECTIVE_STOP, AttemptOutcome.SUCCEEDED, within_s=bounds.execution_s(step))
+    outcomes = stopped_in(bounds, device, state)(step).outcomes
+    return ends_in(*outcomes, AttemptOutcome.SUCCEEDED, within_s=bounds.execution_s(step))

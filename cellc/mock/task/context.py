@@ -266,9 +266,8 @@ class TaskContext:
             yield Wait(until_ns)
 
     def check_cell(self) -> None:
-        """Raise AttemptError for what ends any attempt, a stop first; each of these is a watchdog of the task."""
+        """Raise AttemptError for what ends any attempt, a motion or stop first; each is a watchdog of the task."""
         self._check_effects()
-        self._check_stops()
         self._check_owner()
         self._check_cycles()
         self._check_states()
@@ -276,18 +275,15 @@ class TaskContext:
         self._check_time()
 
     def _check_effects(self) -> None:
-        """Raise AttemptError where something moved without a command, or a claim is no longer one."""
-        effects = self.plant.effects
-        for motion in effects.motions:
+        """Raise AttemptError where something moved without a command or stopped, or a claim is no longer one."""
+        for motion in self.plant.effects.motions:
             raise AttemptError(AttemptOutcome.UNCOMMANDED_MOTION, str(motion))
-        for controller, why in effects.given_up.items():
-            raise AttemptError(AttemptOutcome.CLAIM_FAILURE, f"{controller} gave up its claim: {why}")
-        for why in effects.ignored.values():
-            raise AttemptError(AttemptOutcome.CLAIM_FAILURE, why)
-
-    def _check_stops(self) -> None:
         for stop in self.plant.stops.present():
-            raise AttemptError(OUTCOME_OF_STOP[stop.state], f"hardware component {stop.component} is {stop.lifecycle}")
+            raise AttemptError(OUTCOME_OF_STOP[stop.state], str(stop))
+        for controller, why in self.plant.watches.given_up.items():
+            raise AttemptError(AttemptOutcome.CLAIM_FAILURE, f"{controller} gave up its claim: {why}")
+        for why in self.plant.effects.ignored.values():
+            raise AttemptError(AttemptOutcome.CLAIM_FAILURE, why)
 
     def _check_owner(self) -> None:
         """Raise AttemptError where another client commands: the status of an action names every goal that it has."""

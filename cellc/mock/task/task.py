@@ -63,7 +63,7 @@ def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[No
     _require_role(plant, role)
     yield from _until_over(context)
     attempt.operator = f"acknowledged by {role}"
-    plant.stops.recover()
+    plant.stops.recover(plant.now_ns)
     plant.effects.recover()
     yield from context.let_take_effect()
     problems = yield from _activate(plant)
@@ -76,7 +76,7 @@ def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[No
 
 def is_waiting(plant: Plant) -> bool:
     """Tell whether a claim waits for a person to take it again."""
-    return bool(plant.effects.given_up or plant.effects.ignored)
+    return bool(plant.watches.given_up or plant.effects.ignored)
 
 
 def _require_role(plant: Plant, role: str) -> None:
@@ -92,12 +92,14 @@ def _until_over(context: TaskContext) -> Waiting[None]:
     bound_s = context.contract.kpis.recovery_time_s or RECOVERY_S
     until_ns = min(context.now_ns + round(bound_s * 1e9), context.deadline_ns)
     plant = context.plant
-    while (lasting := plant.stops.lasting()) or plant.effects.silenced:
+    while (lasting := plant.stops.lasting()) or plant.effects.unrecoverable:
         if context.now_ns >= until_ns and lasting:
             text = f"{lasting[0].component} is still in {lasting[0].state} {bound_s:g} s after it was to be recovered"
             raise AttemptError(OUTCOME_OF_STOP[lasting[0].state], text)
         if context.now_ns >= until_ns:
-            text = f"{plant.effects.silenced[0]} still follows no set points {bound_s:g} s after a claim was wanted"
+            text = (
+                f"{plant.effects.unrecoverable[0]} still follows no set points {bound_s:g} s after a claim was wanted"
+            )
             raise AttemptError(AttemptOutcome.CLAIM_FAILURE, text)
         yield Wait(min(until_ns, context.now_ns + _LOOK_NS), (context.control.changed,))
 

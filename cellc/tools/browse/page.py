@@ -50,6 +50,7 @@ def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
         "States": table(("state", "outputs that set it", "sensors that report it", ""), _states(model)),
         "Packages": table(("part", "ROS 2", "versions", "source"), _versions(model)),
         "What it does": table(("moment", "what moves", "what happens", "source"), _effects(model)),
+        "Stops": table(("state", "component", "a claim lacks", "reported by", "ends by", "shown"), _stops(model)),
         "Its own controllers": table(("kind", "plugin"), _controllers(model)),
         "Network": table(("port", "who opens it", "for"), _ports(model)),
         "Safety": "\n".join(_safety(model)) or "None.",
@@ -147,6 +148,24 @@ def _effects(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
     for node in model.nodes:
         if node.effect is not None:
             yield f"start of {node.executable}", node.effect.motion.value, node.effect.does, node.effect.source
+
+
+def _stops(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    """Yield the states that stop the device as the mock plays them: what they leave, who says so, what ends them."""
+    real = None if model.control is None else model.control.hardware.real
+    for state in () if model.safety is None else model.safety.states:
+        if state.stops:
+            effect = None if real is None else real.effects.get(state.moment)
+            lost = (*(() if effect is None else effect.ends), *state.ends)
+            reports = {} if real is None else real.reported_by
+            topics = tuple(
+                dict.fromkeys(
+                    f"{reports[need].topic} of {reports[need].controller}" for need in lost if need in reports
+                )
+            )
+            left = "not stated" if effect is None or effect.leaves is None else effect.leaves
+            by = "its component, the controller manager" if left != "active" else topics or "no topic"
+            yield state.name, left, tuple(need.value for need in lost), by, state.left_by.value, state.reported or ""
 
 
 def _controllers(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:

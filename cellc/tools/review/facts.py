@@ -258,8 +258,8 @@ def _of_bring_up(plan: BringUp) -> Iterator[tuple[Path, Leaf]]:
             earlier = tuple(sorted(before.name for before in feeding))
             if earlier:
                 yield (*path, "after"), earlier
-    for number, watch in enumerate(plan.watches):
-        yield from flatten(_dumped(watch), ("watch", f"{watch.manager} {watch.while_holds.topic}", str(number)))
+    for watch in plan.watches:
+        yield from flatten(_dumped(watch), ("watch", watch.device))
 
 
 def _of_gates(gates: Gates, cell: str) -> Iterator[tuple[Path, Leaf]]:

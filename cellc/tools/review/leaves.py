@@ -87,7 +87,7 @@ def said(entry: Json) -> str:
         return " ".join(
             _KINDS.get(inner, inner) if isinstance(inner, str) else f"{key} {said(inner)}"
             for key, inner in entry.items()
-            if inner not in (None, "")
+            if inner not in (None, "", [])
         )
     if isinstance(entry, (list, tuple)):
         return ", ".join(said(inner) for inner in entry)

@@ -180,6 +180,7 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     ".sh": (shell,),
     "CMakeLists.txt": (plain,),
     "scripts/bring_up": (python,),
+    "scripts/claim_watch": (python,),
     "scripts/first_goal": (python,),
     "scripts/installed_versions": (python,),
     "scripts/required": (python,),

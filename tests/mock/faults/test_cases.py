@@ -67,9 +67,9 @@ def test_bound_of_a_run_is_the_longest_of_the_steps_that_it_may_end_in() -> None
 
 @pytest.mark.parametrize("when", ["started", "accepted", "moving"])
 def test_fault_begins_with_its_event(cell: MockCell, run: Rehearse, when: str) -> None:
-    entry = FaultEntry(kind="protective_stop", target="arm", event=FaultEvent(step=3, when=when))
+    entry = FaultEntry(kind="restart_driver", target="arm", event=FaultEvent(step=3, when=when))
     failed = run(entry).failed
-    assert (failed.step, failed.outcome) == ("move pick", "protective_stop")
+    assert (failed.step, failed.outcome) == ("move pick", "hardware_fault")
     marks = {point.step.name for point in failed.trace}
     assert marks >= {"started": set(), "accepted": {"ACCEPTED"}, "moving": {"ACCEPTED", "DRIVEN"}}[when]
     assert ("ACCEPTED" in marks) == (when != "started")

@@ -16,7 +16,7 @@ import pytest
 from cellc.contract.bring_up import Watch
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry
-from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, Need
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults
@@ -110,8 +110,8 @@ def test_set_point_beyond_what_the_robot_follows_in_a_step_is_ignored_and_that_f
 
 def test_watch_that_listens_to_another_topic_prevents_no_jump(cell: MockCell, plain: RehearsalEntry) -> None:
     (watch,) = cell.folder.watches
-    elsewhere = watch.while_holds.model_copy(update={"topic": "/arm_i/robot_program_running"})
-    deaf: tuple[Watch, ...] = (watch.model_copy(update={"while_holds": elsewhere}),)
+    elsewhere = watch.while_hold[Need.PROGRAM_RUNNING].model_copy(update={"topic": "/arm_i/robot_program_running"})
+    deaf: tuple[Watch, ...] = (watch.model_copy(update={"while_hold": {Need.PROGRAM_RUNNING: elsewhere}}),)
     entry = plain.model_copy(update={"faults": jogged_and_started(radians(1.5)), "steps": STOPPED})
     result = cell_of(replace(cell.folder, watches=deaf)).rehearse(entry)
     assert result.outcome == "uncommanded_motion"

@@ -13,7 +13,6 @@ STOPS: tuple[tuple[FaultKind, str, str], ...] = (
     (FaultKind.PROTECTIVE_STOP, "protective_stop", "protective_stop"),
     (FaultKind.EMERGENCY_STOP, "emergency_stop", "emergency_stop"),
     (FaultKind.RESTART_DRIVER, "hardware_fault", "fault"),
-    (FaultKind.CUT_NETWORK, "hardware_fault", "fault"),
     (FaultKind.WRONG_PAYLOAD, "protective_stop", "protective_stop"),
 )
 RECOVERY = (HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE, wait(0.5), HOME)
@@ -51,11 +50,6 @@ def test_nothing_moves_after_the_reconnect_before_a_new_goal_is_sent(
     assert acknowledged.operator_intervention == "acknowledged by operator"
     assert (home.outcome, done.result.outcome) == ("succeeded", "succeeded")
     assert done.travel(home.started_ns, home.ended_ns) > 0.01
-
-
-def test_cut_that_is_over_before_the_driver_gives_up_is_borne(run: Rehearse) -> None:
-    done = run(during(3, FaultKind.CUT_NETWORK, "arm", lasting_s=0.01))
-    assert done.result.outcome == "succeeded"
 
 
 def test_reconnect_alone_leaves_the_arm_stopped(run: Rehearse) -> None:
@@ -134,7 +128,7 @@ def test_emergency_stop_outranks_every_other(run: Rehearse, second: FaultKind) -
 def test_recovered_cell_finishes_what_is_asked_anew(run: Rehearse, cell: MockCell) -> None:
     again = (HOME, DETECT, PICK, *cell.entries[0].steps[3:])
     done = run(
-        during(3, FaultKind.CUT_NETWORK, "arm", lasting_s=1.0),
+        during(3, FaultKind.RESTART_DRIVER, "arm", lasting_s=1.0),
         steps=(HOME, DETECT, PICK, wait(2.0), ACKNOWLEDGE, *again),
     )
     assert done.result.outcome == "succeeded"

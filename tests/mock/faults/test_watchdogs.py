@@ -46,7 +46,7 @@ def _look_at_nothing(patch: pytest.MonkeyPatch) -> None:
 
 
 WATCHDOGS: list[tuple[str, FaultEntry, str, Remove]] = [
-    ("stops", during(3, FaultKind.PROTECTIVE_STOP, "arm"), "protective_stop", _method("_check_stops")),
+    ("stops", during(3, FaultKind.PROTECTIVE_STOP, "arm"), "protective_stop", _method("_check_effects")),
     ("owner", during(3, FaultKind.SECOND_COMMANDER, "gripper_action"), "wrong_owner", _method("_check_owner")),
     ("cycles", during(3, FaultKind.SKIP_CYCLES, cycles=5), "missed_cycle", _method("_check_cycles")),
     (
@@ -116,9 +116,11 @@ def test_stop_without_a_latch_is_over_without_an_acknowledgment(run: Rehearse, m
     entry = during(3, FaultKind.PROTECTIVE_STOP, "arm", lasting_s=1.0)
     assert run(entry, steps=steps).attempt(4).safety_state == "protective_stop"
 
+    end_cause = Stops.end_cause
+
     def release(stops: Stops, component: str) -> None:
-        for manager in stops._control.managers_of_component(component):
-            manager.disturbances.recover(component)
+        end_cause(stops, component)
+        stops.recover(0)
 
     monkeypatch.setattr(Stops, "end_cause", release)
     assert run(entry, steps=steps).attempt(4).safety_state == "normal"
@@ -131,8 +133,8 @@ def test_goal_that_is_sent_again_after_the_reconnect_would_be_seen(
     sent: list[Any] = []
 
     def replay(fault: RestartDriver, ports: FaultPorts) -> None:
-        ports.hardware.end_cause(fault.component)
-        ports.hardware.stops.recover()
+        ports.effects.end_cause(fault.device)
+        ports.effects._stops.recover(0)
         manager = ports.hardware.control.managers["control"]
         manager.spawn(["arm_trajectory"])
         assert manager.send_goal("arm_trajectory", sent[-1]).accepted

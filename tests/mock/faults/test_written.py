@@ -45,8 +45,8 @@ REHEARSALS = """
     expect: protective_stop
     within: 500 ms
   powerless:
-    {use: pick_and_place, inject: {emergency_stop: arm, at: 1 s}, expect: emergency_stop, within: 100 ms}
-  unplugged: {use: pick_and_place, inject: {cut_network: arm, at: 1 s}, expect: hardware_fault, within: 100 ms}
+    {use: pick_and_place, inject: {emergency_stop: arm, at: 1 s}, expect: emergency_stop, within: 250 ms}
+  unplugged: {use: pick_and_place, inject: {cut_network: arm, at: 1 s}, expect: tolerance_violation}
   dark: {use: pick_and_place, inject: {cut_network: camera, at: 1 s}, expect: stale_state, within: 500 ms}
   lost: {use: pick_and_place, inject: {restart_driver: arm, at: 1 s, lasting: 1 s}, expect: hardware_fault}
   recovered:
@@ -54,8 +54,8 @@ REHEARSALS = """
     inject: {restart_driver: arm, at: {step: 3, when: moving, after: 200 ms}, lasting: 1 s}
   alone_and_together:
     use: pick_and_place
-    inject: [{slow: arm/elbow_joint, to: 60 deg/s, at: 0 s}, {emergency_stop: gripper, at: {step: 4, when: accepted}}]
-    expect: emergency_stop
+    inject: [{slow: arm/elbow_joint, to: 60 deg/s, at: 0 s}, {protective_stop: gripper, at: {step: 4, when: accepted}}]
+    expect: tolerance_violation
 """
 
 
@@ -71,7 +71,7 @@ def test_rehearsals_of_all_kinds_of_faults_end_as_written(written: MockCell) -> 
     results = [written.run(name) for name in written.rehearsals]
     failed = [f"{each.name}: {each.outcome} after {each.response_s} s" for each in results if not each.passed]
     assert failed == []
-    assert len(results) == spec_text("ur5e_pick").count("expect:") + 3 + REHEARSALS.count("inject:")
+    assert len(results) == spec_text("ur5e_pick").count("expect:") + 4 + REHEARSALS.count("inject:")
 
 
 def test_cell_with_such_rehearsals_is_checked_without_a_new_finding(tmp_path: Path) -> None:

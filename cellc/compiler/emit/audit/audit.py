@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.stops import stops_of
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.processes import motion_clients
@@ -24,6 +25,7 @@ from cellc.compiler.emit.audit.tables import (
     record_section,
     shapes_section,
     signals_section,
+    stops_section,
     tf_section,
 )
 from cellc.compiler.formats.escape import code, markdown, markdown_comment
@@ -74,6 +76,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
         "Shutdown": _numbered(ending(cell)),
         "Recovery": "\n".join(recovery(cell)),
+        **({"What resumes": stops_section(cell)} if any(map(stops_of, cell.devices)) else {}),
         "After a crash or lost connection": "\n".join(_after_a_loss(cell)) or "None.",
         "What the mock cannot prove": "\n".join(_not_provable(cell)),
     }

@@ -8,8 +8,11 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice
 from cellc.compiler.cell.device import Device, SimulatedJoint
 from cellc.compiler.cell.frame import FrameKind
-from cellc.compiler.cell.hardware import HardwareComponent
+from cellc.compiler.cell.hardware import Effect, HardwareComponent
 from cellc.compiler.cell.interface import Interface
+from cellc.compiler.cell.stops import effect_of, stops_of
+from cellc.compiler.cell.vendor import SafetyState
+from cellc.compiler.deploy.watches import heard
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import start_positions
 from cellc.compiler.graph.control_laws import control_laws
@@ -21,10 +24,11 @@ from cellc.contract.contract import (
     ContractEffect,
     ContractGripper,
     ContractSimulatedJoint,
+    ContractStop,
     ContractSwitched,
 )
 from cellc.contract.control_law import ControlLaw
-from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment, Motion
 
 
 def devices(cell: Cell) -> dict[str, ContractDevice]:
@@ -49,13 +53,24 @@ def _device(cell: Cell, device: Device, law: ControlLaw | None) -> ContractDevic
         switched=_switched(device),
         law=law,
         effects=_effects(hardware),
+        stops=_stops(device),
+        reports={need: proof.topic for need, proof in heard(cell, device).items()},
         nan_after_inactive=hardware is not None and hardware.direct_activation,
         command_timeout_s=None if hardware is None else hardware.command_timeout_s,
     )
 
 
-_PLAYED = (Moment.ACTIVATE, Moment.CLAIM, Moment.PROGRAM_START)
-"""Moments that the mock plays."""
+_PLAYED = (
+    Moment.ACTIVATE,
+    Moment.CLAIM,
+    Moment.PROGRAM_START,
+    Moment.PROGRAM_STOP,
+    Moment.PROGRAM_PAUSE,
+    Moment.PROGRAM_RESUME,
+    Moment.LINK_LOST,
+    Moment.RECONNECT,
+)
+"""Moments that the mock plays; what a stop does is in the states that stop a device."""
 
 
 def _effects(hardware: HardwareComponent | None) -> dict[Moment, ContractEffect]:
@@ -67,11 +82,28 @@ def _effects(hardware: HardwareComponent | None) -> dict[Moment, ContractEffect]
             lock=by_moment[moment].lock,
             needs=dict(by_moment[moment].needs),
             largest_step=by_moment[moment].largest_step,
+            leaves=by_moment[moment].leaves,
+            ends=by_moment[moment].ends,
         )
         for moment in _PLAYED
         if moment in by_moment
     }
     return {moment: effect for moment, effect in effects.items() if effect != ContractEffect()}
+
+
+def _stops(device: Device) -> dict[str, ContractStop]:
+    """Return the states in which a device stops by itself."""
+    return {state.name: _stop(state, effect_of(device, state)) for state in stops_of(device)}
+
+
+def _stop(state: SafetyState, effect: Effect | None) -> ContractStop:
+    """Return a stop; one without a stated effect takes the component to inactive, in the mock alone."""
+    return ContractStop(
+        motion=Motion.NONE if effect is None else effect.motion,
+        leaves="inactive" if effect is None or effect.leaves is None else effect.leaves,
+        ends=(*(() if effect is None else effect.ends), *state.ends),
+        left_by=state.left_by,
+    )
 
 
 def _adapted(cell: Cell, device: Device) -> bool:

@@ -3,7 +3,6 @@
 
     bring_up --plan FILE --target mock|real [--host HOST] [--release DEVICE] PHASE...      run the steps of these phases
     bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...   prove, then run PROGRAM while claims hold
-    bring_up --plan FILE --target real watch                              deactivate claims when the robot ignores them
 
 A step that fails prints what is missing and ends this with 1. It enables no drive, and restores no claim by itself.
 """
@@ -20,7 +19,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import takewhile
@@ -29,12 +28,13 @@ from types import SimpleNamespace
 from typing import Any
 
 ANSWER_S = 3.0  # wait for one answer; an unanswered request is repeated
+UNSAID_S = 1.0  # silence of a publisher that speaks of changes alone
 UNSEEN_S = 10.0  # a participant that has not seen a service for this long is created again
 LOOK_S = 0.2  # period of checks
 LOST = 3  # checks in a row without a claim before the program behind it is stopped; one may be a late answer
 PATIENCE_S = 0.0  # replaces the deadlines of the plan where it is not 0
 MANIFEST = Path("manifest.json")  # of the package, beside the folder of the plan
-BEST_EFFORT, STRICT = 1, 2  # controller_manager_msgs/srv/SwitchController: as far as possible; all or nothing
+STRICT = 2  # controller_manager_msgs/srv/SwitchController: all or nothing
 TRANSITIONS, ACTIVE = {"configure": 1, "activate": 3}, 3  # lifecycle_msgs/msg/Transition; lifecycle_msgs/msg/State
 FROM = {"inactive": ("inactive", "active"), "active": ("active",)}  # an active controller was inactive before
 # A child gets SIGINT when this program ends, even by a kill (prctl(2), PR_SET_PDEATHSIG).
@@ -50,6 +50,7 @@ class Graph:
 
     def __init__(self, name: str, enclave: str) -> None:
         self._name, self._enclave = name, enclave
+        self.on_message: Any = lambda topic, message: None
         self._unseen_since: dict[str, float] = {}
         self._join()
 
@@ -66,7 +67,7 @@ class Graph:
         self._clients: dict[str, Any] = {}
         self._heard: dict[str, Any] = {}
         self._parents: dict[str, str] = {}
-        self._listened: set[str] = set()
+        self._listened: dict[str, float] = {}  # since when
 
     def leave(self) -> None:
         self._node.destroy_node()
@@ -111,9 +112,18 @@ class Graph:
             from rclpy.qos import DurabilityPolicy
 
             latched = all(end.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for end in publishers)
-            self._listen(topic, kind, latched, lambda message: self._heard.update({topic: message}))
+            self._listen(topic, kind, latched, partial(self._take, topic))
         # A message without a publisher is outdated, even with the wanted value.
         return self._heard.get(topic) if self._node.count_publishers(topic) else None
+
+    def _take(self, topic: str, message: Any) -> None:
+        self._heard[topic] = message
+        self.on_message(topic, message)
+
+    def silent_s(self, topic: str) -> float:
+        """Return for how long a publisher that has not spoken yet has been listened to."""
+        since = self._listened.get(topic, math.inf)
+        return time.monotonic() - since if self._node.count_publishers(topic) else 0.0
 
     def connects(self, parent: str, child: str) -> bool:
         for topic, latched in (("/tf", False), ("/tf_static", True)):
@@ -141,7 +151,7 @@ class Graph:
             durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
         )
         self._node.create_subscription(_loaded(kind), topic, take, qos)
-        self._listened.add(topic)
+        self._listened[topic] = time.monotonic()
 
 
 def _loaded(kind: str) -> Any:
@@ -152,11 +162,6 @@ def _loaded(kind: str) -> Any:
 
 def listed_controllers(graph: Graph, manager: str) -> Any:
     return graph.ask("controller_manager_msgs/srv/ListControllers", f"{manager}/list_controllers").controller
-
-
-def active_of(graph: Graph, one: SimpleNamespace) -> list[str]:
-    listed = listed_controllers(graph, one.manager)
-    return [entry.name for entry in listed if entry.name in one.controllers and entry.state == "active"]
 
 
 class Unmet:
@@ -187,11 +192,11 @@ class Unmet:
         return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
 
     def _topic(self, proof: SimpleNamespace) -> str:
-        message, field = self._graph.heard(proof.topic, proof.type), getattr(proof, "field", None)
-        if message is None:
-            return f"no message on {proof.topic}"
-        value = None if field is None else getattr(message, field)
-        return "" if field is None or value == proof.value else f"{proof.topic} must be {proof.value}, is {value}"
+        message = self._graph.heard(proof.topic, proof.type)
+        if message is not None:
+            return contradiction(proof, message)
+        unsaid = getattr(proof, "unsaid", False) and self._graph.silent_s(proof.topic) > UNSAID_S
+        return "" if unsaid else f"no message on {proof.topic}"
 
     def _action(self, proof: SimpleNamespace) -> str:
         return "" if self._graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
@@ -211,6 +216,15 @@ class Unmet:
         used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
         foreign = ", ".join(sorted(used - set(proof.plugins))) if used else "no hardware"
         return f"{proof.node} must describe only the mock, has {foreign}" if foreign else ""
+
+
+def contradiction(proof: SimpleNamespace, message: Any) -> str:
+    """Return what a message says against its proof; empty where it proves it."""
+    value, above = getattr(message, getattr(proof, "field", ""), None), getattr(proof, "above", None)
+    if value is None or (value > above if above is not None else value in proof.values):
+        return ""
+    wanted = f"above {above:g}" if above is not None else " or ".join(map(str, proof.values))
+    return f"{proof.topic} must be {wanted}, is {value}"
 
 
 def unmet_reason(graph: Graph, proofs: Sequence[SimpleNamespace]) -> str:
@@ -233,24 +247,21 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
         ended = subprocess.run(line, stdout=subprocess.PIPE, text=True)
         print(said := " ".join(ended.stdout.split()), flush=True)
         return (said or f"{line[1]} failed") if ended.returncode else ""
+    if wanted.kind == "acknowledge":
+        answer = graph.ask("std_srvs/srv/Trigger", wanted.service)
+        return "" if answer.success else f"{wanted.service} refused: {answer.message}"
     if wanted.kind == "hardware":
         state = _loaded("lifecycle_msgs/msg/State")(id=ACTIVE, label="active")
         service, name = "controller_manager_msgs/srv/SetHardwareComponentState", "set_hardware_component_state"
         done = graph.ask(service, f"{wanted.manager}/{name}", answer_s, name=wanted.component, target_state=state).ok
         return "" if done else f"{wanted.manager} could not activate hardware {wanted.component}"
-    active, again = active_of(graph, wanted), wanted.kind == "restart"
+    listed, again = listed_controllers(graph, wanted.manager), wanted.kind == "restart"
+    active = [entry.name for entry in listed if entry.name in wanted.controllers and entry.state == "active"]
     started = [name for name in wanted.controllers if again or name not in active]
-    done = not started or switch(graph, wanted.manager, started, active if again else [], STRICT, answer_s)
+    service, name = "controller_manager_msgs/srv/SwitchController", f"{wanted.manager}/switch_controller"
+    asked = {"activate_controllers": started, "deactivate_controllers": active if again else [], "strictness": STRICT}
+    done = not started or graph.ask(service, name, answer_s, **asked).ok
     return "" if done else f"{wanted.manager} refused to activate {', '.join(started)}"
-
-
-def switch(
-    graph: Graph, manager: str, start: Sequence[str], stop: Sequence[str], strictness: int, answer_s: float
-) -> bool:
-    """Ask a controller manager to deactivate and activate controllers; return its answer."""
-    service, name = "controller_manager_msgs/srv/SwitchController", f"{manager}/switch_controller"
-    wanted = {"activate_controllers": [*start], "deactivate_controllers": [*stop], "strictness": strictness}
-    return bool(graph.ask(service, name, answer_s, **wanted).ok)
 
 
 def take(graph: Graph, step: SimpleNamespace) -> str:
@@ -305,22 +316,32 @@ def take_all(graph: Graph, steps: Sequence[SimpleNamespace]) -> bool:
 
 
 def run_while_claimed(graph: Graph, step: SimpleNamespace, command: Sequence[str]) -> int:
-    """Run a program while the controllers that it needs stay active; return its exit status, or 1."""
+    """Run a program while its robots follow and its controllers stay active; return its exit status, or 1."""
     claims = [proof for proof in step.proof if proof.kind == "controller"]
+    followed = {proof.topic: proof for proof in step.proof if hasattr(proof, "field")}
     children: list[subprocess.Popen[bytes]] = []
+    against: list[str] = []
+
+    def hear(topic: str, message: Any) -> None:
+        if topic in followed and (absent := contradiction(followed[topic], message)):
+            against.append(absent)  # latched: a robot that stops and goes on between two checks has stopped
+            for child in children:
+                child.send_signal(signal.SIGINT)
 
     def end(number: int, _: object) -> None:
         children[0].send_signal(number) if children else sys.exit(128 + number)
 
     signal.signal(signal.SIGTERM, end)
+    graph.on_message = hear
     children.append(child := subprocess.Popen(command, preexec_fn=END_WITH_PARENT))
     misses = 0
     try:
         while (status := child.poll()) is None:
             graph.spin(LOOK_S)
-            lost = unmet_reason(graph, claims)
+            lost = "" if against else unmet_reason(graph, claims)
             misses = misses + 1 if lost else 0
-            if misses >= LOST:
+            if against or misses >= LOST:
+                lost = lost or against[0]
                 print(f"{command[0]} stopped: {lost}", file=sys.stderr, flush=True)
                 return 1
         return status if status >= 0 else 128 - status
@@ -338,24 +359,6 @@ def _stop(child: subprocess.Popen[bytes]) -> None:
             child.wait(timeout=5.0)
 
 
-def watch(graph: Graph, watches: Sequence[SimpleNamespace]) -> Iterator[str]:
-    """Deactivate controllers whose robot ignores commands, forever; yield what was done or failed."""
-    while True:
-        graph.spin(LOOK_S)
-        for entry in watches:
-            with suppress(UnansweredError):  # the next check repeats it
-                if (absent := unmet_reason(graph, [entry.while_holds])) and (active := active_of(graph, entry)):
-                    yield f"{', '.join(active)}: {_deactivated(graph, entry.manager, active)}: {absent}"
-
-
-def _deactivated(graph: Graph, manager: str, controllers: Sequence[str]) -> str:
-    try:
-        done = switch(graph, manager, [], controllers, BEST_EFFORT, ANSWER_S)
-    except UnansweredError as unanswered:
-        return f"not deactivated, will retry ({unanswered})"
-    return "deactivated until a person authorizes the claim again" if done else "not deactivated, will retry (refused)"
-
-
 def seconds(text: str) -> float:
     if 0.0 <= (read := float(text)) < math.inf:
         return read
@@ -363,7 +366,7 @@ def seconds(text: str) -> float:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run phases, run a program after its proof, or watch; return the exit status."""
+    """Run phases, or a program after its proof; return the exit status."""
     global MANIFEST, PATIENCE_S
     options = [*takewhile(lambda word: word not in ("--", "--ros-args"), arguments)]
     command = [*arguments[arguments.index("--") + 1 :]] if "--" in arguments else []
@@ -374,18 +377,15 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--release", default="", help="run only the steps of this device")
     stated = os.environ.get("CELL_WAIT_S") or "0"
     parser.add_argument("--wait", type=seconds, default=stated, help="seconds that replace all deadlines (CELL_WAIT_S)")
-    parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move", "watch"))
+    parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move"))
     read = parser.parse_args(options)
     PATIENCE_S, MANIFEST = read.wait or PATIENCE_S, read.plan.parent.parent / "manifest.json"
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
     hosts = (read.host, "") if read.host else {step.host for step in getattr(plan, read.target)}
     released = [step for step in getattr(plan, read.target) if read.release in ("", getattr(step, "release", ""))]
     steps = [step for step in released if step.phase in read.phases and step.host in hosts]
-    graph = Graph("claim_watch" if "watch" in read.phases else f"bring_up_{read.phases[-1]}", plan.enclave)
+    graph = Graph(f"bring_up_{read.phases[-1]}", plan.enclave)
     try:
-        if "watch" in read.phases:
-            for said in watch(graph, plan.watches):
-                print(said, file=sys.stderr, flush=True)
         if not take_all(graph, steps):
             return 1
         return run_while_claimed(graph, steps[-1], command) if command else 0

@@ -15,7 +15,7 @@ from xml.etree.ElementTree import Element
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import Node, NodeSource
-from cellc.compiler.deploy.bringup import WATCH, phases
+from cellc.compiler.deploy.bringup import phases
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import BRING_UP
 from cellc.compiler.deploy.first_goal import programs
@@ -38,6 +38,7 @@ from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.formats.xml_text import comment, element
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
+from cellc.contract.bring_up import CLAIM_WATCH
 from cellc.contract.entities import Target
 from cellc.contract.store.regular_file import own_text
 from cellc.contract.vocabulary import BringUpPhase
@@ -58,8 +59,8 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
     if BringUpPhase.START in phases(plan.bring_up, "real", host):
         yield bring_up(cell, "real", [BringUpPhase.START], host)
     if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
-        yield comment("deactivate claims when the robot ignores commands; only a person activates them again")
-        yield bring_up(cell, "real", [WATCH], host, required=True)
+        yield comment("end goals and claims when a robot stops, pauses or is silent; only a person brings them back")
+        yield _claim_watch(cell, host)
     yield comment("a person authorizes the rest: gates/promotion.md, G5 to G7")
 
 
@@ -71,12 +72,8 @@ def bring_up(
     *,
     release: str = "",
     when: Mapping[str, str] | None = None,
-    required: bool = False,
 ) -> Element:
-    """Return the process that takes phases on a target, started on that target alone, or by ``when``.
-
-    Where it is required, the launch ends with it: nothing else takes claims from a robot that no longer listens.
-    """
+    """Return the process that takes phases on a target, started on that target alone, or by ``when``."""
     named = [*([] if host is None else ["--host", host]), *(["--release", release] if release else [])]
     words = [*_words(cell, target), *named, *taken]
     return element(
@@ -86,9 +83,25 @@ def bring_up(
             "exec": PROGRAM,
             "args": " ".join(words),
             "output": "both",
-            **(ends_launch(cell) if required else {}),
             **enclave(bring_up_enclave(cell)),
             **(only_on(target) if when is None else when),
+        },
+    )
+
+
+def _claim_watch(cell: Cell, host: str | None) -> Element:
+    """Return the process that takes claims away. The launch ends with it, for nothing else does that."""
+    words = ["--plan", share(cell, BRING_UP), *([] if host is None else ["--host", host])]
+    return element(
+        "node",
+        {
+            "pkg": cell.name,
+            "exec": CLAIM_WATCH.removeprefix("/"),
+            "args": " ".join(words),
+            "output": "both",
+            **ends_launch(cell),
+            **enclave(bring_up_enclave(cell)),
+            **only_on("real"),
         },
     )
 

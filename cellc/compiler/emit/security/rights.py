@@ -20,7 +20,7 @@ from cellc.compiler.deploy.files import plans
 from cellc.compiler.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.compiler.deploy.recording import recorded_topics
 from cellc.compiler.link.hardware import JOINT_STATES
-from cellc.contract.bring_up import BringUp, TopicProof
+from cellc.contract.bring_up import CLAIM_WATCH, BringUp, TopicProof
 from cellc.contract.entities import TARGETS
 from cellc.contract.vocabulary import Feature, InterfaceKind, features
 
@@ -235,6 +235,8 @@ def bring_up_process(cell: Cell, plan: BringUp) -> Iterator[Profile]:
     """Yield the rights of the program that takes the steps of the bring-up, under each name that it gives its node."""
     for node in bring_up_nodes(plan):
         yield _profile(cell, f"/{node}", Kind.NODE, Kind.BRING_UP)
+    if plan.watches:
+        yield _profile(cell, CLAIM_WATCH, Kind.NODE, own=_of_watch(plan))
 
 
 def _of_bring_up(cell: Cell, plan: BringUp) -> Rights:
@@ -242,9 +244,24 @@ def _of_bring_up(cell: Cell, plan: BringUp) -> Rights:
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
     managers = (f"{manager.node}/{name}" for manager in cell.managers for name in _OF_MANAGER)
     proofs = [proof for target in TARGETS for step in plan.steps(target) for proof in step.proof]
-    watched = (watch.while_holds for watch in plan.watches)
-    heard = (proof.topic for proof in (*proofs, *watched) if isinstance(proof, TopicProof))
-    return Rights(subscribe=(*heard, "/tf", "/tf_static"), request=(*managed, *managers, *described))
+    heard = (proof.topic for proof in proofs if isinstance(proof, TopicProof))
+    acknowledged = (watch.acknowledge for watch in plan.watches)
+    asked = (*managed, *managers, *described, *acknowledged)
+    return Rights(subscribe=(*heard, "/tf", "/tf_static"), request=asked)
+
+
+def _of_watch(plan: BringUp) -> Rights:
+    """Return what ends goals, claims and motion clients has: it can cancel and deactivate, and send no goal."""
+    watches = plan.watches
+    return Rights(
+        subscribe=tuple(proof.topic for watch in watches for proof in watch.while_hold.values()),
+        reply=tuple(watch.acknowledge for watch in watches),
+        request=(
+            *(f"{watch.manager}/{name}" for watch in watches for name in ("list_controllers", "switch_controller")),
+            *(f"{action}/_action/cancel_goal" for watch in watches for action in watch.actions),
+            *(f"{node}/change_state" for watch in watches for node in watch.nodes),
+        ),
+    )
 
 
 def sender(cell: Cell, node: str, action: str, states: str) -> Profile:

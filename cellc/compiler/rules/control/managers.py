@@ -7,7 +7,7 @@ from operator import itemgetter
 
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.vocabulary import Behavior
+from cellc.contract.vocabulary import Behavior, Need
 
 
 @rule(Severity.ERROR)
@@ -93,9 +93,18 @@ def uneven_update_rate(graph: CellGraph) -> Findings:
                 yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz")
 
 
+_LOST = {
+    Need.PROGRAM_RUNNING: "its program stops",
+    Need.NOT_PAUSED: "its program pauses",
+    Need.NO_STOP: "it is stopped",
+    Need.BRAKES_OPEN: "its brakes close",
+    Need.NO_FAULT: "it has a fault",
+}
+
+
 @rule(Severity.BLOCKER, assumes=("shared-prefix",))
 def unwatched_claim(graph: CellGraph) -> Findings:
-    """Yield controllers whose claims a real robot keeps over a stop of its program, where no topic reports the stop."""
+    """Yield controllers whose claims a real robot keeps over a stop or pause that no topic of the cell reports."""
     for manager in graph.cell.managers:
         claiming: dict[str, dict[int, Controller]] = {}
         for number, controller in enumerate(manager.controllers):
@@ -111,19 +120,26 @@ def unwatched_claim(graph: CellGraph) -> Findings:
             hardware = device.control.hardware
             if hardware is None or "real" not in hardware.targets or not hardware.kept_by_a_claim:
                 continue
-            kinds = [item.controller_kind for item in hardware.heard_before_a_claim]
-            if any((kind, name) in telling for kind in kinds):
+            reports = hardware.heard_before_a_claim
+            unheard = [
+                need
+                for need in hardware.kept_by_a_claim
+                if need not in reports or (reports[need].controller_kind, name) not in telling
+            ]
+            if not unheard:
                 continue
+            kinds = dict.fromkeys(reports[need].controller_kind for need in unheard if need in reports)
             owners = {
                 number: controller
                 for joint in device.joints
                 for number, controller in claiming.get(joint.name, {}).items()
             }
             advice = (
-                f"add a controller of `type: {kinds[0]}` with `device: {name}`"
+                f"add a controller of {' and of '.join(f'`type: {kind}`' for kind in kinds)} with `device: {name}`"
                 if kinds
-                else f"say under `told` of the `device.yaml` of `{name}` which topic reports whether its program runs"
+                else f"say under `reported_by` of the `device.yaml` of `{name}` which topic reports that"
             )
+            lost = " or ".join(_LOST.get(need, f"`{need}` ends") for need in unheard)
             for _, controller in sorted(owners.items(), key=itemgetter(0)):
-                message = f"`{name}` keeps the set points of `{controller.name}` when its program stops, unreported"
+                message = f"`{name}` keeps the set points of `{controller.name}` when {lost}, unreported"
                 yield found(graph, controller.path, message, advice)
