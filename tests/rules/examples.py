@@ -130,7 +130,7 @@ def diagnose_example(example: Example, folder: Path) -> tuple[Diagnostic, ...]:
         fragment = {"devices": {"stage": {"model": "./stage", "revision": "A", "firmware": "stage 1.0.0"}}}
     else:
         fragment = yaml.load(example.text, Loader=yaml.BaseLoader)
-    merged = _typed(_merged(_merged(complete_cell(), _situation(example)), fragment))
+    merged = _typed(_merged(_with_first_motions(_merged(complete_cell(), _situation(example)), fragment), fragment))
     text = yaml.dump(merged, Dumper=_DUMPER, sort_keys=False)
     # Copied is what the cell names and is not there from the example before, but for the one that examples change.
     for named in (path for path in BASE.iterdir() if path.is_dir() and path.name in text):
@@ -149,6 +149,22 @@ def _situation(example: Example) -> Any:
         return {}
     text = (_SITUATIONS / f"{named[1].replace(' ', '_')}.yaml").read_text(encoding="utf-8")
     return yaml.load(text, Loader=yaml.BaseLoader)
+
+
+def _with_first_motions(cell: Any, fragment: Any) -> Any:
+    """State the first motion of every further device that the example lets take trajectories."""
+    extended = _merged(cell, fragment)
+    takers = {name for name, device in extended["devices"].items() if device.get("architecture") == "direct_sdk"}
+    managers = (extended["control"], *extended.get("managers", {}).values())
+    for controller in (one for manager in managers for one in manager.get("controllers", {}).values()):
+        if str(controller.get("type", "")).endswith("trajectory"):
+            takers.add(controller.get("device", "arm"))
+    motions = [cell["bringup"]["first_motion"]]
+    for name in sorted(takers - {"arm"}):
+        description = "".join(path.read_text() for path in (BASE / extended["devices"][name]["model"]).glob("*.urdf"))
+        if joint := re.search(r'joint name="(\w+)" type="revolute"', description):
+            motions.append(motions[0] | {"joint": f"{name}/{joint[1]}"})
+    return cell if len(motions) == 1 else _merged(cell, {"bringup": {"first_motion": motions}})
 
 
 def _merged(base: Any, fragment: Any) -> Any:

@@ -47,7 +47,7 @@ def first_motion_too_large(graph: CellGraph) -> Findings:
                 yield found(graph, (*motion.path, field), message, f"write at most {largest}{per}")
 
 
-@rule(Severity.BLOCKER)
+@rule(Severity.BLOCKER, assumes=("shared-prefix",))
 def missing_first_motion(graph: CellGraph) -> Findings:
     """Yield cells that move joints without a first motion, and arms and axes without their own beside one."""
     motions = graph.cell.bringup.first_motions
