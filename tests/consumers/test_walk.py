@@ -72,7 +72,7 @@ def test_every_gate_leaves_evidence_of_its_own(cell: str, distro: str) -> None:
 
 @every_build
 def test_every_interface_of_the_real_target_has_the_ends_of_the_contract(cell: str, distro: str) -> None:
-    line = re.compile(r"^- \[ \] Check the declared ends of `(\S+)`: (.+) → (.+)$", re.MULTILINE)
+    line = re.compile(r"^- \[ \] Check the endpoints of `(\S+)`: (.+) → (.+)$", re.MULTILINE)
     stated = line.findall(sections(cell, distro)["L3"])
     promised = contract_data(build(cell, distro).texts["contract.json"])["interfaces"]
     ends = {name: (_on_real(one["sources"]), _on_real(one["sinks"])) for name, one in promised.items()}
