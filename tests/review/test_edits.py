@@ -26,6 +26,13 @@ LOOKED_AT = "/perception/get_available_transitions, /perception/get_state"
 ALONE = "only nodes /robot_state_publisher, /controller_manager"
 STATES = "controller /controller_manager joint_states inactive"
 STOPPED = "topic /arm_io/robot_program_running std_msgs/msg/Bool data values False unsaid True"
+# What a UR's arm must show before its claims are given back, and who takes them.
+FOLLOWS = (
+    "topic /arm_io/robot_program_running std_msgs/msg/Bool data values True, "
+    "topic /arm_speed/speed_scaling std_msgs/msg/Float64 data above 0, "
+    "topic /arm_io/safety_mode ur_dashboard_msgs/msg/SafetyMode mode values 1, 2, "
+    "topic /arm_io/robot_mode ur_dashboard_msgs/msg/RobotMode mode values 7, node /claim_watch"
+)
 LESS_ALONE = f"lost {ALONE}, /perception; new {ALONE}"
 STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, expect: stale_state}"
 CANCELED = "canceled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: canceled, within: 200 ms}"
@@ -165,8 +172,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous control | arm_trajectory | plugin | ur_controllers/ScaledJointTrajectoryController -> "
             "joint_trajectory_controller/JointTrajectoryController",
             "dangerous time | control_pc | bound of its offset | 1 ms -> 2 ms | +100 %",
-            "dangerous versions | arm.driver | compatibility matrix | OK: jazzy knows 3.8.0: rosdistro, as of 2026-08-"
-            "22 -> UNKNOWN: jazzy knows 3.8.0: rosdistro, as of 2026-08-22",
+            "dangerous versions | arm.driver | compatibility matrix | OK: 3.8.0 on jazzy: rosdistro, as of 2026-08-22 "
+            "-> UNKNOWN: 3.8.0 on jazzy: rosdistro, as of 2026-08-22",
             "dangerous network | arm_hardware | address | 192.168.56.101 -> 192.168.56.102",
             "review control | arm_trajectory | parameter constraints.stopped_velocity_tolerance | 0.2 -> 0.01 | -95 %",
             "review control | camera | parameter depth_module.exposure | 8000 -> 10000",
@@ -206,20 +213,14 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous motion | pick | frame | object -> fixture_A",
             "dangerous start order | activate_perception, configure_perception | hardware startup step removed | "
             "start -> None",
+            f"dangerous start order | acknowledge_arm | precondition | {ALONE}, /perception, {FOLLOWS} -> "
+            f"{ALONE}, {FOLLOWS} | {LESS_ALONE}",
             f"dangerous start order | activate_gripper | precondition | {ALONE}, /perception, {STOPPED} -> "
             f"{ALONE}, {STOPPED} | {LESS_ALONE}",
-            "dangerous start order | claim_control | precondition | 10 entries -> 9 entries | "
+            "dangerous start order | claim_control | precondition | 13 entries -> 12 entries | "
             f"lost lifecycle /perception active, {ALONE}, /perception; new {ALONE}",
             f"dangerous start order | compare_versions | precondition | {ALONE}, /perception -> {ALONE}",
-            "dangerous start order | move | precondition | "
-            f"{ALONE}, /perception, "
-            "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
-            "active, "
-            "action /move_action, action /gripper_action/gripper_cmd, lifecycle /perception active -> "
-            f"{ALONE}, "
-            "controller /controller_manager arm_trajectory active, controller /controller_manager gripper_action "
-            "active, "
-            "action /move_action, action /arm_trajectory/follow_joint_trajectory, action /gripper_action/gripper_cmd | "
+            "dangerous start order | move | precondition | 10 entries -> 10 entries | "
             f"lost lifecycle /perception active, {ALONE}, /perception; "
             f"new action /arm_trajectory/follow_joint_trajectory, {ALONE}",
             f"dangerous start order | observe_control | precondition | 9 entries -> 9 entries | {LESS_ALONE}",
@@ -241,9 +242,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review network | /perception | right to reply | 12 entries -> 7 entries | lost /perception/change_state, "
             "/perception/get_available_states, /perception/get_available_transitions, /perception/get_state, "
             "/perception/get_transition_graph",
-            "review network | /bring_up | right to request | 7 entries -> "
-            f"{MANAGED}, /controller_manager/set_hardware_component_state, /controller_manager/switch_controller, "
-            "/robot_state_publisher/get_parameters | lost /perception/change_state, /perception/get_state",
+            "review network | /bring_up | right to request | 10 entries -> 8 entries | "
+            "lost /perception/change_state, /perception/get_state",
             f"review network | /commissioning | right to request | 12 entries -> 10 entries | lost {LOOKED_AT}",
             f"review network | /people | right to request | 7 entries -> {MANAGED}, "
             "/controller_manager/list_hardware_interfaces, /get_planning_scene, /robot_state_publisher/get_parameters "
