@@ -3,13 +3,14 @@
 Read by ``lib/<package>/bring_up`` on the robot's computers and by the mock, so that what is rehearsed is what is done.
 """
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
 from cellc.contract.entities import HardwareState, Target
-from cellc.contract.vocabulary import BringUpPhase, Need
+from cellc.contract.grading import Graded, Rule
+from cellc.contract.vocabulary import BringUpPhase, Need, ReviewArea
 
 CLAIM_WATCH = "/claim_watch"
 """The node that takes the claims of a robot that no longer follows, and keeps them until a person acknowledges."""
@@ -163,13 +164,26 @@ class BringUpStep(ContractModel):
     """One step: what must show before it, what is asked for, and what must show after it."""
 
     name: str = Field(description="Name of the step.")
-    phase: BringUpPhase = Field(description="Phase that a person or the launch file releases.")
-    host: str = Field(description="Computer that takes it; empty where the cell names none.")
+    phase: Annotated[
+        BringUpPhase,
+        Graded(
+            ReviewArea.START_ORDER, "launch phase on hardware", Rule.DANGEROUS, why="it is released at another phase"
+        ),
+    ] = Field(description="Phase that a person or the launch file releases.")
+    host: Annotated[str, Graded(ReviewArea.START_ORDER)] = Field(
+        description="Computer that takes it; empty where the cell names none."
+    )
     release: str = Field("", description="Device that a person releases by it, alone; empty where its phase has one.")
-    proof: tuple[Proof, ...] = Field(description="What must show before it.")
+    proof: Annotated[tuple[Proof, ...], Graded(ReviewArea.START_ORDER, "precondition", Rule.LOST, ordered=False)] = (
+        Field(description="What must show before it.")
+    )
     request: Request | None = Field(None, description="What is asked for; null where only the proof counts.")
-    effect: tuple[Proof, ...] = Field((), description="What must show after it; checked when the proof holds, too.")
-    deadline_s: float = Field(description="Time until the proof, and again until the effect.", gt=0.0)
+    effect: Annotated[
+        tuple[Proof, ...], Graded(ReviewArea.START_ORDER, "expected effect", Rule.LOST, ordered=False)
+    ] = Field((), description="What must show after it; checked when the proof holds, too.")
+    deadline_s: Annotated[float, Graded(ReviewArea.START_ORDER)] = Field(
+        description="Time until the proof, and again until the effect.", gt=0.0
+    )
 
 
 class Watch(ContractModel):

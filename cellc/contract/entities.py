@@ -10,8 +10,9 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import ConfigDict, Field
 
+from cellc.contract.grading import STALE, Graded, Rule
 from cellc.contract.quantities import Count, PositiveSeconds, Rate, Seconds, Share
-from cellc.contract.vocabulary import InterfaceKind
+from cellc.contract.vocabulary import InterfaceKind, ReviewArea
 
 Target = Literal["mock", "real"]
 TARGETS: tuple[Target, ...] = ("mock", "real")
@@ -50,9 +51,17 @@ class ContractEndpoint:
     __pydantic_config__: ClassVar[ConfigDict] = _READ
 
     node: Annotated[str, Field(description="Name of the node, controller or device, which no other end has.")]
-    full_name: Annotated[str, Field(description="Fully qualified name of the node in the ROS graph.")]
-    targets: Annotated[tuple[Target, ...], Field(description="Targets on which it is present.")] = TARGETS
-    qos: Annotated[Qos, Field(description="Its profile.")]
+    full_name: Annotated[
+        str,
+        Field(description="Fully qualified name of the node in the ROS graph."),
+        Graded(ReviewArea.INTERFACES, "name of the node"),
+    ]
+    targets: Annotated[
+        tuple[Target, ...],
+        Field(description="Targets on which it is present."),
+        Graded(ReviewArea.INTERFACES, ordered=False),
+    ] = TARGETS
+    qos: Annotated[Qos, Field(description="Its profile."), Graded(ReviewArea.QOS, "quality of service")]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,26 +82,80 @@ class ContractInterface:
 
     __pydantic_config__: ClassVar[ConfigDict] = _READ
 
-    kind: Annotated[InterfaceKind, Field(description="Kind of exchange.")]
-    type: Annotated[str, Field(description="ROS type.")]
+    kind: Annotated[
+        InterfaceKind,
+        Field(description="Kind of exchange."),
+        Graded(ReviewArea.INTERFACES, rule=Rule.DANGEROUS, breaking=True),
+    ]
+    type: Annotated[
+        str, Field(description="ROS type."), Graded(ReviewArea.INTERFACES, rule=Rule.DANGEROUS, breaking=True)
+    ]
     sources: Annotated[tuple[ContractEndpoint, ...], Field(description="Publishers, or the server.")]
     sinks: Annotated[tuple[ContractEndpoint, ...], Field(default=(), description="Subscribers, or the clients.")]
-    frame: Annotated[str | None, Field(description="Frame of the payload.")] = None
-    unit: Annotated[str | None, Field(description="Unit of the payload.")] = None
-    time_source: Annotated[str | None, Field(description="Clock of the stamps.")] = None
-    owner: Annotated[str | None, Field(description="Person or role responsible for it.")] = None
-    wants: Annotated[str | None, Field(description="What the consumer needs: newest or every_sample.")] = None
-    rate_hz: Annotated[Rate | None, Field(description="Publishing rate.")] = None
-    max_age_s: Annotated[Seconds | None, Field(description="Oldest sample that may be used.")] = None
-    transport_s: Annotated[Seconds | None, Field(description="Budget from publishing to use.")] = None
-    on_stale: Annotated[str | None, Field(description="What happens on an older sample.")] = None
-    timeout_s: Annotated[PositiveSeconds | None, Field(description="Bound of a response or a whole goal.")] = None
-    on_timeout: Annotated[str | None, Field(description="What the client does then.")] = None
-    on_error: Annotated[str | None, Field(description="How an error is reported.")] = None
-    cancel_within_s: Annotated[Seconds | None, Field(description="Bound from cancel to hold.")] = None
-    simulated: Annotated[SimulatedNetwork | None, Field(description="How the mock carries it; null for no delay.")] = (
-        None
-    )
+    frame: Annotated[
+        str | None,
+        Field(description="Frame of the payload."),
+        Graded(ReviewArea.INTERFACES, "frame of the payload", Rule.DANGEROUS, breaking=True),
+    ] = None
+    unit: Annotated[
+        str | None,
+        Field(description="Unit of the payload."),
+        Graded(ReviewArea.INTERFACES, "unit of the payload", Rule.DANGEROUS, breaking=True),
+    ] = None
+    time_source: Annotated[
+        str | None, Field(description="Clock of the stamps."), Graded(ReviewArea.TIME, "clock of the stamps")
+    ] = None
+    owner: Annotated[
+        str | None,
+        Field(description="Person or role responsible for it."),
+        Graded(ReviewArea.OWNERS, rule=Rule.NAMED),
+    ] = None
+    wants: Annotated[
+        str | None,
+        Field(description="What the consumer needs: newest or every_sample."),
+        Graded(ReviewArea.INTERFACES, "need of the consumer"),
+    ] = None
+    rate_hz: Annotated[Rate | None, Field(description="Publishing rate."), Graded(ReviewArea.INTERFACES)] = None
+    max_age_s: Annotated[
+        Seconds | None,
+        Field(description="Oldest sample that may be used."),
+        Graded(ReviewArea.TIME, "oldest sample that may be used", Rule.LOOSER, why=STALE),
+    ] = None
+    transport_s: Annotated[
+        Seconds | None,
+        Field(description="Budget from publishing to use."),
+        Graded(ReviewArea.TIME, "budget of the transport"),
+    ] = None
+    on_stale: Annotated[
+        str | None,
+        Field(description="What happens on an older sample."),
+        Graded(ReviewArea.TIME, "action on an older sample", Rule.DANGEROUS),
+    ] = None
+    timeout_s: Annotated[
+        PositiveSeconds | None,
+        Field(description="Bound of a response or a whole goal."),
+        Graded(ReviewArea.INTERFACES, rule=Rule.LOOSER, why=STALE),
+    ] = None
+    on_timeout: Annotated[
+        str | None,
+        Field(description="What the client does then."),
+        Graded(ReviewArea.INTERFACES, "action on a timeout", Rule.DANGEROUS),
+    ] = None
+    on_error: Annotated[
+        str | None,
+        Field(description="How an error is reported."),
+        Graded(ReviewArea.INTERFACES, "error reporting"),
+    ] = None
+    cancel_within_s: Annotated[
+        Seconds | None,
+        Field(description="Bound from cancel to hold."),
+        Graded(ReviewArea.INTERFACES, "time from cancel to hold", Rule.LOOSER, why=STALE),
+    ] = None
+    simulated: Annotated[
+        SimulatedNetwork | None,
+        Field(description="How the mock carries it; null for no delay."),
+        Graded(ReviewArea.REHEARSALS, "transport on the mock"),
+    ] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

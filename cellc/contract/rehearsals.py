@@ -1,14 +1,15 @@
 """``rehearsals.json``: what the mock executes, every name resolved."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
 from cellc.contract.entities import Target
 from cellc.contract.faults import FaultKind
+from cellc.contract.grading import STALE, Graded, Rule
 from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
-from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase
+from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, ReviewArea
 
 
 class StepEntry(ContractModel):
@@ -67,8 +68,12 @@ class RehearsalEntry(ContractModel):
     name: str = Field(description="Name in the spec.")
     steps: tuple[StepEntry, ...] = Field(description="Steps in order.")
     faults: tuple[FaultEntry, ...] = Field(description="Faults that are injected.")
-    expect: AttemptOutcome = Field(description="Outcome that it must end in.")
-    within_s: Seconds | None = Field(None, description="Bound from the fault's effect to the outcome.")
+    expect: Annotated[AttemptOutcome, Graded(ReviewArea.REHEARSALS, "expected outcome")] = Field(
+        description="Outcome that it must end in."
+    )
+    within_s: Annotated[
+        Seconds | None, Graded(ReviewArea.REHEARSALS, "bound of the outcome", Rule.LOOSER, why=STALE)
+    ] = Field(None, description="Bound from the fault's effect to the outcome.")
     timeout_s: PositiveSeconds = Field(description="Bound of the whole run in simulated time.")
     bring_up: Target = Field(
         "mock", description="Target whose bring-up is taken; with `real` devices do what their vendors' drivers do."

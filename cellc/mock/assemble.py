@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from functools import partial
 from math import inf
 
-from cellc.contract.contract import Contract, ContractClock, ContractFrame, ContractSimulatedJoint
+from cellc.contract.contract import Contract, ContractClock, ContractFrame
+from cellc.contract.devices import ContractSimulatedJoint
 from cellc.contract.entities import ContractEndpoint, Target
 from cellc.contract.transforms import Pose, identity
 from cellc.mock.adapter.server import AdapterServer

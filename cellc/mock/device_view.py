@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from cellc.contract.contract import Contract, ContractDevice
+from cellc.contract.contract import Contract
+from cellc.contract.devices import ContractDevice
 from cellc.contract.vocabulary import Moment, Need, Unmet
 from cellc.mock.control import ControllerManager
 from cellc.mock.engine.control_stack import ControlStack

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-from cellc.contract.contract import ContractEffect, ContractStop
+from cellc.contract.devices import ContractEffect, ContractStop
 from cellc.contract.vocabulary import LeftBy, Moment, Motion, Need, Unmet
 from cellc.mock.device_view import DeviceView
 from cellc.mock.engine.simulation import Simulation

@@ -9,13 +9,15 @@ import pytest
 from cellc.compiler.cell.body import Body
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import EVERY_JOINT, Camera, CameraStream, Device, DeviceMock, Sensing, SimulatedJoint
-from cellc.compiler.cell.entity import Part, Places, members
+from cellc.compiler.cell.entity import Part, Places
 from cellc.compiler.cell.hardware import DeviceControl, OfferedInterface
-from cellc.compiler.cell.site import Host, NetworkCard, Safety, Stop, Versions
+from cellc.compiler.cell.members import members
+from cellc.compiler.cell.site import Host, NetworkCard, Safety
 from cellc.compiler.graph.cell_graph import build_graph
 from cellc.compiler.rules.safety.stop import dependent_stop
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
+from cellc.contract.stated import Stop, Versions
 from cellc.contract.vocabulary import Distro, InterfaceKind
 from cellc.robot.description.model import Description
 from tests.cells import COMPLETE, CORPUS, linked, spec_of
@@ -85,7 +87,7 @@ def test_figures_without_a_target_are_named_by_their_keys() -> None:
 
 
 def test_no_two_parts_of_a_device_have_a_field_of_one_name() -> None:
-    names = [name for name, _ in members(CAMERA)]
+    names = [member.name for member in members(CAMERA)]
     parts = [field.name for field in fields(CAMERA) if isinstance(getattr(CAMERA, field.name), Part)]
     assert len(names) == len(set(names)) > 50
     assert not {*parts} & {*names}
@@ -115,7 +117,7 @@ def test_what_is_simulated_of_one_joint_comes_before_what_is_of_all() -> None:
 
 
 def test_linking_fills_every_section_that_some_spec_states() -> None:
-    empty = Cell(name="", places=Places(""), distro=Distro.HUMBLE, versions=Versions(ros=""))
+    empty = Cell(name="", places=Places(""), distro=Distro.HUMBLE, versions=Versions.model_construct(ros=""))
     unfilled = {field.name for field in fields(Cell)}
     for path in (
         COMPLETE,

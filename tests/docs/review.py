@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.deploy.gates import gate_texts
+from cellc.contract.grading import Graded
 from cellc.contract.vocabulary import ReviewArea
 from cellc.tools.review.rows import ROWS
-from cellc.tools.review.rules import APPROVAL, REPEATED, THINGS, Row, Thing
+from cellc.tools.review.rules import APPROVAL, REPEATED, THINGS, Thing
 from tests.cells import ROOT
 
 PAGE = ROOT / "docs" / "review.md"
@@ -105,10 +106,10 @@ def _values() -> Iterator[str]:
     yield ""
     yield "| area | what | grade | breaks consumers |"
     yield "|---|---|---|---|"
-    for row in sorted(ROWS, key=_area):
-        why = f"; {row.why}" if row.why else ""
-        what = f"{row.quantity.rstrip(':')} (`{row.pattern}`)"
-        yield f"| {row.area} | {what} | {row.rule.value}{why} | {_yes(row.breaking)} |"
+    for row in sorted(ROWS, key=lambda row: _area(row.grade)):
+        why = f"; {row.grade.why}" if row.grade.why else ""
+        what = f"{row.grade.quantity.rstrip(':')} (`{row.pattern}`)"
+        yield f"| {row.grade.area} | {what} | {row.grade.rule.value}{why} | {_yes(row.grade.breaking)} |"
 
 
 def _things() -> Iterator[str]:
@@ -121,7 +122,7 @@ def _things() -> Iterator[str]:
         yield f"| {thing.area} | {thing.noun} | {thing.added} | {thing.removed} | {_yes(thing.breaking)} |"
 
 
-def _area(of: Row | Thing) -> int:
+def _area(of: Graded | Thing) -> int:
     return tuple(ReviewArea).index(of.area)
 
 

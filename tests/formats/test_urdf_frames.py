@@ -7,10 +7,10 @@ import pytest
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.entity import Places
 from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SceneBox
-from cellc.compiler.cell.site import Versions
 from cellc.compiler.formats.urdf.robot import described_frames
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.contract.diagnostics import Span
+from cellc.contract.stated import Versions
 from cellc.contract.transforms import identity
 from cellc.contract.vocabulary import Distro
 

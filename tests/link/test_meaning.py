@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from enum import Enum
 from functools import cache
@@ -15,7 +14,8 @@ from typing import Any
 import pytest
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.entity import Entity, members
+from cellc.compiler.cell.entity import Entity
+from cellc.compiler.cell.members import field_names, members
 from tests.cells import CORPUS, graph_of
 from tests.foreign_yaml import safe_load
 
@@ -37,16 +37,16 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Enum):
         return value.value
     if isinstance(value, Entity):
-        return {name: _plain(one) for name, one in members(value)}
-    if dataclasses.is_dataclass(value):
-        return {one.name: _plain(getattr(value, one.name)) for one in dataclasses.fields(value)}
+        return {one.name: _plain(one.value) for one in members(value)}
+    if names := field_names(value):
+        return {name: _plain(getattr(value, name)) for name in names}
     if isinstance(value, Mapping):
         return {str(key): _plain(one) for key, one in value.items()}
     if not isinstance(value, (tuple, list)):
         return value
     listed = list(map(_plain, value))
-    names = {one["name"] for one in listed if isinstance(one, dict) and "name" in one}
-    return {one["name"]: one for one in listed} if names and len(names) == len(listed) else listed
+    known = {one["name"] for one in listed if isinstance(one, dict) and "name" in one}
+    return {one["name"]: one for one in listed} if known and len(known) == len(listed) else listed
 
 
 def _missing(meant: Any, said: Any, path: str) -> list[str]:

@@ -9,12 +9,13 @@ import copy
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 
 import pytest
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.entity import Entity
+from cellc.compiler.cell.members import field_names
 from cellc.compiler.link.link import link
 from cellc.compiler.source.document import Plain, SourceDocument
 from cellc.compiler.spec.parse import parse
@@ -39,18 +40,25 @@ STRUCTURAL = {
     "action": "the same",
 }
 """Keys that decide what there is, and not how much of it."""
+
+
+def names_an_entity(path: YamlPath) -> bool:
+    """Return whether a key is the name of an entity, so that another value is another entity."""
+    return path[:2] == ("bringup", "first_motion") and path[-1] == "joint"
+
+
 PLACES = {"path", "span", "places", "description", "vendor_description"}
 _QUANTITY = re.compile(r"\s*([-+]?[\d.]+)(.*[a-zA-Z%].*)", re.DOTALL)
 
 
 def leaves(value: object, entity: str = "cell", names: tuple[str, ...] = ()) -> Iterator[tuple[str, str, object]]:
     """Yield every value below an entity with the names of the fields that lead there."""
-    if is_dataclass(value):
+    if names_of := field_names(value):
         if isinstance(value, Entity):
             entity, names = f"{entity}/{value.name}", ()
-        for field in fields(value):
-            if field.name not in PLACES | FOLLOW:
-                yield from leaves(getattr(value, field.name), entity, (*names, field.name))
+        for name in names_of:
+            if name not in PLACES | FOLLOW:
+                yield from leaves(getattr(value, name), entity, (*names, name))
     elif isinstance(value, Mapping):
         for key, item in value.items():
             yield from leaves(item, f"{entity}" if names else f"{entity}/{key}", names)
@@ -128,7 +136,7 @@ def test_no_two_fields_of_an_entity_come_from_one_key(name: str) -> None:
     before, tried, twice = gathered(cell), 0, []
     for path, _ in scalars(document.data):
         changed = linked(document, with_other(document.data, path))
-        if changed is None or path[-1] in STRUCTURAL:
+        if changed is None or path[-1] in STRUCTURAL or names_an_entity(path):
             continue
         tried += 1
         after = gathered(changed)

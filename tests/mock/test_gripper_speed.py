@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from cellc.contract.contract import ContractSimulatedJoint
+from cellc.contract.devices import ContractSimulatedJoint
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from tests.cells import generated

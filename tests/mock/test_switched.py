@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cellc.contract.contract import ContractSwitched
+from cellc.contract.devices import ContractSwitched
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome

@@ -24,7 +24,7 @@ def _facts(spec: Path) -> dict[str, Leaf]:
         ("spec/bringup/first_motion/arm/joint_6/direction", "+"),
         ("spec/network/domain_id", 42),
         ("spec/targets/mock/hardware", "mock"),
-        ("reference_points/fixture_A", 3),
+        ("frame/fixture_A/reference_points", 3),
         ("spec/hosts/control_pc/scheduling", "preempt_rt"),
         ("spec/nodes//perception/lifecycle", True),
         ("spec/nodes//task/executable", "pick_place"),

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import datetime
 from dataclasses import replace
+from typing import Annotated
 
 import pytest
 
+from cellc.contract.base import ContractModel
+from cellc.contract.grading import Graded, Rule
 from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
 from cellc.tools.review.compare import _row, _unexplained, area_of_file
+from cellc.tools.review.graded import graded_values, rows_of
 from cellc.tools.review.grading import grade
 from cellc.tools.review.leaves import Delta, Leaf, Path
 from cellc.tools.review.rows import ROWS
-from cellc.tools.review.rules import APPROVAL, REPEATED, THINGS, Rule
+from cellc.tools.review.rules import APPROVAL, REPEATED, THINGS, Row
 from cellc.tools.review.sides import Package
+from tests.cells import linked, spec_of
 from tests.docs import review
 
 _D, _R, _S = Grade.DANGEROUS, Grade.REVIEW, Grade.SAFE
@@ -21,6 +27,32 @@ _D, _R, _S = Grade.DANGEROUS, Grade.REVIEW, Grade.SAFE
 def test_page_of_the_grades_is_their_table() -> None:
     # Written by `python -m tests.docs.review`.
     assert review.PAGE.read_text(encoding="utf-8") == review.page()
+
+
+class _Valve(ContractModel):
+    pressure_hz: Annotated[float, Graded(ReviewArea.LIMITS, rule=Rule.MORE)]
+    unseen: int
+
+
+class _Plant(ContractModel):
+    valves: Annotated[dict[str, _Valve], Graded(ReviewArea.DEVICES, "valve", each="valve")]
+    main: _Valve
+
+
+def test_rows_are_read_from_fields_those_of_a_model_inside_before_its_own() -> None:
+    named = Graded(ReviewArea.LIMITS, "pressure", Rule.MORE)
+    assert list(rows_of(_Plant, "plant")) == [
+        Row("plant valves {valve} pressure_hz", named),
+        Row("plant valves {valve} ...", Graded(ReviewArea.DEVICES, "valve", each="valve")),
+        Row("plant main pressure_hz", named),
+    ]
+
+
+def test_graded_fields_of_parts_of_a_device_are_compared_by_their_own_names() -> None:
+    camera = linked(spec_of("ur5e_pick")).device("camera")
+    moved = replace(camera, mount=replace(camera.mount, mounted_on=datetime.date(2026, 7, 1)))
+    assert list(graded_values(camera, ("device", "camera"))) == []
+    assert list(graded_values(moved, ("device", "camera"))) == [(("device", "camera", "mounted_on"), "2026-07-01")]
 
 
 def test_no_two_rows_have_one_pattern() -> None:
@@ -95,7 +127,7 @@ def test_what_no_row_names_is_looked_at_under_the_area_of_its_file(
     path: Path, area: ReviewArea, subject: Path, of: Path
 ) -> None:
     row, fit = _row(path)
-    assert (row.area, row.rule, row.quantity) == (area, Rule.REVIEW, "value")
+    assert row.grade == Graded(area, "value")
     assert (fit.subject, fit.of) == (subject, of)
 
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 import datetime
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Annotated
 
-from cellc.compiler.cell.entity import Entity, Part
+from cellc.compiler.cell.entity import ELSEWHERE, STATED, Entity, Part
 from cellc.compiler.cell.frame import WORLD
+from cellc.contract.grading import Graded
 from cellc.contract.transforms import Pose, identity
+from cellc.contract.vocabulary import ReviewArea
 from cellc.robot.description.model import Description
 
 
@@ -82,12 +85,12 @@ class Body(Part):
         excused: codes of findings on the description that its folder excuses, and why.
     """
 
-    prefix: str = ""
-    description: Description
+    prefix: Annotated[str, STATED] = ""
+    description: Annotated[Description, ELSEWHERE]
     root_link: str
     frames: Mapping[str, str] = field(default_factory=dict)
     tool_frame: str | None = None
-    optical_frames: tuple[str, ...] = ()
+    optical_frames: Annotated[tuple[str, ...], ELSEWHERE] = ()
     vendor_description: VendorDescription | None = None
     kinematics: Kinematics | None = None
     allowed_collisions: tuple[tuple[str, str], ...] = ()
@@ -116,6 +119,6 @@ class Mount(Part):
 
     parent_frame: str = WORLD
     transform_root_to_parent: Pose = field(default_factory=identity)
-    mounted_on: datetime.date | None = None
+    mounted_on: Annotated[datetime.date | None, Graded(ReviewArea.CALIBRATION, "date of mounting")] = None
     vendor_mounts: tuple[VendorMount, ...] = ()
     carries: tuple[str, ...] = ()

@@ -12,23 +12,12 @@ from cellc.compiler.cell.entity import Places
 from cellc.compiler.cell.frame import Frame, SceneBox, SharedArea
 from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface, Node, NodeSource
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
-from cellc.compiler.cell.site import (
-    TARGET_DEFAULTS,
-    Bringup,
-    Calibration,
-    HardwareStatement,
-    Host,
-    Network,
-    Owners,
-    Recording,
-    Safety,
-    Target,
-    Versions,
-)
+from cellc.compiler.cell.site import TARGET_DEFAULTS, Bringup, Calibration, Host, Recording, Safety, Target
 from cellc.compiler.cell.uncertainty import Uncertainty
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
+from cellc.contract.stated import HardwareStatement, Network, Owners, Versions
 from cellc.contract.vocabulary import TRAJECTORIES, Behavior, Distro, InterfaceKind
 from cellc.robot.description.model import Inertial
 
@@ -43,7 +32,7 @@ class InterfaceEnd:
 
 
 def _is_signed(statement: HardwareStatement | None) -> bool:
-    return statement is not None and statement.is_signed()
+    return statement is not None and statement.is_signed
 
 
 # Without slots, so that what is asked for often is looked up once and kept.

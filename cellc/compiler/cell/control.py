@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from cellc.compiler.catalog.controller_kind import ControllerKind
-from cellc.compiler.cell.entity import Entity
+from cellc.compiler.cell.entity import ELSEWHERE, Entity
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import TARGETS, Target
@@ -77,9 +78,9 @@ class Controller(Entity):
     namespace: str = ""
     targets: tuple[Target, ...] = TARGETS
     stand_in: StandIn | None = None
-    package: str = ""
-    declared: ControllerKind | None = None
-    plugin_parameters: frozenset[str] = frozenset()
+    package: Annotated[str, ELSEWHERE] = ""
+    declared: Annotated[ControllerKind | None, ELSEWHERE] = None
+    plugin_parameters: Annotated[frozenset[str], ELSEWHERE] = frozenset()
     device: str | None = None
     joints: tuple[str, ...] = ()
     command_interfaces: tuple[str, ...]
@@ -87,7 +88,7 @@ class Controller(Entity):
     vendor: VendorCommand | None = None
     state_interfaces: tuple[str, ...] = ()
     parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
-    written_parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
+    written_parameters: Annotated[Mapping[str, ParameterValue], ELSEWHERE] = field(default_factory=dict)
     active: bool
     client: str | None = None
     action: str | None = None

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Annotated
 
 from cellc.compiler.catalog.version_rows import VersionRow
 from cellc.compiler.cell.body import Body, Mount
-from cellc.compiler.cell.entity import Entity, Part
+from cellc.compiler.cell.entity import ELSEWHERE, STATED, Entity, Part
 from cellc.compiler.cell.hardware import DeviceControl
 from cellc.compiler.cell.robot import HostProgram, RobotController
 from cellc.compiler.cell.site import Clock, JointFigure
@@ -65,6 +66,10 @@ class DeviceVersions:
     def part(self, name: str) -> str:
         """Return a part by its name, such as ``firmware``."""
         return str(getattr(self, name))
+
+    def items(self) -> Iterator[tuple[str, str]]:
+        """Yield each part by its name."""
+        return ((field.name, getattr(self, field.name)) for field in fields(self))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -178,9 +183,9 @@ class DeviceSite(Part):
     """
 
     host: str = ""
-    connection: Connection | None = None
-    network: NetworkNeeds | None = None
-    programs: tuple[HostProgram, ...] = ()
+    connection: Annotated[Connection | None, STATED] = None
+    network: Annotated[NetworkNeeds | None, ELSEWHERE] = None
+    programs: Annotated[tuple[HostProgram, ...], ELSEWHERE] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -188,8 +193,8 @@ class Software(Part):
     """What the version tuple has of a device: pins as written, and the matrix of versions that go together."""
 
     versions: DeviceVersions = field(default_factory=DeviceVersions)
-    packages: Packages = field(default_factory=Packages)
-    version_rows: tuple[VersionRow, ...] = ()
+    packages: Annotated[Packages, ELSEWHERE] = field(default_factory=Packages)
+    version_rows: Annotated[tuple[VersionRow, ...], ELSEWHERE] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -197,8 +202,8 @@ class Sensing(Part):
     """What a sensor measures; ``exposure_s`` is that of the spec, else of the catalog, else zero."""
 
     stamp: Stamp | None = None
-    exposure_s: float = 0.0
-    camera: Camera | None = None
+    exposure_s: Annotated[float, ELSEWHERE] = 0.0
+    camera: Annotated[Camera | None, ELSEWHERE] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -211,8 +216,8 @@ class DeviceLimits(Part):
     """
 
     limit_shares: LimitShares = field(default_factory=LimitShares)
-    payload_limit_kg: float | None = None
-    repeatability_m: float | None = None
+    payload_limit_kg: Annotated[float | None, ELSEWHERE] = None
+    repeatability_m: Annotated[float | None, ELSEWHERE] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -224,9 +229,9 @@ class DeviceMock(Part):
         mock_cannot_prove: what no mock shows of it.
     """
 
-    home: Mapping[str, float] = field(default_factory=dict)
-    simulated_joints: tuple[SimulatedJoint, ...] = ()
-    mock_cannot_prove: tuple[str, ...] = ()
+    home: Annotated[Mapping[str, float], ELSEWHERE] = field(default_factory=dict)
+    simulated_joints: Annotated[tuple[SimulatedJoint, ...], STATED] = ()
+    mock_cannot_prove: Annotated[tuple[str, ...], ELSEWHERE] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -240,10 +245,10 @@ class Device(Entity):
         gripper, switched: what a gripper, and what a device that outputs switch has besides.
     """
 
-    model: str
-    vendor: str
-    kind: str
-    architecture: str = "ros2"
+    model: Annotated[str, STATED]
+    vendor: Annotated[str, ELSEWHERE]
+    kind: Annotated[str, ELSEWHERE]
+    architecture: Annotated[str, STATED] = "ros2"
     body: Body
     joints: tuple[DeviceJoint, ...] = ()
     mount: Mount = field(default_factory=Mount)
@@ -252,7 +257,7 @@ class Device(Entity):
     software: Software = field(default_factory=Software)
     robot: RobotController = field(default_factory=RobotController)
     sensing: Sensing = field(default_factory=Sensing)
-    gripper: Gripper | None = None
+    gripper: Annotated[Gripper | None, ELSEWHERE] = None
     switched: Switched | None = None
     limits: DeviceLimits = field(default_factory=DeviceLimits)
     procedures: Procedures = field(default_factory=Procedures)

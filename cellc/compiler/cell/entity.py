@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from cellc.contract.diagnostics import Span, YamlPath
@@ -24,19 +24,16 @@ class Entity:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+ELSEWHERE = "shown elsewhere"
+"""Marks a field, ``Annotated[…, ELSEWHERE]``, that people find in the catalog or in another field."""
+STATED = "stated"
+"""Marks a field that people see as the user wrote it, under the key of its name; what is used where nothing is."""
+
+
 class Part:
     """Fields of an entity that are read together; people see them as its own fields, so no two parts share a name."""
 
-
-def members(of: Entity | Part) -> Iterator[tuple[str, object]]:
-    """Yield the fields of an entity by name with their values, those of a part where the part is."""
-    for member in fields(of):
-        value = getattr(of, member.name)
-        if isinstance(value, Part):
-            yield from members(value)
-        else:
-            yield member.name, value
+    __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)

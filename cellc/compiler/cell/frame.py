@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Annotated
 
 from cellc.compiler.cell.entity import Entity
+from cellc.contract.grading import Graded, Rule
 from cellc.contract.transforms import Pose, Vector3
+from cellc.contract.vocabulary import ReviewArea
 
 WORLD = "world"
 """Root of every cell's frame tree."""
@@ -21,6 +24,9 @@ class FrameKind(str, Enum):
     FIXED = "fixed"  # stated in the spec
     SCENE = "scene"  # a solid thing
     DYNAMIC = "dynamic"  # published by a node while the cell runs
+
+
+_MEET = "arms may meet in it"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,7 +60,7 @@ class Frame(Entity):
     moving: bool = False
     rate_hz: float | None = None
     buffer_s: float | None = None
-    reference_points: int = 0
+    reference_points: Annotated[int, Graded(ReviewArea.CALIBRATION, rule=Rule.FEWER)] = 0
     simulated_pose: SimulatedPose | None = None
 
 
@@ -68,9 +74,11 @@ class SharedArea(Entity):
     """
 
     parent: str
-    transform_to_parent: Pose
-    size: Vector3
-    granted_by: str
+    transform_to_parent: Annotated[
+        Pose, Graded(ReviewArea.SAFETY, "pose of the shared area", Rule.DANGEROUS, why=_MEET)
+    ]
+    size: Annotated[Vector3, Graded(ReviewArea.SAFETY, "size of the shared area", Rule.DANGEROUS, "m", why=_MEET)]
+    granted_by: Annotated[str, Graded(ReviewArea.SAFETY, "who grants access", Rule.DANGEROUS, why=_MEET)]
     released: str
 
 

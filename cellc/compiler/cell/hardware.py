@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Annotated
 
-from cellc.compiler.cell.entity import Part
+from cellc.compiler.cell.entity import ELSEWHERE, STATED, Part
 from cellc.compiler.cell.interface import InnerNode
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import HardwareState, Target
@@ -250,14 +251,14 @@ class DeviceControl(Part):
 
     hardware: HardwareComponent | None = None
     driver: DeviceDriver | None = None
-    adapter: Adapter | None = None
-    initial_state: str | None = None
-    offers: tuple[OfferedInterface, ...] = ()
-    starts: Mapping[str, Effect] = field(default_factory=dict)
-    speed_scaling: str | None = None
+    adapter: Annotated[Adapter | None, STATED] = None
+    initial_state: Annotated[str | None, STATED] = None
+    offers: Annotated[tuple[OfferedInterface, ...], ELSEWHERE] = ()
+    starts: Annotated[Mapping[str, Effect], ELSEWHERE] = field(default_factory=dict)
+    speed_scaling: Annotated[str | None, ELSEWHERE] = None
     laws: tuple[CommandLaw, ...] = ()
-    update_rates_hz: tuple[float, ...] = ()
-    controller_kinds: tuple[str, ...] = ()
+    update_rates_hz: Annotated[tuple[float, ...], ELSEWHERE] = ()
+    controller_kinds: Annotated[tuple[str, ...], ELSEWHERE] = ()
 
     @property
     def startup_state(self) -> str:

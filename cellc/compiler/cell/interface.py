@@ -6,8 +6,9 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Annotated
 
-from cellc.compiler.cell.entity import Entity
+from cellc.compiler.cell.entity import ELSEWHERE, Entity
 from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.entities import TARGETS, ContractEndpoint, ContractInterface, Target
 from cellc.contract.vocabulary import UNKNOWN
@@ -79,8 +80,8 @@ class Node(Entity):
     device: str | None = None
     parameters: Mapping[str, ParameterValue]
     remaps: Mapping[str, str] = field(default_factory=dict)
-    endpoints: NodeEndpoints = field(default_factory=NodeEndpoints)
-    inside: tuple[InnerNode, ...] = ()
+    endpoints: Annotated[NodeEndpoints, ELSEWHERE] = field(default_factory=NodeEndpoints)
+    inside: Annotated[tuple[InnerNode, ...], ELSEWHERE] = ()
 
     @property
     def is_planner(self) -> bool:

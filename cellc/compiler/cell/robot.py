@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Annotated
 
-from cellc.compiler.cell.entity import Part
+from cellc.compiler.cell.entity import ELSEWHERE, STATED, Part
+from cellc.contract.stated import RobotProgram
 from cellc.contract.transforms import Vector3
 
 Moments6 = tuple[float, float, float, float, float, float]
@@ -39,14 +41,6 @@ class Payload:
     set_by: str
     load: Load | None
     part_kg: float | None = None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RobotProgram:
-    """Who starts the program on the robot's own controller, and in which mode; as written."""
-
-    played_by: str
-    mode: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -196,11 +190,11 @@ class RobotController(Part):
         accepts: what the controller takes.
     """
 
-    payload: Payload | None = None
-    tcp: str | None = None
-    program: RobotProgram | None = None
-    collision: CollisionThresholds | None = None
-    impedance: Impedance | None = None
-    tool_connector: ToolConnector | None = None
-    plug: Plug | None = None
-    accepts: RobotFacts = field(default_factory=RobotFacts)
+    payload: Annotated[Payload | None, STATED] = None
+    tcp: Annotated[str | None, STATED] = None
+    program: Annotated[RobotProgram | None, STATED] = None
+    collision: Annotated[CollisionThresholds | None, STATED] = None
+    impedance: Annotated[Impedance | None, STATED] = None
+    tool_connector: Annotated[ToolConnector | None, STATED] = None
+    plug: Annotated[Plug | None, ELSEWHERE] = None
+    accepts: Annotated[RobotFacts, ELSEWHERE] = field(default_factory=RobotFacts)

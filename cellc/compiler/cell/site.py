@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated
 
 from cellc.compiler.cell.entity import Entity
-from cellc.contract.pins import day_of
-from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES, UNKNOWN
+from cellc.contract.grading import Graded, Rule
+from cellc.contract.stated import Stop
+from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES, UNKNOWN, ReviewArea
 
 ATTEMPT_FIELDS = (
     "attempt_id",
@@ -41,19 +43,6 @@ class Clock:
     simulated_drift: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class HardwareStatement:
-    """What somebody says of a plugin or a program that runs on the mock; ``by`` or ``date`` may be UNKNOWN."""
-
-    touches_no_hardware: bool
-    by: str
-    date: str
-
-    def is_signed(self) -> bool:
-        """Whether somebody says, with a date, that it touches no hardware."""
-        return self.touches_no_hardware and day_of(self.date) is not None and self.by.strip() not in ("", UNKNOWN)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetworkCard:
     """A card of a host: ``address`` with prefix length as written, ``interface`` as the operating system names it.
@@ -74,51 +63,6 @@ class Host(Entity):
     scheduling: str = UNKNOWN
     clock: Clock = field(default_factory=Clock)
     nics: Mapping[str, NetworkCard]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DiscoveryServer:
-    """A server of Fast DDS's discovery on a host; ``nic`` is None where the spec leaves the card open."""
-
-    host: str
-    nic: str | None
-    port: int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Network:
-    """How the nodes of the cell find each other: ``discovery`` is multicast, unicast, server, localhost or off."""
-
-    domain_id: int = 0
-    discovery: str = "multicast"
-    peers: tuple[str, ...] = ()
-    servers: tuple[DiscoveryServer, ...] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Rollback:
-    """What to go back to when a new configuration fails."""
-
-    image: str = UNKNOWN
-    configuration: str = UNKNOWN
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Versions:
-    """The pinned tuple of the cell as written; devices add their own parts."""
-
-    ros: str
-    os: str = UNKNOWN
-    kernel: str = UNKNOWN
-    rmw: str = UNKNOWN
-    ros2_control: str = UNKNOWN
-    moveit: str = UNKNOWN
-    rollback: Rollback = field(default_factory=Rollback)
-
-    @property
-    def rmw_name(self) -> str:
-        """The middleware without its version, such as ``rmw_fastrtps_cpp``."""
-        return self.rmw.split()[0]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -146,59 +90,6 @@ class Calibration(Entity):
     file: CalibrationFile | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ResponsibilityOwners:
-    """Owner of each responsibility."""
-
-    frames: str = UNKNOWN
-    time: str = UNKNOWN
-    limits: str = UNKNOWN
-    watchdogs: str = UNKNOWN
-    command: str = UNKNOWN
-    logging: str = UNKNOWN
-    vendor_safety: str = UNKNOWN
-    physical_stop: str = UNKNOWN
-
-    def items(self) -> Iterator[tuple[str, str]]:
-        """Yield each responsibility with its owner."""
-        return ((field.name, getattr(self, field.name)) for field in fields(self))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ApprovalOwners:
-    """Owner of each approval area."""
-
-    graph: str = UNKNOWN
-    time_tf: str = UNKNOWN
-    controller: str = UNKNOWN
-    vendor: str = UNKNOWN
-    network: str = UNKNOWN
-    safety: str = UNKNOWN
-    data: str = UNKNOWN
-
-    def items(self) -> Iterator[tuple[str, str]]:
-        """Yield each area with its owner."""
-        return ((field.name, getattr(self, field.name)) for field in fields(self))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Owners:
-    """Who is responsible for what."""
-
-    responsibilities: ResponsibilityOwners = field(default_factory=ResponsibilityOwners)
-    approvals: ApprovalOwners = field(default_factory=ApprovalOwners)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Stop:
-    """Who stops the machine; ``path`` is hardwired, safety_bus, software or UNKNOWN."""
-
-    authority: str = UNKNOWN
-    path: str = UNKNOWN
-    independent_of: tuple[str, ...] = ()
-    evidence: tuple[str, ...] = ()
-
-
 STOPPED = ("protective_stop", "emergency_stop", "fault")
 """What every robot can be stopped by; others are its vendor's."""
 
@@ -218,8 +109,12 @@ class Recovery:
 class Safety:
     """The safety boundary, which cellc names and never implements."""
 
-    stop: Stop = field(default_factory=Stop)
-    recovery: Recovery = field(default_factory=Recovery)
+    stop: Annotated[Stop, Graded(ReviewArea.SAFETY, "the stop", Rule.DANGEROUS, ordered=False)] = field(
+        default_factory=Stop
+    )
+    recovery: Annotated[Recovery, Graded(ReviewArea.SAFETY, rule=Rule.DANGEROUS, ordered=False)] = field(
+        default_factory=Recovery
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,7 +150,7 @@ class FirstMotion(Entity):
 class Bringup:
     """The gates by name, in order, and the first motion of each device that has one."""
 
-    gates: tuple[str, ...] = (*PROMOTION_GATES, *NETWORK_GATES)
+    gates: Annotated[tuple[str, ...], Graded(ReviewArea.GATES, rule=Rule.LOST)] = (*PROMOTION_GATES, *NETWORK_GATES)
     first_motions: tuple[FirstMotion, ...] = ()
 
 

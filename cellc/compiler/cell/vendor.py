@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
-from cellc.compiler.cell.entity import Part
+from cellc.compiler.cell.entity import ELSEWHERE, Part
 from cellc.contract.vocabulary import GateCode, LeftBy, Moment, Need, RobotSetting
 
 
@@ -107,7 +108,7 @@ class Procedures(Part):
         commissioning: steps in the vendor's order.
     """
 
-    safety: VendorSafety = field(default_factory=VendorSafety)
-    record: tuple[RecordSource, ...] = ()
+    safety: Annotated[VendorSafety, ELSEWHERE] = field(default_factory=VendorSafety)
+    record: Annotated[tuple[RecordSource, ...], ELSEWHERE] = ()
     jog: str | None = None
-    commissioning: tuple[CommissioningStep, ...] = ()
+    commissioning: Annotated[tuple[CommissioningStep, ...], ELSEWHERE] = ()

@@ -5,13 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from dataclasses import MISSING, Field, dataclass
 from enum import Enum
 from typing import Any
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.entity import Part
+from cellc.compiler.cell.members import field_names
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import rounded
@@ -22,6 +23,7 @@ from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos, SimulatedNetwork
 from cellc.contract.manifest import ConfigurationInputs
 from cellc.contract.qos import DEFAULT
+from cellc.contract.stated import DiscoveryServer, HardwareStatement, RobotProgram, StatedModel
 from cellc.contract.vocabulary import UNKNOWN
 
 _DIGITS = 12
@@ -70,8 +72,8 @@ def _digest(settled: object) -> str:
 
 def _settled(value: object, left_out: frozenset[str] = _NOT_OF_AN_ENTITY) -> object:
     """Return a linked value as plain data: without its places, what is at its default, and order that says nothing."""
-    if is_dataclass(value) and not isinstance(value, type):
-        values = {field.name: getattr(value, field.name) for field in fields(value) if field.name not in left_out}
+    if names := field_names(value):
+        values = {name: getattr(value, name) for name in names if name not in left_out}
         place = "path" if isinstance(values.get("path"), tuple) else None  # a stop has a path too, and that is a text
         stated = {name: member for name, member in values.items() if name != place and member != _default(value, name)}
         settled = {
@@ -97,8 +99,7 @@ def _as_first_taken(composed: Mapping[str, object], of: Device) -> dict[str, obj
     device: dict[str, object] = {}
     for name, value in composed.items():
         device |= value if isinstance(value, dict) and isinstance(getattr(of, name), Part) else {name: value}
-    if (accepted := device.pop("accepts", None)) is not None:
-        device["robot"] = accepted
+    device |= {"robot": device.pop("accepts")} if "accepts" in device else {}
     exposure_s = device.pop("exposure_s", None)
     if isinstance(stamp := device.get("stamp"), dict):
         stamp["exposure_s"] = exposure_s
@@ -117,6 +118,9 @@ def _unordered(value: object) -> object:
 def _default(value: Any, name: str) -> object:
     if isinstance(value, (Qos, SimulatedNetwork)):
         return getattr(DEFAULT, name, MISSING)
+    if isinstance(value, StatedModel):  # the first ids were taken over all fields of some of them
+        whole = isinstance(value, (DiscoveryServer, HardwareStatement, RobotProgram))
+        return MISSING if whole else type(value).model_fields[name].get_default(call_default_factory=True)
     of: Field[Any] = value.__dataclass_fields__[name]
     return of.default if of.default_factory is MISSING else of.default_factory()
 

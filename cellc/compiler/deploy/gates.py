@@ -174,8 +174,8 @@ def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
 def _owners(graph: CellGraph) -> Mapping[str, str]:
     owners = graph.cell.owners
     return {
-        **{f"approvals.{name}": owner for name, owner in owners.approvals.items()},
-        **{f"responsibilities.{name}": owner for name, owner in owners.responsibilities.items()},
+        **{f"approvals.{name}": owner for name, owner in owners.approvals},
+        **{f"responsibilities.{name}": owner for name, owner in owners.responsibilities},
         "recovery.observer": graph.cell.safety.recovery.observer,
     }
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from ipaddress import IPv4Address, IPv4Interface
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.site import DiscoveryServer
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.stated import DiscoveryServer
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,11 +49,11 @@ def build_responsibilities(cell: Cell) -> Responsibilities:
     """Gather the owners that the spec names."""
     items = [
         Responsibility("responsibility", name, str(owner), ("owners", "responsibilities", name))
-        for name, owner in cell.owners.responsibilities.items()
+        for name, owner in cell.owners.responsibilities
     ]
     items += [
         Responsibility("approval", name, str(owner), ("owners", "approvals", name))
-        for name, owner in cell.owners.approvals.items()
+        for name, owner in cell.owners.approvals
     ]
     items += [
         Responsibility("calibration", name, calibration.owner, ("calibrations", name, "owner"))

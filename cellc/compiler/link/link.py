@@ -15,7 +15,6 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.entity import Places
 from cellc.compiler.cell.frame import Frame, SceneBox, SharedArea
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Servo
-from cellc.compiler.cell.site import Versions
 from cellc.compiler.link.control import as_driven, bind_adapters, link_managers
 from cellc.compiler.link.controller import ControlContext
 from cellc.compiler.link.derived import Derivation, derive_interfaces
@@ -37,20 +36,17 @@ from cellc.compiler.link.site import (
     bind_calibrations,
     bind_hosts,
     bind_kpis,
-    bind_network,
-    bind_owners,
     bind_places,
     bind_recording,
     bind_safety,
-    bind_statements,
     bind_targets,
-    bind_versions,
 )
 from cellc.compiler.link.switched import link_switched
 from cellc.compiler.link.uncertainty import link_uncertainty
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean, only_nearest
+from cellc.contract.stated import Versions
 from cellc.contract.vocabulary import Distro
 from cellc.robot.description.model import Description
 from cellc.robot.description.packages import lies_under, repository_of
@@ -214,24 +210,23 @@ def _surroundings(
     places = bind_places(document)
     table = load_distros().value
     assert table is not None  # package data, held valid by the catalog's tests
-    plugins, programs = bind_statements(spec.mock_plugins), bind_statements(spec.mock_programs)
     return Cell(
         name=spec.cell,
         places=places,
         distro=distro,
         summary=spec.summary,
-        versions=bind_versions(spec),
+        versions=spec.versions,
         hosts=bind_hosts(spec, places),
-        network=bind_network(spec),
+        network=spec.network,
         calibrations=bind_calibrations(spec, places, measured.files),
-        owners=bind_owners(spec),
+        owners=spec.owners,
         safety=bind_safety(spec, devices),
         bringup=bind_bringup(spec, places),
         kpis=bind_kpis(spec),
         recording=bind_recording(spec),
         targets=bind_targets(spec),
-        mock_plugins=plugins,
-        mock_programs=programs,
+        mock_plugins=spec.mock_plugins,
+        mock_programs=spec.mock_programs,
         harmless_plugins=frozenset(table.harmless_plugins),
         harmless_programs=frozenset(table.harmless_programs),
         hardware_packages=frozenset(table.hardware_packages),

@@ -22,7 +22,6 @@ from cellc.compiler.cell.robot import (
     Payload,
     RobotController,
     RobotFacts,
-    RobotProgram,
     Thresholds,
 )
 from cellc.compiler.link.frames import FrameNames
@@ -31,8 +30,9 @@ from cellc.compiler.link.tool import plug, tool_conditions, tool_connector, tool
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.compiler.spec.quantity import QuantityVector
-from cellc.compiler.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec, ProgramSpec
+from cellc.compiler.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome
+from cellc.contract.stated import RobotProgram
 
 DRIVER = "driver"
 """The word of a spec for a program that the driver of the robot sends and starts."""
@@ -40,10 +40,9 @@ DRIVER = "driver"
 
 def robot_controller(facts: DeviceModel, written: DeviceSpec) -> RobotController:
     """Return what a robot's own controller gets; the frame of its TCP is bound once all devices are known."""
-    program = written.program
     return RobotController(
         payload=_payload(written),
-        program=None if program is None else RobotProgram(played_by=program.played_by, mode=program.mode),
+        program=written.program,
         collision=None if written.collision is None else _collision(written.collision),
         impedance=None if written.impedance is None else _impedance(written.impedance),
         tool_connector=tool_connector(facts, written),
@@ -144,7 +143,7 @@ def robot_words(written: DeviceSpec) -> Iterator[tuple[str, str]]:
         yield "cartesian_stiffness", _listed((*at.translation.si, *at.rotation.si))
 
 
-def _starter(program: ProgramSpec) -> str:
+def _starter(program: RobotProgram) -> str:
     return DRIVER if program.played_by == DRIVER else "person"
 
 

@@ -13,33 +13,23 @@ from cellc.compiler.cell.site import (
     ATTEMPT_FIELDS,
     STOPPED,
     TARGET_DEFAULTS,
-    ApprovalOwners,
     Bringup,
     Calibration,
     CalibrationFile,
     Clock,
-    DiscoveryServer,
     FirstMotion,
-    HardwareStatement,
     Host,
-    Network,
     NetworkCard,
-    Owners,
     Recording,
     Recovery,
-    ResponsibilityOwners,
-    Rollback,
     Safety,
-    Stop,
     Target,
-    Versions,
 )
 from cellc.compiler.link.quantities import joint_figure, si
 from cellc.compiler.source.document import Node, SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import StampSpec
 from cellc.compiler.spec.hosts import ClockSpec
-from cellc.compiler.spec.rehearsals import HardwareStatementSpec
 from cellc.compiler.spec.safety import FirstMotionSpec
 from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.entities import Kpis
@@ -63,20 +53,6 @@ def bind_places(document: SourceDocument) -> Places:
 
     gather(document.root, ())
     return Places(document.file, spans, texts)
-
-
-def bind_versions(spec: CellSpec) -> Versions:
-    """Return the version tuple of the cell."""
-    versions = spec.versions
-    return Versions(
-        ros=versions.ros,
-        os=versions.os,
-        kernel=versions.kernel,
-        rmw=versions.rmw,
-        ros2_control=versions.ros2_control,
-        moveit=versions.moveit,
-        rollback=Rollback(image=versions.rollback.image, configuration=versions.rollback.configuration),
-    )
 
 
 def bind_hosts(spec: CellSpec, places: Places) -> Mapping[str, Host]:
@@ -110,13 +86,6 @@ def bind_clock(written: ClockSpec | StampSpec, domain: str) -> Clock:
     )
 
 
-def bind_network(spec: CellSpec) -> Network:
-    """Return how nodes find each other."""
-    network = spec.network
-    servers = tuple(DiscoveryServer(host=server.host, nic=server.nic, port=server.port) for server in network.servers)
-    return Network(domain_id=network.domain_id, discovery=network.discovery, peers=network.peers, servers=servers)
-
-
 def bind_calibrations(
     spec: CellSpec, places: Places, files: Mapping[str, CalibrationFile]
 ) -> Mapping[str, Calibration]:
@@ -139,20 +108,12 @@ def bind_calibrations(
     }
 
 
-def bind_owners(spec: CellSpec) -> Owners:
-    """Return who is responsible for what."""
-    return Owners(
-        responsibilities=ResponsibilityOwners(**dict(spec.owners.responsibilities)),
-        approvals=ApprovalOwners(**dict(spec.owners.approvals)),
-    )
-
-
 def bind_safety(spec: CellSpec, devices: tuple[Device, ...]) -> Safety:
     """Return the safety boundary; where no recovery states are stated, those that its devices have a way out of."""
     stop, recovery = spec.safety.stop, spec.safety.recovery
     stops = (state for device in devices for state in device.procedures.safety.recoverable_stops)
     return Safety(
-        stop=Stop(authority=stop.authority, path=stop.path, independent_of=stop.independent_of, evidence=stop.evidence),
+        stop=stop,
         recovery=Recovery(
             states=tuple(dict.fromkeys((*STOPPED, *stops))) if recovery.states is None else recovery.states,
             acknowledge=recovery.acknowledge,
@@ -210,14 +171,6 @@ def bind_recording(spec: CellSpec) -> Recording:
     return Recording(
         attempt_fields=ATTEMPT_FIELDS if fields == "standard" else tuple(fields), topics=spec.recording.topics
     )
-
-
-def bind_statements(written: Mapping[str, HardwareStatementSpec]) -> Mapping[str, HardwareStatement]:
-    """Return what the user says of plugins, or of programs, that run on the mock."""
-    return {
-        name: HardwareStatement(statement.touches_no_hardware, statement.by, statement.date)
-        for name, statement in written.items()
-    }
 
 
 def bind_targets(spec: CellSpec) -> Mapping[str, Target]:

@@ -7,29 +7,16 @@ A model is built when the first spec is parsed, with those inside it. Files of m
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, Literal, Union
+from typing import Annotated, Literal, Union
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, StringConstraints, Tag, WithJsonSchema
+from pydantic import AfterValidator, Discriminator, Field, StringConstraints, Tag, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from cellc.contract.pins import DAY_PATTERN, day_of
+from cellc.contract.stated import StatedModel, Text
 
-
-class SpecModel(BaseModel):
-    """A part of the spec as written: shape only, the user's own names and units."""
-
-    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", defer_build=True)
-
-    SHARED_AFTER: ClassVar[str] = ""
-    """The own key behind which a file has those that the model shares with its kin; empty where they come first."""
-
-
-NAME_PATTERN = r"^[A-Za-z][A-Za-z0-9_]*$"
 PACKAGE_NAME_PATTERN = r"^[a-z][a-z0-9_]+$"
 REFERENCE_PATTERN = r"^[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_.-]*)*$"
-
-# Device, controller, node and interface tokens end up in ROS graph names: one token of `[A-Za-z_][A-Za-z0-9_]*`.
-Name = Annotated[str, StringConstraints(pattern=NAME_PATTERN, max_length=64)]
 
 # Empty for the root namespace.
 Namespace = Annotated[str, StringConstraints(pattern=r"^(/[A-Za-z_][A-Za-z0-9_]*)*$", max_length=128)]
@@ -45,11 +32,6 @@ PackageName = Annotated[str, StringConstraints(pattern=PACKAGE_NAME_PATTERN, max
 # A frame or link: `world`, `tcp`, or `device/link`; what follows the first slash is the name of the link.
 FrameReference = Annotated[str, StringConstraints(pattern=REFERENCE_PATTERN, max_length=128)]
 
-# A pinned version, an image digest or UNKNOWN; what is written is judged by rules, not by shape.
-Pin = Annotated[str, StringConstraints(min_length=1, max_length=200)]
-
-Text = Annotated[str, StringConstraints(min_length=1, max_length=500)]
-
 # `sensor_msgs/msg/Image`, `control_msgs/action/FollowJointTrajectory`: whether it exists is a rule's question.
 InterfaceType = Annotated[str, StringConstraints(min_length=1, max_length=200)]
 
@@ -60,7 +42,7 @@ def shape_of(value: object) -> str | None:
         return "text"
     if isinstance(value, (list, tuple)):
         return "list"
-    return "mapping" if isinstance(value, (dict, SpecModel)) else None
+    return "mapping" if isinstance(value, (dict, StatedModel)) else None
 
 
 def _is_day(text: str) -> str:

@@ -4,21 +4,22 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
-from cellc.compiler.spec.base import Name, PackageName, SpecModel, Text
+from cellc.compiler.spec.base import PackageName
 from cellc.compiler.spec.control import ManagerSpec, MotionSpec
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.compiler.spec.frames import AreaSpec, BoxSpec, CalibrationSpec, FrameSpec
-from cellc.compiler.spec.hosts import HostSpec, NetworkSpec, VersionsSpec
+from cellc.compiler.spec.hosts import HostSpec
 from cellc.compiler.spec.interfaces import InterfaceSpec, NodeSpec
-from cellc.compiler.spec.rehearsals import HardwareStatementSpec, KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
-from cellc.compiler.spec.safety import BringupSpec, OwnersSpec, SafetySpec
+from cellc.compiler.spec.rehearsals import KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
+from cellc.compiler.spec.safety import BringupSpec, SafetySpec
 from cellc.compiler.spec.uncertainty import RegionSpec, UncertaintySpec
+from cellc.contract.stated import HardwareStatement, Name, Network, Owners, StatedModel, Text, Versions
 
 PackageFolder = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 TopicName = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 
 
-class CellSpec(SpecModel):
+class CellSpec(StatedModel):
     """One physical cell, as its integrator writes it."""
 
     format: Literal[1] = Field(..., description="Version of this spec language.", examples=[1])
@@ -28,7 +29,7 @@ class CellSpec(SpecModel):
     summary: Text = Field(
         "", description="One sentence on what the cell does.", examples=["Picks parts from fixture A"], min_length=0
     )
-    versions: VersionsSpec = Field(..., description="The pinned version tuple.", examples=[{"ros": "jazzy"}])
+    versions: Versions = Field(..., description="The pinned version tuple.", examples=[{"ros": "jazzy"}])
     packages: tuple[PackageFolder, ...] = Field(
         (),
         description="Folders in which ROS packages of descriptions and meshes lie, relative to this file and in its "
@@ -39,8 +40,8 @@ class CellSpec(SpecModel):
     hosts: dict[Name, HostSpec] = Field(
         default_factory=dict, description="Computers by name.", examples=[{"control_pc": {"scheduling": "preempt_rt"}}]
     )
-    network: NetworkSpec = Field(
-        default_factory=NetworkSpec, description="DDS network.", examples=[{"domain_id": 42, "discovery": "unicast"}]
+    network: Network = Field(
+        default_factory=Network, description="DDS network.", examples=[{"domain_id": 42, "discovery": "unicast"}]
     )
     devices: dict[Name, DeviceSpec] = Field(
         ...,
@@ -91,8 +92,8 @@ class CellSpec(SpecModel):
         description="Groups, named poses and goals.",
         examples=[{"groups": {"manipulator": {"base": "arm/base_link", "tip": "tcp"}}}],
     )
-    owners: OwnersSpec = Field(
-        default_factory=OwnersSpec,
+    owners: Owners = Field(
+        default_factory=Owners,
         description="Who is responsible for what.",
         examples=[{"approvals": {"graph": "integration"}}],
     )
@@ -126,12 +127,12 @@ class CellSpec(SpecModel):
     targets: dict[Literal["mock", "sim", "real"], TargetSpec] = Field(
         default_factory=dict, description="What differs between targets.", examples=[{"sim": {"clock": "sim"}}]
     )
-    mock_plugins: dict[Text, HardwareStatementSpec] = Field(
+    mock_plugins: dict[Text, HardwareStatement] = Field(
         default_factory=dict,
         description="Hardware plugins beside those of the catalog that may stand in for a device in the mock.",
         examples=[{"my_arm/Simulation": {"touches_no_hardware": True, "by": "controls", "date": "2026-07-01"}}],
     )
-    mock_programs: dict[Text, HardwareStatementSpec] = Field(
+    mock_programs: dict[Text, HardwareStatement] = Field(
         default_factory=dict,
         description="Programs of devices beside those of the catalog that may run on the mock: `package/executable`.",
         examples=[{"my_camera/rectify": {"touches_no_hardware": True, "by": "perception", "date": "2026-07-01"}}],

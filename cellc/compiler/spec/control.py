@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.compiler.spec.base import FrameReference, Name, Namespace, ParameterValue, SpecModel, Text
+from cellc.compiler.spec.base import FrameReference, Namespace, ParameterValue
 from cellc.compiler.spec.moveit import OctomapSpec, ServoSpec
 from cellc.compiler.spec.quantity import (
     Duration,
@@ -15,6 +15,7 @@ from cellc.compiler.spec.quantity import (
     RollPitchYaw,
     UpdateRate,
 )
+from cellc.contract.stated import Name, StatedModel, Text
 
 
 def _by_joint(value: object) -> str:
@@ -28,7 +29,7 @@ Tolerance = Annotated[
 """One figure, one for each kind of joint as in ``0.2 rad 5 mm``, or one for each joint by ``device/joint``."""
 
 
-class ControllerSpec(SpecModel):
+class ControllerSpec(StatedModel):
     """A controller; what it claims follows from its type and device."""
 
     type: Text = Field(..., description="Kind of controller in the catalog.", examples=["joint_trajectory"])
@@ -65,7 +66,7 @@ class ControllerSpec(SpecModel):
     )
 
 
-class SwitchSpec(SpecModel):
+class SwitchSpec(StatedModel):
     """A controller switch that the cell may make while it runs."""
 
     activate: tuple[Name, ...] = Field((), description="Controllers to activate.", examples=[["arm_position"]])
@@ -74,7 +75,7 @@ class SwitchSpec(SpecModel):
     )
 
 
-class ManagerSpec(SpecModel):
+class ManagerSpec(StatedModel):
     """One controller manager with its update loop."""
 
     update_rate: UpdateRate = Field(..., description="Rate of read, update, write.", examples=["500 Hz"])
@@ -93,7 +94,7 @@ class ManagerSpec(SpecModel):
     )
 
 
-class GroupSpec(SpecModel):
+class GroupSpec(StatedModel):
     """A planning group: the chain from a base link to a tip frame."""
 
     base: FrameReference = Field(..., description="First link of the chain.", examples=["arm/base_link"])
@@ -107,7 +108,7 @@ class GroupSpec(SpecModel):
     )
 
 
-class GoalSpec(SpecModel):
+class GoalSpec(StatedModel):
     """A Cartesian goal: where the tip of the group goes, in a frame looked up at the observation's stamp."""
 
     group: Name | None = Field(None, description="Group that moves; the only one if absent.", examples=["manipulator"])
@@ -126,7 +127,7 @@ class GoalSpec(SpecModel):
     )
 
 
-class MotionSpec(SpecModel):
+class MotionSpec(StatedModel):
     """What the cell plans for."""
 
     groups: dict[Name, GroupSpec] = Field(

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.compiler.spec.base import Day, FrameReference, Name, Pin, SpecModel, Text
+from cellc.compiler.spec.base import Day, FrameReference
 from cellc.compiler.spec.quantity import (
     Drift,
     Duration,
@@ -18,12 +18,13 @@ from cellc.compiler.spec.quantity import (
     RollPitchYaw,
     TimeShift,
 )
-from cellc.compiler.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec, ProgramSpec
+from cellc.compiler.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec
 from cellc.compiler.spec.tool import ToolConnectorSpec
+from cellc.contract.stated import Name, Pin, RobotProgram, StatedModel, Text
 from cellc.contract.vocabulary import UNKNOWN
 
 
-class PlacementSpec(SpecModel):
+class PlacementSpec(StatedModel):
     """Where something sits: a parent frame and a fixed transform."""
 
     parent: FrameReference = Field(
@@ -50,7 +51,7 @@ class MountSpec(PlacementSpec):
     )
 
 
-class ConnectionSpec(SpecModel):
+class ConnectionSpec(StatedModel):
     """How the real device is reached; never used by a mock or simulated target."""
 
     host: Name = Field(..., description="Host that runs the driver.", examples=["control_pc"])
@@ -73,7 +74,7 @@ class ConnectionSpec(SpecModel):
     )
 
 
-class TighterLimitsSpec(SpecModel):
+class TighterLimitsSpec(StatedModel):
     """Limits of this cell as a share of the device's own; they may only tighten."""
 
     velocity: Ratio | None = Field(None, description="Share of the device's joint velocities.", examples=["50 %"])
@@ -82,7 +83,7 @@ class TighterLimitsSpec(SpecModel):
     )
 
 
-class StampSpec(SpecModel):
+class StampSpec(StatedModel):
     """Where a sensor's time stamps come from."""
 
     source: Literal["hardware", "driver", "arrival", "UNKNOWN"] = Field(
@@ -104,7 +105,7 @@ class StampSpec(SpecModel):
     )
 
 
-class KinematicsSpec(SpecModel):
+class KinematicsSpec(StatedModel):
     """Where the joints of this very robot stand, as its vendor's tool has read it off."""
 
     file: Text = Field(
@@ -114,7 +115,7 @@ class KinematicsSpec(SpecModel):
     owner: Text = Field(UNKNOWN, description="Person or role responsible for it.", examples=["robot"])
 
 
-class AdapterSpec(SpecModel):
+class AdapterSpec(StatedModel):
     """The adapter of a direct SDK: the program that it is, and what guards its commands."""
 
     run: Pin = Field(
@@ -150,7 +151,7 @@ class AdapterSpec(SpecModel):
     )
 
 
-class SwitchingSpec(SpecModel):
+class SwitchingSpec(StatedModel):
     """How a device of a few states is wired, and what it does without power."""
 
     outputs: dict[Name, Text] = Field(
@@ -182,7 +183,7 @@ EVERY_JOINT = "*"
 """Key of `simulated_joints` for every joint that is commanded."""
 
 
-class SimulatedJointSpec(SpecModel):
+class SimulatedJointSpec(StatedModel):
     """How a joint of the mock differs from one that follows its command without delay."""
 
     lag: TimeShift | None = Field(None, description="Time constant of a first-order lag.", examples=["20 ms"])
@@ -194,7 +195,7 @@ class SimulatedJointSpec(SpecModel):
     )
 
 
-class DeviceSpec(SpecModel):
+class DeviceSpec(StatedModel):
     """One device: a catalog entry, where it is mounted, and the exact hardware."""
 
     model: Text = Field(
@@ -271,7 +272,7 @@ class DeviceSpec(SpecModel):
     tcp: FrameReference | None = Field(
         None, description="Frame at which the robot's own controller holds its TCP.", examples=["tcp"]
     )
-    program: ProgramSpec | None = Field(
+    program: RobotProgram | None = Field(
         None,
         description="Who starts the program on the robot's own controller; a person at the device if absent.",
         examples=[{"played_by": "operator", "mode": "local"}],

@@ -5,13 +5,14 @@ from typing import Annotated, Any, ClassVar, Literal, Union
 
 from pydantic import Discriminator, Field, Tag, create_model
 
-from cellc.compiler.spec.base import MOST, FrameReference, Name, SpecModel, Text, shape_of
+from cellc.compiler.spec.base import MOST, FrameReference, shape_of
 from cellc.compiler.spec.kinds import Kinds, first_key
 from cellc.compiler.spec.quantity import Duration, JointPosition, JointSpeed, Quantity, Share, TimeShift
 from cellc.contract.faults import MOST_CYCLES, Amount, FaultKind, GoalStep, Reference
+from cellc.contract.stated import Name, StatedModel, Text
 
 
-class PhaseSpec(SpecModel):
+class PhaseSpec(StatedModel):
     """A moment before the first step: the bring-up comes to a phase."""
 
     phase: Literal["start", "activate", "claim"] = Field(
@@ -19,7 +20,7 @@ class PhaseSpec(SpecModel):
     )
 
 
-class EventSpec(SpecModel):
+class EventSpec(StatedModel):
     """A moment in a rehearsal, defined by the progress of a step."""
 
     step: int = Field(..., description="Number of the step, counted from 1.", examples=[3], ge=1, le=MOST)
@@ -43,7 +44,7 @@ MomentSpec = Annotated[
 ]
 
 
-class FaultSpec(SpecModel):
+class FaultSpec(StatedModel):
     """When a fault begins and how long it lasts; the model of its kind adds what it hits, and by how much."""
 
     SHARED_AFTER: ClassVar[str] = "every other"

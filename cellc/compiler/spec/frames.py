@@ -4,13 +4,14 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.compiler.spec.base import MOST, FrameReference, Name, Pin, SpecModel, Text
+from cellc.compiler.spec.base import MOST, FrameReference
 from cellc.compiler.spec.devices import PlacementSpec
 from cellc.compiler.spec.quantity import Duration, Frequency, Length, Position, RollPitchYaw
+from cellc.contract.stated import Name, Pin, StatedModel, Text
 from cellc.contract.vocabulary import UNKNOWN
 
 
-class CalibrationSpec(SpecModel):
+class CalibrationSpec(StatedModel):
     """A measurement that a transform rests on; a new measurement gets a new revision."""
 
     revision: int = Field(..., description="Counts up with every new measurement.", examples=[4], ge=1, le=MOST)
@@ -33,7 +34,7 @@ class CalibrationSpec(SpecModel):
     )
 
 
-class FrameSpec(SpecModel):
+class FrameSpec(StatedModel):
     """A frame of the cell: fixed in its parent, or dynamic and published by a node."""
 
     parent: FrameReference = Field(..., description="Parent frame.", examples=["gripper/base"])
@@ -69,7 +70,7 @@ class FrameSpec(SpecModel):
     )
 
 
-class BoxSpec(SpecModel):
+class BoxSpec(StatedModel):
     """A box that planning must avoid; it becomes a link of the URDF."""
 
     parent: FrameReference = Field(..., description="Frame that the box is fixed to.", examples=["world"])
@@ -83,7 +84,7 @@ class BoxSpec(SpecModel):
     )
 
 
-class AreaSpec(SpecModel):
+class AreaSpec(StatedModel):
     """A volume that several arms may stand in, one at a time unless it is released to more."""
 
     parent: FrameReference = Field(..., description="Frame that the volume is fixed to.", examples=["world"])

@@ -8,23 +8,21 @@ from cellc.compiler.spec.base import (
     MOST,
     FrameReference,
     InterfaceType,
-    Name,
     Namespace,
     NodeReference,
     ParameterValue,
-    SpecModel,
-    Text,
     shape_of,
 )
 from cellc.compiler.spec.quantity import Duration, Frequency, Ratio, TimeShift
 from cellc.contract.entities import Durability, Reliability
+from cellc.contract.stated import Name, StatedModel, Text
 from cellc.contract.vocabulary import UNKNOWN
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
 OnTimeout = Literal["cancel_and_hold", "error", "continue"]
 
 
-class NodeSpec(SpecModel):
+class NodeSpec(StatedModel):
     """A node of the cell that is not a driver or controller of the catalog."""
 
     run: Text = Field(..., description="Package and executable.", examples=["cell_perception/detector"])
@@ -44,7 +42,7 @@ class NodeSpec(SpecModel):
     )
 
 
-class QosSpec(SpecModel):
+class QosSpec(StatedModel):
     """Quality of service of one endpoint; what is absent is the default of its kind."""
 
     reliability: Reliability | None = Field(
@@ -79,7 +77,7 @@ Endpoints = Annotated[
 ]
 
 
-class InterfaceFields(SpecModel):
+class InterfaceFields(StatedModel):
     """What every interface may state."""
 
     frame: FrameReference | None = Field(None, description="Frame of the payload.", examples=["camera/color_optical"])
@@ -94,7 +92,7 @@ class InterfaceFields(SpecModel):
     )
 
 
-class SimulatedNetworkSpec(SpecModel):
+class SimulatedNetworkSpec(StatedModel):
     """What the mock's network does to each sample of a topic, drawn from the seed of the run."""
 
     latency: TimeShift | None = Field(None, description="Shortest time from publishing to arrival.", examples=["2 ms"])

@@ -12,7 +12,7 @@ from typing import Any, Generic, TypeVar
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, SchemaValidator, core_schema
 
-from cellc.compiler.spec.base import SpecModel
+from cellc.contract.stated import StatedModel
 
 _Key = TypeVar("_Key", bound=str)
 
@@ -31,7 +31,7 @@ class Kinds(Generic[_Key]):
         noun: the thing in messages; NOUN-kind-missing is the code of a mapping without any of the keys.
     """
 
-    def __init__(self, noun: str, keys: tuple[_Key, ...], model: Callable[[_Key], type[SpecModel]]) -> None:
+    def __init__(self, noun: str, keys: tuple[_Key, ...], model: Callable[[_Key], type[StatedModel]]) -> None:
         self.keys = keys
         self.model = model
         self._missing = f"{noun}-kind-missing"

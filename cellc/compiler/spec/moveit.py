@@ -4,13 +4,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
-from cellc.compiler.spec.base import Name, SpecModel
 from cellc.compiler.spec.quantity import Edge, Frequency, JointVelocity, Length, Period, Velocity
+from cellc.contract.stated import Name, StatedModel
 
 Topic = Annotated[str, StringConstraints(pattern=r"^(/[A-Za-z_][A-Za-z0-9_]*)+$", max_length=256)]
 
 
-class OctomapSpec(SpecModel):
+class OctomapSpec(StatedModel):
     """The occupancy map of move_group, fed by a depth image or a point cloud that it subscribes to."""
 
     source: Topic = Field(
@@ -26,7 +26,7 @@ class OctomapSpec(SpecModel):
     rate: Frequency | None = Field(None, description="Updates of the map; 1 Hz if absent.", examples=["2 Hz"])
 
 
-class ServoSpec(SpecModel):
+class ServoSpec(StatedModel):
     """MoveIt Servo: a node of the cell that turns twists, joint speeds or poses into commands of one controller."""
 
     node: Name = Field(..., description="Node that runs it.", examples=["servo"])

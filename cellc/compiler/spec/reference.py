@@ -14,6 +14,7 @@ from cellc.compiler.spec import base
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.place import branches, is_tagged, keys_in_order
 from cellc.compiler.spec.schema import cell_schema
+from cellc.contract.stated import NAME_PATTERN
 
 _INTRODUCTION = """\
 <!-- Written by `cellc schema --reference` from the models of cellc/spec; do not edit. -->
@@ -30,7 +31,7 @@ are bold. Each example is legal on its own; together they make no cell.
 - **`include`** takes the path of a file, or a list of paths, whose sections are merged into this one.
 """
 _WORDS = {
-    base.NAME_PATTERN: "name",
+    NAME_PATTERN: "name",
     base.PACKAGE_NAME_PATTERN: "name in lower case",
     base.REFERENCE_PATTERN: "frame",
 }

@@ -5,15 +5,16 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Field
 
-from cellc.compiler.spec.base import MOST, Name, Pin, SpecModel, StandardOr, Text
+from cellc.compiler.spec.base import MOST, StandardOr
 from cellc.compiler.spec.faults import FaultsSpec
 from cellc.compiler.spec.kinds import Kinds
 from cellc.compiler.spec.quantity import Confidence, Duration, PositiveDuration, Rate, Share
 from cellc.contract.entities import Target
-from cellc.contract.vocabulary import UNKNOWN, AttemptOutcome
+from cellc.contract.stated import Name, StatedModel, Text
+from cellc.contract.vocabulary import AttemptOutcome
 
 
-class MoveStep(SpecModel):
+class MoveStep(StatedModel):
     """Move a group to a named pose or a Cartesian goal."""
 
     move: Name = Field(..., description="Named pose or goal.", examples=["home"])
@@ -22,52 +23,52 @@ class MoveStep(SpecModel):
     )
 
 
-class DetectStep(SpecModel):
+class DetectStep(StatedModel):
     """Wait for a fresh observation of a dynamic frame and keep its stamp for the goals that use it."""
 
     detect: Name = Field(..., description="Dynamic frame.", examples=["object"])
 
 
-class GripStep(SpecModel):
+class GripStep(StatedModel):
     """Drive the gripper."""
 
     grip: Literal["open", "close"] = Field(..., description="Open or close.", examples=["close"])
     device: Name | None = Field(None, description="Gripper; the only one if absent.", examples=["gripper"])
 
 
-class SetStep(SpecModel):
+class SetStep(StatedModel):
     """Set the outputs of a switched device; the step does not wait until it is there."""
 
     set: Name = Field(..., description="Device that digital outputs switch.", examples=["gripper"])
     state: Name = Field(..., description="One of its states.", examples=["closed"])
 
 
-class SenseStep(SpecModel):
+class SenseStep(StatedModel):
     """Wait until the sensors of a switched device tell a state."""
 
     sense: Name = Field(..., description="Device with sensors.", examples=["door"])
     state: Name = Field(..., description="One of its states.", examples=["closed"])
 
 
-class CallStep(SpecModel):
+class CallStep(StatedModel):
     """Ask a service and wait for its answer; the mock answers in place of its server."""
 
     call: Text = Field(..., description="Service interface of the cell.", examples=["/conveyor/start"])
 
 
-class WaitStep(SpecModel):
+class WaitStep(StatedModel):
     """Let simulated time pass."""
 
     wait: Duration = Field(..., description="How long.", examples=["1 s"])
 
 
-class AcknowledgeStep(SpecModel):
+class AcknowledgeStep(StatedModel):
     """Let a person acknowledge a stop, so that the cell may go on; without it every further goal is refused."""
 
     acknowledge: Literal["operator"] = Field(..., description="Who acknowledges.", examples=["operator"])
 
 
-_STEPS: Mapping[str, type[SpecModel]] = {
+_STEPS: Mapping[str, type[StatedModel]] = {
     "move": MoveStep,
     "detect": DetectStep,
     "grip": GripStep,
@@ -83,7 +84,7 @@ StepSpec = Annotated[
 ]
 
 
-class RehearsalSpec(SpecModel):
+class RehearsalSpec(StatedModel):
     """One run of the mock: steps of its own or of another rehearsal, faults, and the expected end."""
 
     steps: tuple[StepSpec, ...] = Field((), description="Steps in order.", examples=[[{"move": "home"}]])
@@ -111,7 +112,7 @@ class RehearsalSpec(SpecModel):
     )
 
 
-class KpisSpec(SpecModel):
+class KpisSpec(StatedModel):
     """The key figures of the checkpoint; one without a target is a warning."""
 
     plan_to_execute: Duration | None = Field(
@@ -133,7 +134,7 @@ class KpisSpec(SpecModel):
     )
 
 
-class RecordingSpec(SpecModel):
+class RecordingSpec(StatedModel):
     """What every attempt leaves behind."""
 
     attempt_fields: StandardOr = Field(
@@ -144,15 +145,7 @@ class RecordingSpec(SpecModel):
     )
 
 
-class HardwareStatementSpec(SpecModel):
-    """What somebody signs of a plugin or program that `device.yaml` has run on the mock; UNKNOWN signs nothing."""
-
-    touches_no_hardware: bool = Field(..., description="Whether it opens no connection to a device.", examples=[True])
-    by: Text = Field(UNKNOWN, description="Who says so.", examples=["controls"])
-    date: Pin = Field(UNKNOWN, description="Since when, YYYY-MM-DD.", examples=["2026-07-01"])
-
-
-class TargetSpec(SpecModel):
+class TargetSpec(StatedModel):
     """What differs between mock, simulation and the real cell."""
 
     hardware: Literal["mock", "sim", "real"] | None = Field(

@@ -4,7 +4,6 @@ from typing import Literal
 
 from pydantic import Field
 
-from cellc.compiler.spec.base import SpecModel, Text
 from cellc.compiler.spec.quantity import (
     AngularStiffnesses,
     Forces,
@@ -17,9 +16,10 @@ from cellc.compiler.spec.quantity import (
     Position,
     Stiffnesses,
 )
+from cellc.contract.stated import StatedModel
 
 
-class LoadSpec(SpecModel):
+class LoadSpec(StatedModel):
     """The part of a payload that a service tells the robot, beside the tool that its installation has."""
 
     mass: Mass = Field(..., description="Mass, the tool left out.", examples=["0.2 kg"])
@@ -33,7 +33,7 @@ class LoadSpec(SpecModel):
     )
 
 
-class PayloadSpec(SpecModel):
+class PayloadSpec(StatedModel):
     """Load set in the robot controller."""
 
     mass: Mass = Field(..., description="Mass at the flange, tool included.", examples=["0.93 kg"])
@@ -63,14 +63,14 @@ class PayloadSpec(SpecModel):
     )
 
 
-class CartesianImpedanceSpec(SpecModel):
+class CartesianImpedanceSpec(StatedModel):
     """Stiffness at the tool along and about the axes of the robot's own frame for it."""
 
     translation: Stiffnesses = Field(..., description="Along the axes.", examples=["3000 3000 3000 N/m"])
     rotation: AngularStiffnesses = Field(..., description="About the axes.", examples=["300 300 300 N m/rad"])
 
 
-class ImpedanceSpec(SpecModel):
+class ImpedanceSpec(StatedModel):
     """How stiff the robot's own controller holds what it is commanded."""
 
     joint: JointStiffnesses | None = Field(
@@ -90,39 +90,28 @@ class ImpedanceSpec(SpecModel):
     )
 
 
-class ProgramSpec(SpecModel):
-    """The program on the robot's own controller through which set points pass."""
-
-    played_by: Text = Field(
-        ..., description="Role of the person who starts it, or `driver` where it does.", examples=["operator"]
-    )
-    mode: Literal["local", "remote"] = Field(
-        "local", description="Whether it is started at the device, or from elsewhere.", examples=["local"]
-    )
-
-
-class TorqueThresholdsSpec(SpecModel):
+class TorqueThresholdsSpec(StatedModel):
     """Torques of all joints, in the order of the description."""
 
     lower: JointTorques = Field(..., description="A contact is seen.", examples=["25 25 22 20 19 17 14 N m"])
     upper: JointTorques = Field(..., description="The robot stops.", examples=["35 35 32 30 29 27 24 N m"])
 
 
-class ForceThresholdsSpec(SpecModel):
+class ForceThresholdsSpec(StatedModel):
     """Forces along the axes of the robot's own frame for contacts."""
 
     lower: Forces = Field(..., description="A contact is seen.", examples=["30 30 30 N"])
     upper: Forces = Field(..., description="The robot stops.", examples=["40 40 40 N"])
 
 
-class MomentThresholdsSpec(SpecModel):
+class MomentThresholdsSpec(StatedModel):
     """Moments about the axes of the robot's own frame for contacts."""
 
     lower: Moments = Field(..., description="A contact is seen.", examples=["25 25 25 N m"])
     upper: Moments = Field(..., description="The robot stops.", examples=["35 35 35 N m"])
 
 
-class CollisionSpec(SpecModel):
+class CollisionSpec(StatedModel):
     """Thresholds of collisions, each from the risk assessment of the cell."""
 
     torque: TorqueThresholdsSpec = Field(

@@ -5,71 +5,13 @@ from typing import Annotated, Literal, Union
 
 from pydantic import Discriminator, Field, Tag
 
-from cellc.compiler.spec.base import FrameReference, Name, SpecModel, StandardOr, Text, shape_of
+from cellc.compiler.spec.base import FrameReference, StandardOr, shape_of
 from cellc.compiler.spec.quantity import Duration, JointSpeed, JointWay
+from cellc.contract.stated import Name, StatedModel, Stop, Text
 from cellc.contract.vocabulary import UNKNOWN
 
 
-class ResponsibilitiesSpec(SpecModel):
-    """The eight responsibilities that every architecture has; UNKNOWN blocks the real target."""
-
-    frames: Text = Field(UNKNOWN, description="Owner of frames and calibrations.", examples=["perception"])
-    time: Text = Field(UNKNOWN, description="Owner of clocks and stamps.", examples=["perception"])
-    limits: Text = Field(UNKNOWN, description="Owner of limits.", examples=["controls"])
-    watchdogs: Text = Field(UNKNOWN, description="Owner of watchdogs and timeouts.", examples=["controls"])
-    command: Text = Field(UNKNOWN, description="Owner of the command path.", examples=["integration"])
-    logging: Text = Field(UNKNOWN, description="Owner of logs and attempt records.", examples=["data"])
-    vendor_safety: Text = Field(UNKNOWN, description="Owner of the vendor's safety configuration.", examples=["robot"])
-    physical_stop: Text = Field(UNKNOWN, description="Owner of the physical stop.", examples=["safety"])
-
-
-class ApprovalsSpec(SpecModel):
-    """The seven approval areas of the checkpoint; UNKNOWN blocks the real target."""
-
-    graph: Text = Field(
-        UNKNOWN, description="Is there one command publisher or action server?", examples=["integration"]
-    )
-    time_tf: Text = Field(
-        UNKNOWN, description="Which stamp and calibration produced the goal?", examples=["perception"]
-    )
-    controller: Text = Field(
-        UNKNOWN, description="Are joints, interfaces, tolerance and hold defined?", examples=["controls"]
-    )
-    vendor: Text = Field(UNKNOWN, description="Are firmware, driver, mode and scaling pinned?", examples=["robot"])
-    network: Text = Field(UNKNOWN, description="Do discovery and data use controlled paths?", examples=["network"])
-    safety: Text = Field(UNKNOWN, description="Are stop, recovery and observer independent?", examples=["safety"])
-    data: Text = Field(UNKNOWN, description="Can failures be replayed by layer?", examples=["data"])
-
-
-class OwnersSpec(SpecModel):
-    """Owners by responsibility and by approval area."""
-
-    responsibilities: ResponsibilitiesSpec = Field(
-        default_factory=ResponsibilitiesSpec,
-        description="Owner of each responsibility.",
-        examples=[{"frames": "perception"}],
-    )
-    approvals: ApprovalsSpec = Field(
-        default_factory=ApprovalsSpec, description="Owner of each approval area.", examples=[{"graph": "integration"}]
-    )
-
-
-class StopSpec(SpecModel):
-    """Who stops the machine, and by which path."""
-
-    authority: Text = Field(
-        UNKNOWN, description="What has the authority to stop; never a computer of the cell.", examples=["safety_plc"]
-    )
-    path: Literal["hardwired", "safety_bus", "software", "UNKNOWN"] = Field(
-        UNKNOWN, description="How the stop reaches the drives.", examples=["hardwired"]
-    )
-    independent_of: tuple[Name, ...] = Field(
-        (), description="Hosts that the path does not need.", examples=[["control_pc"]]
-    )
-    evidence: tuple[Text, ...] = Field((), description="What proves it.", examples=[["injected-stop result"]])
-
-
-class RecoverySpec(SpecModel):
+class RecoverySpec(StatedModel):
     """The named states that need recovery, and who acknowledges."""
 
     states: tuple[Name, ...] | None = Field(
@@ -88,11 +30,11 @@ class RecoverySpec(SpecModel):
     observer: Text = Field(UNKNOWN, description="Who is at the stop during supervised motion.", examples=["operator"])
 
 
-class SafetySpec(SpecModel):
+class SafetySpec(StatedModel):
     """The safety boundary; cellc names it and never implements it."""
 
-    stop: StopSpec = Field(
-        default_factory=StopSpec,
+    stop: Stop = Field(
+        default_factory=Stop,
         description="Stop authority and path.",
         examples=[{"authority": "safety_plc", "path": "hardwired", "independent_of": ["control_pc"]}],
     )
@@ -103,7 +45,7 @@ class SafetySpec(SpecModel):
     )
 
 
-class FirstMotionSpec(SpecModel):
+class FirstMotionSpec(StatedModel):
     """Gates G6 and G7: the first moves of one device, joint by joint, announced before each."""
 
     joint: FrameReference = Field(..., description="First to move, as `device/joint`.", examples=["arm/wrist_3_joint"])
@@ -124,7 +66,7 @@ FirstMotionsSpec = Annotated[
 ]
 
 
-class BringupSpec(SpecModel):
+class BringupSpec(StatedModel):
     """Gates G0–G7 and L1–L6; a gate may be tightened, never removed."""
 
     gates: StandardOr = Field(

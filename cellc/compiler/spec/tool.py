@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
-from cellc.compiler.spec.base import SpecModel
 from cellc.compiler.spec.quantity import Voltage
+from cellc.contract.stated import StatedModel
 
 Parity = Literal["none", "odd", "even"]
 StopBits = Literal[1, 2]
@@ -15,7 +15,7 @@ DeviceNode = Annotated[str, StringConstraints(pattern=r"^(/[A-Za-z0-9_.-]+)+$", 
 """What a tool makes in the file system: of characters that no shell reads otherwise."""
 
 
-class ToolSerialSpec(SpecModel):
+class ToolSerialSpec(StatedModel):
     """The serial line of a tool connector, which the robot forwards to the computer of its driver."""
 
     port: DeviceNode = Field(
@@ -47,7 +47,7 @@ class ToolSerialSpec(SpecModel):
     )
 
 
-class ToolConnectorSpec(SpecModel):
+class ToolConnectorSpec(StatedModel):
     """What the tool connector of a robot gives to the tools that have their power from it."""
 
     voltage: Voltage = Field(..., description="Voltage that it gives.", examples=["24 V"])

@@ -2,11 +2,11 @@
 
 from pydantic import Field
 
-from cellc.compiler.spec.base import Name, SpecModel
 from cellc.compiler.spec.quantity import Allowance, Edges, FieldAngle, Length
+from cellc.contract.stated import Name, StatedModel
 
 
-class CalibrationUncertaintySpec(SpecModel):
+class CalibrationUncertaintySpec(StatedModel):
     """What the residual of a calibration does not say."""
 
     rotation: FieldAngle | None = Field(
@@ -14,7 +14,7 @@ class CalibrationUncertaintySpec(SpecModel):
     )
 
 
-class RegionSpec(SpecModel):
+class RegionSpec(StatedModel):
     """Where an object may lie, and how it may be turned; each place is as likely.
 
     A dynamic frame is that of an object about its simulated pose. A fixed one is of what lies there and is not looked
@@ -31,7 +31,7 @@ class RegionSpec(SpecModel):
     )
 
 
-class UncertaintySpec(SpecModel):
+class UncertaintySpec(StatedModel):
     """What a sweep draws and judges; `{}` draws what the cell states elsewhere."""
 
     calibrations: dict[Name, CalibrationUncertaintySpec] = Field(

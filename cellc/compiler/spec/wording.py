@@ -8,9 +8,10 @@ from collections.abc import Mapping
 from pydantic import BaseModel
 
 from cellc.compiler.source.document import Plain
-from cellc.compiler.spec.base import NAME_PATTERN, PACKAGE_NAME_PATTERN, REFERENCE_PATTERN
+from cellc.compiler.spec.base import PACKAGE_NAME_PATTERN, REFERENCE_PATTERN
 from cellc.compiler.spec.place import Place, annotations_by_key, fields_by_key, model_of
 from cellc.contract.diagnostics import YamlPath, did_you_mean, format_path, nearest, only_nearest
+from cellc.contract.stated import NAME_PATTERN
 
 _MAX_QUOTE = 60
 

@@ -21,7 +21,8 @@ from cellc.contract.adapter import (
     Waypoint,
     check_command,
 )
-from cellc.contract.contract import ContractAdapter, ContractJointLimits
+from cellc.contract.contract import ContractJointLimits
+from cellc.contract.devices import ContractAdapter
 from cellc.mock.adapter.simulated import AdapterDisturbances, SimulatedAdapter
 from cellc.mock.control import (
     CancelResponse,

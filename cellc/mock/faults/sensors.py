@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
-from cellc.contract.contract import Contract, ContractSwitched
+from cellc.contract.contract import Contract
+from cellc.contract.devices import ContractSwitched
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome

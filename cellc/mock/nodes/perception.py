@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from cellc.contract.contract import ContractCamera, ContractFrame
+from cellc.contract.contract import ContractFrame
+from cellc.contract.devices import ContractCamera
 from cellc.contract.entities import ContractInterface
 from cellc.contract.transforms import Pose
 from cellc.mock.bus.edge import Subscription

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from cellc.contract.contract import ContractGripper
+from cellc.contract.devices import ContractGripper
 from cellc.contract.vocabulary import AttemptOutcome, Behavior
 from cellc.mock.control import GripperGoal
 from cellc.mock.engine.process import Waiting

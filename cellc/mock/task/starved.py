@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.contract.contract import ContractCamera
+from cellc.contract.devices import ContractCamera
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ, Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed
 from cellc.mock.plant import Plant

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from cellc.contract.contract import ContractSwitched
+from cellc.contract.devices import ContractSwitched
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.context import AttemptError, TaskContext

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cellc.contract.contract import Contract, ContractSwitched
+from cellc.contract.contract import Contract
+from cellc.contract.devices import ContractSwitched
 
 
 @dataclass(slots=True)

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Union
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
-from cellc.compiler.cell.device import Device, DeviceJoint
-from cellc.compiler.cell.entity import Entity, members
+from cellc.compiler.cell.device import Device, DeviceJoint, DeviceVersions, LimitShares
+from cellc.compiler.cell.entity import ELSEWHERE, STATED, Entity
 from cellc.compiler.cell.frame import Frame
-from cellc.compiler.cell.hardware import HardwareComponent
-from cellc.compiler.cell.interface import Node
+from cellc.compiler.cell.members import field_names, members
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.transforms import Pose
@@ -22,41 +21,7 @@ from cellc.contract.transforms import Pose
 Tree = Union["Leaf", dict[str, "Tree"]]
 
 _BOOKKEEPING = {"name", "path", "span"}
-# What a reader of `show` finds elsewhere: in the catalog, or among the parameters.
-_HIDDEN = {
-    Controller: {"package", "declared", "plugin_parameters", "written_parameters"},
-    Device: {
-        *("vendor", "kind", "description", "home", "optical_frames", "payload_limit_kg", "update_rates_hz"),
-        "repeatability_m",
-        *("controller_kinds", "speed_scaling", "gripper", "camera", "offers", "network", "safety", "packages"),
-        *("version_rows", "commissioning", "record", "accepts", "plug", "programs", "mock_cannot_prove", "starts"),
-    },
-    Node: {"endpoints", "inside"},
-    HardwareComponent: {
-        *("effects", "reported_by", "initial_state", "direct_activation"),
-        *("command_timeout_s", "enforce_command_limits", "nodes"),
-        "modes",
-    },
-}
 _DERIVED = {"measured_on", "joints"}
-# What is shown of a device as the user states it.
-_STATED = {
-    "model",
-    "architecture",
-    "connection",
-    "initial_state",
-    "stamp",
-    "exposure_s",
-    "payload",
-    "tcp",
-    "program",
-    "collision",
-    "impedance",
-    "tool_connector",
-    "adapter",
-    "simulated_joints",
-    "limit_shares",
-}
 # Resolved field → keys of which the user writes one, where dropping the unit's suffix does not give it.
 _KEYS = {
     "transform_to_parent": ("xyz",),
@@ -124,43 +89,21 @@ def _entities(cell: Cell, entities: tuple[Entity, ...]) -> Tree:
 
 
 def _entity(cell: Cell, entity: Entity) -> Tree:
-    hidden = _BOOKKEEPING | next((names for kind, names in _HIDDEN.items() if isinstance(entity, kind)), set())
-    if isinstance(entity, Device):
-        hidden |= {*_STATED, "versions"}
     tree: dict[str, Tree] = {}
-    for name, value in members(entity):
-        if name in hidden or value is None or value == ():
+    for member in members(entity):
+        name, value, path = member.name, member.value, (*entity.path, member.name)
+        if name in _BOOKKEEPING or value == () or ELSEWHERE in member.marks:
             continue
-        tree[name] = _value(cell, value, _origin(cell, entity, name), (*entity.path, name))
-    if isinstance(entity, Device):
-        tree |= _stated(cell, entity)
-    return tree
-
-
-def _stated(cell: Cell, device: Device) -> dict[str, Tree]:
-    """Return what the user states of a device: versions, connection, stamp, payload and the like."""
-    path, stated = device.path, dict(members(device))
-    tree: dict[str, Tree] = {"model": Leaf(cell.text(*path, "model"), _written(cell, (*path, "model")))}
-    tree["architecture"] = _section(cell, device.architecture, (*path, "architecture"))
-    tree |= {
-        field.name: _section(cell, getattr(device.software.versions, field.name), (*path, field.name))
-        for field in fields(device.software.versions)
-    }
-    for key in (
-        "connection",
-        "initial_state",
-        "payload",
-        "tcp",
-        "program",
-        "collision",
-        "impedance",
-        "tool_connector",
-        "adapter",
-    ):
-        tree[key] = _section(cell, stated[key], (*path, key))
-    tree["limits"] = _section(cell, device.limits.limit_shares, (*path, "limits"))
-    tree["simulated_joints"] = {joint.name: _section(cell, joint, joint.path) for joint in device.mock.simulated_joints}
-    tree["stamp"] = _stamp(cell, device)
+        if STATED in member.marks:
+            tree[_key(name)] = _section(cell, value, (*entity.path, _key(name)))
+        elif isinstance(value, DeviceVersions):
+            tree |= {part: _section(cell, text, (*entity.path, part)) for part, text in value.items()}
+        elif isinstance(value, LimitShares):
+            tree["limits"] = _section(cell, value, (*entity.path, "limits"))
+        elif isinstance(entity, Device) and name == "stamp":
+            tree[name] = _stamp(cell, entity)
+        elif value is not None:
+            tree[name] = _value(cell, value, _origin(cell, entity, name), path)
     return tree
 
 
@@ -182,22 +125,26 @@ def _value(cell: Cell, value: object, origin: str, path: YamlPath) -> Tree:
         return {f"{item.name or index}": _entity(cell, item) for index, item in enumerate(value)}
     if isinstance(value, Mapping):
         return {str(key): _value(cell, item, origin, path) for key, item in value.items()}
-    if isinstance(value, tuple) and value and all(is_dataclass(item) for item in value):
+    if isinstance(value, tuple) and value and all(map(field_names, value)):
         return {str(index): _value(cell, item, origin, path) for index, item in enumerate(value)}
-    if is_dataclass(value) and not isinstance(value, (Pose, type)):
-        shown = (field.name for field in fields(value) if field.name not in ("path", "span"))
+    if (names := field_names(value)) and not isinstance(value, Pose):
+        shown = (name for name in names if name not in ("path", "span"))
         return {name: _value(cell, getattr(value, name), origin, path) for name in shown}
     return Leaf(_text(value), origin)
 
 
 def _section(cell: Cell, value: object, path: YamlPath) -> Tree:
     """Return what is under a key of the spec, as written where the user wrote it."""
-    if is_dataclass(value) and not isinstance(value, (JointFigure, type)):
+    if (names := field_names(value)) and not isinstance(value, JointFigure):
         hidden = {*_BOOKKEEPING, *_DERIVED} if isinstance(value, Entity) else set[str]()
-        names = {_key(field.name): field.name for field in fields(value) if field.name not in hidden}
-        return {key: _section(cell, getattr(value, name), (*path, key)) for key, name in names.items()}
+        keys = {_key(name): name for name in names if name not in hidden}
+        return {key: _section(cell, getattr(value, name), (*path, key)) for key, name in keys.items()}
     if isinstance(value, Mapping):
         return {str(key): _section(cell, item, (*path, key)) for key, item in value.items()}
+    if isinstance(value, tuple) and value and all(isinstance(item, Entity) for item in value):
+        return {item.name: _section(cell, item, item.path) for item in value}
+    if isinstance(value, tuple) and value and all(map(field_names, value)):
+        return {str(index): _section(cell, item, (*path, index)) for index, item in enumerate(value)}
     return Leaf(cell.text(*path) or _text(value), _written(cell, path))
 
 

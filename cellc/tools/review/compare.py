@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
 from cellc.contract.diagnostics.wording import count
+from cellc.contract.grading import Graded
 from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.edges import edge_changes, offers_less
@@ -17,7 +18,7 @@ from cellc.tools.review.grading import grade
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
 from cellc.tools.review.rows import FOLLOWS, ROWS
-from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, Rule, Thing, fits
+from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, Thing, fits
 from cellc.tools.review.units import difference, shown
 
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
@@ -241,20 +242,24 @@ _FOLLOWS = tuple(tuple(pattern.split(" ")) for pattern in FOLLOWS)
 def _of_value(delta: Delta, before: Facts, after: Facts) -> Change | None:
     """Return a value that changed as a change; None where its order alone did, and that says nothing."""
     row, fit = _row(delta.path)
-    if delta.before is not None and delta.after is not None and same(delta.before, delta.after, ordered=row.ordered):
+    if (
+        delta.before is not None
+        and delta.after is not None
+        and same(delta.before, delta.after, ordered=row.grade.ordered)
+    ):
         return None
-    unit = _unit(row.unit or _unit_in(delta.path[-1]), fit.subject, before, after)
-    verdict = grade(row.rule, delta, before, after)
+    unit = _unit(row.grade.unit or _unit_in(delta.path[-1]), fit.subject, before, after)
+    verdict = grade(row.grade.rule, delta, before, after)
     return Change(
-        verdict.area or row.area,
+        verdict.area or row.grade.area,
         " ".join(fit.subject) or "cell",
-        " ".join((row.quantity, ".".join(fit.of))).rstrip(),
+        " ".join((row.grade.quantity, ".".join(fit.of))).rstrip(),
         shown(delta.before, unit),
         shown(delta.after, unit),
         verdict.grade,
         difference(delta.before, delta.after, unit),
-        row.breaking,
-        verdict.why or (row.why if verdict.grade is Grade.DANGEROUS else ""),
+        row.grade.breaking,
+        verdict.why or (row.grade.why if verdict.grade is Grade.DANGEROUS else ""),
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),
     )
@@ -267,9 +272,7 @@ def _row(path: Path) -> tuple[Row, Fit]:
             return row, fit
     in_file = path[0] == "file"
     area = area_of_file(path[1]) if in_file else ReviewArea.DOCUMENTS
-    return Row("", area, "value", Rule.REVIEW), Fit(
-        path[1:2] if in_file else path[:1], path[2:] if in_file else path[1:]
-    )
+    return Row("", Graded(area, "value")), Fit(path[1:2] if in_file else path[:1], path[2:] if in_file else path[1:])
 
 
 def area_of_file(file: str) -> ReviewArea:

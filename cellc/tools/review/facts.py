@@ -28,6 +28,7 @@ from cellc.robot.description.model import Box, Collision, Cylinder, Description,
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.robot.description.yaml_values import load_values
+from cellc.tools.review.graded import graded_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.tools.review.rights import COMMON, POLICY, rights
 from cellc.tools.review.units import shown
@@ -35,7 +36,7 @@ from cellc.tools.review.units import shown
 CONTRACT, MANIFEST = "contract.json", "manifest.json"
 _MIDDLEWARE = re.compile(r"middleware/(.+)\.sh")
 _EXPORT = re.compile(r"^export (\w+)=(.*)$", re.MULTILINE)
-OF_SPEC = ("spec", "area", "reference_points", "mounted", "excused")
+OF_SPEC = ("spec", "area", "frame", "device", "excused")
 """First parts of the paths of what a spec says and a package does not."""
 OF_GATES = ("check", "matrix")
 """First parts of the paths of what the gates have as data."""
@@ -312,13 +313,11 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
     yield from flatten(as_json(cell.targets), ("spec", "targets"))
     yield from flatten(as_json({**cell.mock_plugins, **cell.mock_programs}), ("spec", "mock_statements"))
     for frame in cell.frames:
-        if frame.reference_points:
-            yield ("reference_points", frame.name), frame.reference_points
+        yield from graded_values(frame, ("frame", frame.name))
     for area in cell.areas:
         yield from flatten(_without_place(as_json(area)), ("area", area.name))
     for device in cell.devices:
-        if device.mount.mounted_on is not None:
-            yield ("mounted", device.name), str(device.mount.mounted_on)
+        yield from graded_values(device, ("device", device.name))
     for name, host in cell.hosts.items():
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
     for node in cell.nodes:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cellc.contract.grading import Rule
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Delta, Leaf, said
-from cellc.tools.review.rules import Rule
 
 
 @dataclass(frozen=True, slots=True)

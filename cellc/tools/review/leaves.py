@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import datetime
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass
 from typing import TypeAlias, Union
 
+from cellc.compiler.cell.members import field_names
 from cellc.contract.base import Json
 from cellc.contract.diagnostics import Span
 from cellc.contract.transforms import Pose, apart
@@ -98,12 +100,14 @@ def as_json(value: object) -> Json:
     """Return a value of frozen dataclasses as JSON-like data, without its places in files."""
     if isinstance(value, Span):
         return None
-    if is_dataclass(value) and not isinstance(value, type):
-        return {each.name: as_json(getattr(value, each.name)) for each in fields(value)}
+    if names := field_names(value):
+        return {name: as_json(getattr(value, name)) for name in names}
     if isinstance(value, Mapping):
         return {str(key): as_json(inner) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):
         return [as_json(inner) for inner in value]
+    if isinstance(value, datetime.date):
+        return value.isoformat()
     return value if isinstance(value, (str, int, float, bool)) else None
 
 

@@ -15,10 +15,10 @@ from cellc.compiler.link.link import link
 from cellc.compiler.pipeline import Checked, check
 from cellc.compiler.source import read
 from cellc.compiler.source.document import SourceDocument
-from cellc.compiler.spec.hosts import VersionsSpec
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Span
 from cellc.contract.errors import CellcError
+from cellc.contract.stated import Versions
 from cellc.contract.vocabulary import Distro
 from cellc.tools.edit.rewrite import Edit, apply_edits
 from cellc.tools.review.tuples import moved_pins
@@ -28,7 +28,7 @@ _SCALAR = re.compile(r"((?:[&!]\S* +)*)(.*)")
 _Place = tuple[str, int, int]
 """File, line and column."""
 
-PARTS = tuple(name for name in VersionsSpec.model_fields if name != "rollback")
+PARTS = tuple(name for name in Versions.model_fields if name != "rollback")
 """The parts of the tuple that belong to the whole cell."""
 
 
@@ -44,7 +44,7 @@ def unusable(part: str, text: str) -> str:
     if part == "ros" and text not in distros:
         return f"`ros` must be one of {', '.join(distros)}, got `{text}`"
     try:
-        VersionsSpec.model_validate({"ros": distros[0], part: text})
+        Versions.model_validate({"ros": distros[0], part: text})
     except ValidationError as problem:
         return f"`{part}` cannot be `{text}`: {problem.errors()[0]['msg'].lower()}"
     return ""

@@ -9,31 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from enum import Enum
 
+from cellc.contract.grading import Graded
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
 from cellc.tools.review.leaves import Path
 
 _A = ReviewArea
-
-
-class Rule(Enum):
-    """How a value that changed is graded; the texts are those of docs/review.md."""
-
-    SAFE = "safe"
-    REVIEW = "review"
-    DANGEROUS = "dangerous"
-    MORE = "dangerous where it grew or vanished, else safe"
-    LESS = "dangerous where it shrank or vanished, else safe"
-    LOOSER = "dangerous where it grew or vanished, else review"
-    FEWER = "dangerous where it shrank or vanished, else review"
-    BACK = "dangerous where it is lower, else review"
-    NAMED = "dangerous where it became UNKNOWN or vanished, else review"
-    MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
-    PLACED = "dangerous where the calibration that measured it has no new revision, else review"
-    CLAIM = "dangerous where another claims it than before, else review"
-    LOST = "dangerous where something of it is lost, else review"
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,20 +25,10 @@ class Row:
     Args:
         pattern: path with braces for names, parts separated by a blank; `{what}` is the part that changed, `{_}` any
             part.
-        unit: SI unit of the value, for people: `m` is shown in mm, `rad` in degrees; `joint` is either.
-        breaking: a consumer outside of the cell breaks.
-        ordered: whether the order of a list says something.
-        why: what the change means, beside the rule.
     """
 
     pattern: str
-    area: ReviewArea
-    quantity: str
-    rule: Rule
-    unit: str = ""
-    breaking: bool = False
-    ordered: bool = True
-    why: str = ""
+    grade: Graded
 
     @property
     def parts(self) -> tuple[str, ...]:

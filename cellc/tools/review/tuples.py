@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from cellc.compiler.catalog.tables import DistroFacts
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, Software
-from cellc.compiler.cell.site import Versions
 from cellc.compiler.graph.releases import PACKAGED, named_row, package_of
 from cellc.compiler.graph.versions import Answer, Judgment, Pin, cell_pins, compatibility, device_pins
 from cellc.contract.pins import same_version
+from cellc.contract.stated import Versions
 from cellc.contract.vocabulary import UNKNOWN, Distro
 
 

@@ -87,12 +87,12 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 
 def approvals(cell: Cell) -> Iterator[tuple[str, ...]]:
     """Yield the seven approval areas with the question that each answers."""
-    return ((area, _QUESTIONS[area], owner) for area, owner in cell.owners.approvals.items())
+    return ((area, _QUESTIONS[area], owner) for area, owner in cell.owners.approvals)
 
 
 def responsibilities(cell: Cell) -> Iterator[tuple[str, ...]]:
     """Yield the responsibilities with their owners."""
-    return cell.owners.responsibilities.items()
+    return iter(cell.owners.responsibilities)
 
 
 def ending(cell: Cell) -> Iterator[str]:

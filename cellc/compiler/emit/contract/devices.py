@@ -10,13 +10,16 @@ from cellc.compiler.cell.device import Device, SimulatedJoint
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import Effect, HardwareComponent
 from cellc.compiler.cell.interface import Interface
+from cellc.compiler.cell.members import shared
 from cellc.compiler.cell.stops import effect_of, stops_of
+from cellc.compiler.cell.switched import Switched
 from cellc.compiler.cell.vendor import SafetyState
 from cellc.compiler.deploy.watches import heard
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import start_positions
 from cellc.compiler.graph.control_laws import control_laws
-from cellc.contract.contract import (
+from cellc.contract.control_law import ControlLaw
+from cellc.contract.devices import (
     ContractAdapter,
     ContractCamera,
     ContractDevice,
@@ -27,7 +30,6 @@ from cellc.contract.contract import (
     ContractStop,
     ContractSwitched,
 )
-from cellc.contract.control_law import ControlLaw
 from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment, Motion
 
 
@@ -39,25 +41,22 @@ def devices(cell: Cell) -> dict[str, ContractDevice]:
 
 def _device(cell: Cell, device: Device, law: ControlLaw | None) -> ContractDevice:
     hardware = None if _adapted(cell, device) else device.control.hardware
-    return ContractDevice(
-        model=device.model,
-        kind=device.kind,
-        prefix=device.body.prefix,
-        root_link=device.body.root_link,
-        architecture=device.architecture,
-        hardware_component=None if hardware is None else hardware.name,
-        driver=_driver(device),
-        speed_scaling_interface=None if _adapted(cell, device) else device.control.speed_scaling,
-        gripper=_gripper(cell, device),
-        camera=_camera(cell, device),
-        switched=_switched(device),
-        law=law,
-        effects=_effects(hardware),
-        stops=_stops(device),
-        reports={need: proof.topic for need, proof in heard(cell, device).items()},
-        nan_after_inactive=hardware is not None and hardware.direct_activation,
-        command_timeout_s=None if hardware is None else hardware.command_timeout_s,
-    )
+    driver, switched = device.control.driver, device.switched
+    special = {
+        "hardware_component": None if hardware is None else hardware.name,
+        "driver": None if driver is None else shared(driver, ContractDriver),
+        "speed_scaling_interface": None if _adapted(cell, device) else device.control.speed_scaling,
+        "gripper": _gripper(cell, device),
+        "camera": _camera(cell, device),
+        "switched": None if switched is None else _switched(switched),
+        "law": law,
+        "effects": _effects(hardware),
+        "stops": _stops(device),
+        "reports": {need: proof.topic for need, proof in heard(cell, device).items()},
+        "nan_after_inactive": hardware is not None and hardware.direct_activation,
+        "command_timeout_s": None if hardware is None else hardware.command_timeout_s,
+    }
+    return ContractDevice.model_validate({**shared(device, ContractDevice), **special})
 
 
 _PLAYED = (
@@ -77,14 +76,7 @@ def _effects(hardware: HardwareComponent | None) -> dict[Moment, ContractEffect]
     """Return what the hardware does at the moments that the mock plays; a moment of nothing is left out."""
     by_moment = {} if hardware is None else hardware.effects
     effects = {
-        moment: ContractEffect(
-            motion=by_moment[moment].motion,
-            lock=by_moment[moment].lock,
-            needs=dict(by_moment[moment].needs),
-            largest_step=by_moment[moment].largest_step,
-            leaves=by_moment[moment].leaves,
-            ends=by_moment[moment].ends,
-        )
+        moment: ContractEffect.model_validate(shared(by_moment[moment], ContractEffect))
         for moment in _PLAYED
         if moment in by_moment
     }
@@ -109,13 +101,6 @@ def _stop(state: SafetyState, effect: Effect | None) -> ContractStop:
 def _adapted(cell: Cell, device: Device) -> bool:
     """Tell whether an adapter drives a device, so that no controller manager ever loads its hardware."""
     return any(adapted.device == device.name for adapted in cell.adapters)
-
-
-def _driver(device: Device) -> ContractDriver | None:
-    driver = device.control.driver
-    if driver is None:
-        return None
-    return ContractDriver(node=driver.node, program=driver.program, joint_states=driver.joint_states)
 
 
 def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
@@ -150,19 +135,9 @@ def _camera(cell: Cell, device: Device) -> ContractCamera | None:
     )
 
 
-def _switched(device: Device) -> ContractSwitched | None:
-    switched = device.switched
-    if switched is None:
-        return None
-    return ContractSwitched(
-        states={name: dict(state.sensors) for name, state in switched.states.items()},
-        starts=switched.starts,
-        time_s=switched.time_s,
-        within_s=switched.within_s,
-        holds=switched.holds,
-        outputs=dict(switched.outputs),
-        inputs=dict(switched.inputs),
-    )
+def _switched(switched: Switched) -> ContractSwitched:
+    states = {name: dict(state.sensors) for name, state in switched.states.items()}
+    return ContractSwitched.model_validate({**shared(switched, ContractSwitched), "states": states})
 
 
 def _used_stream(cell: Cell, device: Device, types: tuple[str, ...]) -> Interface | None:
@@ -187,20 +162,10 @@ def adapters(cell: Cell) -> dict[str, ContractAdapter]:
 
 def _adapter(device: Device, adapted: AdaptedDevice, start: dict[str, float]) -> ContractAdapter:
     joints = device.actuated_joints
+    units = tuple("m" if joint.slides else "rad" for joint in joints)
+    positions = tuple(start.get(joint.name, 0.0) for joint in joints)
     return ContractAdapter.model_validate(
-        {
-            "joints": adapted.joints,
-            "units": tuple("m" if joint.type == "prismatic" else "rad" for joint in joints),
-            "action": adapted.action,
-            "state_topic": adapted.state_topic,
-            "client": adapted.client,
-            "command_period_s": adapted.command_period_s,
-            "command_timeout_s": adapted.command_timeout_s,
-            "stop_time_s": adapted.stop_time_s,
-            "goal_time_s": adapted.goal_time_s,
-            "path_tolerance": adapted.path_tolerance,
-            "start_positions": tuple(start.get(joint.name, 0.0) for joint in joints),
-        }
+        {**shared(adapted, ContractAdapter), "units": units, "start_positions": positions}
     )
 
 

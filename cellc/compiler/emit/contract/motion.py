@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.frame import Frame
+from cellc.compiler.cell.members import shared
 from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import described_frames
@@ -28,7 +29,7 @@ from cellc.contract.transforms import Pose
 def calibrations(cell: Cell) -> dict[str, ContractCalibration]:
     """Return every calibration with its revision."""
     return {
-        name: ContractCalibration(revision=calibration.revision, owner=calibration.owner)
+        name: ContractCalibration.model_validate(shared(calibration, ContractCalibration))
         for name, calibration in cell.calibrations.items()
     }
 
@@ -42,18 +43,14 @@ def frames(cell: Cell) -> dict[str, ContractFrame]:
 def _frame(frame: Frame, described: bool) -> ContractFrame:
     pose = None if described else frame.transform_to_parent
     simulated = frame.simulated_pose
-    return ContractFrame(
-        parent=frame.parent,
-        authority=frame.authority,
-        kind=frame.kind.value,
-        moving=frame.moving or frame.transform_to_parent is None,
-        pose=None if pose is None else _contract_pose(pose),
-        calibration=frame.calibration,
-        rate_hz=frame.rate_hz,
-        buffer_s=frame.buffer_s,
-        simulated_parent=None if simulated is None else simulated.parent,
-        simulated_pose=None if simulated is None else _contract_pose(simulated.pose),
-    )
+    special = {
+        "kind": frame.kind.value,
+        "moving": frame.moving or frame.transform_to_parent is None,
+        "pose": None if pose is None else _contract_pose(pose),
+        "simulated_parent": None if simulated is None else simulated.parent,
+        "simulated_pose": None if simulated is None else _contract_pose(simulated.pose),
+    }
+    return ContractFrame.model_validate({**shared(frame, ContractFrame), **special})
 
 
 def groups(cell: Cell) -> dict[str, ContractGroup]:
@@ -80,24 +77,13 @@ def goals(cell: Cell) -> dict[str, ContractGoal]:
 def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:
     active = (c.label for c in cell.controllers if c.label in group.controllers and c.active)
     adapted = adapter_of_group(cell, group)
-    return ContractGroup(
-        base_link=group.base_link,
-        tip_frame=group.tip_frame,
-        joints=group.joints,
-        controller=next(active, None if adapted is None else adapted.device),
-    )
+    controller = next(active, None if adapted is None else adapted.device)
+    return ContractGroup.model_validate({**shared(group, ContractGroup), "controller": controller})
 
 
 def _goal(goal: CartesianGoal) -> ContractGoal:
-    return ContractGoal.model_validate(
-        {
-            "group": goal.group,
-            "frame": goal.frame,
-            "pose": _contract_pose(goal.transform_tip_to_frame),
-            "approach": goal.approach,
-            "transform_at": goal.transform_at,
-        }
-    )
+    pose = _contract_pose(goal.transform_tip_to_frame)
+    return ContractGoal.model_validate({**shared(goal, ContractGoal), "pose": pose})
 
 
 def managers(cell: Cell) -> dict[str, ContractManager]:
@@ -143,27 +129,13 @@ def _manager(manager: ControllerManager) -> ContractManager:
 
 def _controller(controller: Controller) -> ContractController:
     other, on_real = controller.stand_in, controller.on_real
-    return ContractController.model_validate(
-        {
-            "plugin": controller.plugin,
-            "behavior": controller.behavior,
-            "full_name": controller.full_name,
-            "targets": controller.targets,
-            "device": controller.device,
-            "joints": controller.joints,
-            "command_interfaces": controller.command_interfaces,
-            "real_command_interfaces": None if on_real is None else on_real.command_interfaces,
-            "state_interfaces": controller.state_interfaces,
-            "active": controller.active,
-            "client": controller.client,
-            "action": controller.action,
-            "action_type": controller.action_type,
-            "real_action": None if other is None else other.action,
-            "real_action_type": None if other is None else other.action_type,
-            "goal_time_s": controller.goal_time_s,
-            "on_violation": controller.on_violation,
-        }
-    )
+    special = {
+        "full_name": controller.full_name,
+        "real_command_interfaces": None if on_real is None else on_real.command_interfaces,
+        "real_action": None if other is None else other.action,
+        "real_action_type": None if other is None else other.action_type,
+    }
+    return ContractController.model_validate({**shared(controller, ContractController), **special})
 
 
 def _contract_pose(pose: Pose) -> ContractPose:

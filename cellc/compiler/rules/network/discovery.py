@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from cellc.compiler.cell.site import DiscoveryServer
 from cellc.compiler.graph.enclaves import enclaves
 from cellc.compiler.graph.network import Nic, read_address
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
+from cellc.contract.stated import DiscoveryServer
 
 
 @rule(Severity.ERROR)

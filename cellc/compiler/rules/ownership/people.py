@@ -63,9 +63,9 @@ def misspelled_owner(graph: CellGraph) -> Findings:
 def _owners(graph: CellGraph) -> Iterator[tuple[str, YamlPath]]:
     """Yield every name of an owner with its place."""
     cell = graph.cell
-    for duty, owner in cell.owners.responsibilities.items():
+    for duty, owner in cell.owners.responsibilities:
         yield owner, ("owners", "responsibilities", duty)
-    for area, owner in cell.owners.approvals.items():
+    for area, owner in cell.owners.approvals:
         yield owner, ("owners", "approvals", area)
     yield from ((node.owner, (*node.path, "owner")) for node in cell.nodes if node.source is NodeSource.SPEC)
     yield from ((calibration.owner, (*calibration.path, "owner")) for calibration in cell.calibrations.values())

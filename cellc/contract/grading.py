@@ -1,0 +1,60 @@
+"""How ``cellc diff`` grades a change of a field: declared at the field itself, beside what it means.
+
+A field carries it in its annotation, ``Annotated[Seconds | None, Graded(ReviewArea.TIME, rule=Rule.LOOSER)]``.
+``cellc.tools.review.graded`` reads it; pydantic and dataclasses pass over it.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple
+
+from cellc.contract.vocabulary import ReviewArea
+
+
+class Rule(Enum):
+    """How a value that changed is graded; the texts are those of docs/review.md."""
+
+    SAFE = "safe"
+    REVIEW = "review"
+    DANGEROUS = "dangerous"
+    MORE = "dangerous where it grew or vanished, else safe"
+    LESS = "dangerous where it shrank or vanished, else safe"
+    LOOSER = "dangerous where it grew or vanished, else review"
+    FEWER = "dangerous where it shrank or vanished, else review"
+    BACK = "dangerous where it is lower, else review"
+    NAMED = "dangerous where it became UNKNOWN or vanished, else review"
+    MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
+    PLACED = "dangerous where the calibration that measured it has no new revision, else review"
+    CLAIM = "dangerous where another claims it than before, else review"
+    LOST = "dangerous where something of it is lost, else review"
+
+
+class Graded(NamedTuple):
+    """How a change of a field is graded; of a field of models, what they do not grade themselves.
+
+    Args:
+        quantity: what changed, as people read it: `bound of its offset`; the name of the field where it is empty.
+        unit: SI unit of the value, for people: `m` is shown in mm, `rad` in degrees; `joint` is either. A unit that
+            the name of the field ends in needs no word.
+        breaking: a consumer outside of the cell breaks.
+        ordered: whether the order of a list says something.
+        why: what the change means, beside the rule.
+        each: what a key of a mapping names, such as `frame`; it is then the subject of the change.
+    """
+
+    area: ReviewArea
+    quantity: str = ""
+    rule: Rule = Rule.REVIEW
+    unit: str = ""
+    breaking: bool = False
+    ordered: bool = True
+    why: str = ""
+    each: str = ""
+
+
+STALE = "older data may be used, or a failure goes unseen for longer"
+FURTHER = "the joint may move further or faster than people at the cell expect"
+PLANNED = "planned motion changes"
+SECOND_CLIENT = "another client commands the joints"
+"""What changes of several fields mean."""
