@@ -271,6 +271,10 @@ class ContractGroup(ContractModel):
     controller: str | None = Field(
         description="Controller, by full name where managers share names, or device behind an adapter, that executes."
     )
+    start_outside: Magnitude = Field(
+        0.0,
+        description="How far outside its limits a joint may begin, rad or m; it is planned from them.",
+    )
 
 
 class ContractPoseTarget(ContractModel):

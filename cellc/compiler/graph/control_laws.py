@@ -13,7 +13,7 @@ from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import Adapter, CommandLaw
 from cellc.contract.control_law import ControlLaw, JointLaw, LinkMass
 from cellc.contract.transforms import Pose, climb
-from cellc.contract.vocabulary import TRAJECTORIES, Distro, Gravity, Loop
+from cellc.contract.vocabulary import TRAJECTORIES, Distro, Feature, Gravity, Loop, features
 
 _ROUNDING_KG = 0.05
 """Masses of descriptions are rounded: a payload that differs from its tool by less has no part in it."""
@@ -34,6 +34,20 @@ def control_laws(cell: Cell) -> Mapping[str, ControlLaw]:
     commands = _commands(cell)
     laws = ((device.name, _law(cell, device, commands)) for device in cell.devices)
     return {name: law for name, law in laws if law is not None}
+
+
+def start_outside(cell: Cell) -> float:
+    """Return how far outside its limits a joint may be when a motion is planned, rad or m.
+
+    A joint commanded at a limit may come to rest as far outside as its goal tolerance allows, where springs hold it.
+    MoveIt plans from the limit then, until it took lists of adapters: none of those does that for joints with limits
+    (moveit2@065602a check_start_state_bounds.cpp).
+    """
+    if Feature.PLUGIN_LISTS in features(cell.distro):
+        return 0.0
+    springs = {joint for law in control_laws(cell).values() for joint in law.joints}
+    figures = (figure for loop in cell.controllers for figure in (loop.goal_tolerance or {}).items())
+    return min((figure.value for joint, figure in figures if joint in springs and figure.value > 0.0), default=0.0)
 
 
 def _commands(cell: Cell) -> _Commands:

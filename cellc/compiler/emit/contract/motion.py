@@ -9,6 +9,7 @@ from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import described_frames
 from cellc.compiler.graph.claims import adapter_of_group
+from cellc.compiler.graph.control_laws import start_outside
 from cellc.contract.base import ContractPose
 from cellc.contract.contract import (
     ContractCalibration,
@@ -85,6 +86,7 @@ def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:
         tip_frame=group.tip_frame,
         joints=group.joints,
         controller=next(active, None if adapted is None else adapted.device),
+        start_outside=start_outside(cell),
     )
 
 
