@@ -161,8 +161,7 @@ class SpringJoints:
             offset = (cycle + row) % grid
             if look is None or not look.at or offset == 0:
                 passed_s = 0.0 if offset else grid * period_s
-                error = [wanted[row] - at for wanted, at in zip(done.wanted, positions, strict=True)]
-                look, positions = self._looked(look, positions, error, shares, passed_s)
+                look, positions = self._looked(look, positions, rows[row], shares, passed_s)
             change = bisect_left(changes, row)
             end = changes[change] if change < len(changes) else cycles
             if look.settled and end > row:
@@ -176,20 +175,19 @@ class SpringJoints:
         return done
 
     def _looked(
-        self, last: _Look | None, positions: _Values, error: _Values, shares: _Values, passed_s: float
+        self, last: _Look | None, positions: _Values, commanded: _Values, shares: _Values, passed_s: float
     ) -> tuple[_Look, _Values]:
         """Look up what the joints must give where they are; those that have come to rest are put there exactly.
 
         Args:
-            error: of each joint from its command.
             passed_s: since the integrals were computed last.
         """
         integral = [0.0] * len(positions) if last is None else last.integral
         if self._integrates:
             integral = [
                 more if law.integral_most is None else min(max(more, -law.integral_most), law.integral_most)
-                for law, given, off in zip(self._laws, integral, error, strict=True)
-                for more in (given + law.integral * off * passed_s,)
+                for law, given, goal, here in zip(self._laws, integral, commanded, positions, strict=True)
+                for more in (given + law.integral * (goal - here) * passed_s,)
             ]
         if last is not None and last.at and _near(positions, last.at):
             at, weights = last.at, last.weights
@@ -200,11 +198,12 @@ class SpringJoints:
             for law, weight, given in zip(self._laws, weights, integral, strict=True)
         ]
         rest = [
-            here + off - away if share else here
-            for here, off, away, share in zip(positions, error, droop, shares, strict=True)
+            goal - away if share else here
+            for here, goal, away, share in zip(positions, commanded, droop, shares, strict=True)
         ]
-        settled = not self._integrates and _near(rest, positions)
-        return _Look(at, weights, integral, droop, settled), rest if settled else positions
+        if self._integrates or not _near(rest, positions):
+            return _Look(at, weights, integral, droop, settled=False), positions
+        return _Look(rest, weights, integral, droop, settled=True), rest
 
     def _moved(
         self, done: _Computed, droop: _Values, positions: _Values, shares: _Values, row: int, end: int
