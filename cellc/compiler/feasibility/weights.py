@@ -72,7 +72,7 @@ def weighed(
         holding=_holding(question, (*alone, *paths), robot),
         droops=_worst(one for one, _ in at_rest),
         on_paths=_worst(one for one, _ in _at_rest(question, paths, robot)),
-        outside=_worst(_outside(question, (*_at_rest(question, (start,), robot), *at_rest))),
+        outside=_worst(_outside(question, (*at_rest, *_at_rest(question, (start,), robot)))),
         tips=tuple(_tips(question, visits, planners, scene)) if question.laws else (),
     )
 
