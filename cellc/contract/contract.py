@@ -200,6 +200,10 @@ class ContractGroup(ContractModel):
     controller: Annotated[str | None, Graded(ReviewArea.MOTION, rule=Rule.DANGEROUS, why=SECOND_CLIENT)] = Field(
         description="Controller, by full name where managers share it, or device behind an adapter, that executes."
     )
+    start_outside: Magnitude = Field(
+        0.0,
+        description="How far outside its limits a joint may begin, rad or m; it is planned from them.",
+    )
 
 
 class ContractPoseTarget(ContractModel):

@@ -23,6 +23,7 @@ from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
+from cellc.mock.loads import Loads
 from cellc.mock.nodes.motion_planner import MotionPlanner, PlanMemory
 from cellc.mock.nodes.observations import ObservationInbox, pose_interface
 from cellc.mock.nodes.perception import (
@@ -145,6 +146,7 @@ def assemble(
         watches=watches,
         effects=effects,
         start=RealStart(devices, effects, simulation),
+        loads=Loads(contract, control, memory.model.robot, memory.model.links),
         world=World(memory.model.links.displaced(reality.links), control.histories.values()),
         switches=Switches(contract),
         cameras={},
@@ -154,6 +156,8 @@ def assemble(
         task=task,
     )
     control.listen(watches.look)
+    if standing is None:
+        plant.loads.begin()
     if bring_up == "real":
         plant.start.bring_up(folder.real_bring_up)
     clocks.listen(partial(_note_jump, plant))

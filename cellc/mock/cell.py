@@ -83,7 +83,7 @@ class _Run:
         copied = None if snapshots is None else self._resumed(snapshots)
         if copied is not None:
             plant, evidence = copied
-            return _run_task(plant, fault_ports(plant), rehearsal, self.seed, injections, evidence, may_oversleep)
+            return self._run_task(plant, fault_ports(plant), injections, evidence, may_oversleep)
         try:
             plant = assemble(self.folder, self.memory, self.seed, rehearsal.bring_up, self.reality)
         except ManagerAbortedError as aborted:
@@ -106,7 +106,7 @@ class _Run:
             failed = AttemptOutcome.CLAIM_FAILURE if plant.effects.refused else RunFailure.BRINGUP_FAILURE
             outcome = AttemptOutcome.UNCOMMANDED_MOTION if plant.effects.motions else failed
             return _not_up(rehearsal, evidence, _findings(plant), outcome)
-        return _run_task(plant, ports, rehearsal, self.seed, injections, evidence, may_oversleep)
+        return self._run_task(plant, ports, injections, evidence, may_oversleep)
 
     def _resumed(self, snapshots: SnapshotMemory) -> tuple[Plant, tuple[StageEvidence, ...]] | None:
         """Return a plant that is after its bring-up; None where it must be brought up."""
@@ -122,40 +122,39 @@ class _Run:
         known.resume(plant)
         return plant, known.evidence
 
-
-def _run_task(
-    plant: Plant,
-    ports: FaultPorts,
-    rehearsal: RehearsalEntry,
-    seed: int,
-    injections: Sequence[Injection],
-    evidence: tuple[StageEvidence, ...],
-    may_oversleep: bool,
-) -> RehearsalResult:
-    """Inject the faults at their times, and run the task to its named end."""
-    start_ns = plant.now_ns
-    if rehearsal.bring_up == "real":
-        plant.start.operator_takes_over()
-    for injection in injections:
-        if injection.entry.phase is None:
-            injection.schedule(ports, start_ns)
-    disturbed = partial(any_started, injections)
-    deadline_ns = start_ns + round(rehearsal.timeout_s * 1e9)
-    task = Task(rehearsal, TaskContext(plant, deadline_ns, seed, disturbed, may_oversleep))
-    plant.simulation.run_process(task.run())
-    absent = tuple(injection.describe_absence() for injection in injections if injection.start_ns is None)
-    return RehearsalResult(
-        name=rehearsal.name,
-        outcome=task.outcome,
-        expected=rehearsal.expect,
-        sim_time_s=(plant.now_ns - start_ns) / 1e9,
-        response_s=_response_s(injections, task.records),
-        within_s=rehearsal.within_s,
-        attempts=tuple(task.records),
-        bringup=evidence,
-        findings=(*_findings(plant), *absent),
-        vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is AttemptOutcome.SUCCEEDED),
-    )
+    def _run_task(
+        self,
+        plant: Plant,
+        ports: FaultPorts,
+        injections: Sequence[Injection],
+        evidence: tuple[StageEvidence, ...],
+        may_oversleep: bool,
+    ) -> RehearsalResult:
+        """Inject the faults at their times, and run the task to its named end."""
+        rehearsal, start_ns = self.rehearsal, plant.now_ns
+        plant.loads.draw(self.reality)
+        if rehearsal.bring_up == "real":
+            plant.start.operator_takes_over()
+        for injection in injections:
+            if injection.entry.phase is None:
+                injection.schedule(ports, start_ns)
+        disturbed = partial(any_started, injections)
+        deadline_ns = start_ns + round(rehearsal.timeout_s * 1e9)
+        task = Task(rehearsal, TaskContext(plant, deadline_ns, self.seed, disturbed, may_oversleep))
+        plant.simulation.run_process(task.run())
+        absent = tuple(injection.describe_absence() for injection in injections if injection.start_ns is None)
+        return RehearsalResult(
+            name=rehearsal.name,
+            outcome=task.outcome,
+            expected=rehearsal.expect,
+            sim_time_s=(plant.now_ns - start_ns) / 1e9,
+            response_s=_response_s(injections, task.records),
+            within_s=rehearsal.within_s,
+            attempts=tuple(task.records),
+            bringup=evidence,
+            findings=(*_findings(plant), *absent),
+            vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is AttemptOutcome.SUCCEEDED),
+        )
 
 
 def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord]) -> float | None:

@@ -14,6 +14,7 @@ from cellc.mock.clocks import Clocks
 from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
+from cellc.mock.loads import Loads
 from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Camera, Perception
@@ -61,6 +62,7 @@ class Plant:
         watches: who takes claims from devices that follow no set points.
         effects: what devices do beside following commands.
         start: what devices and people do as the real target is brought up.
+        loads: what joints behind springs hold.
         world: where links and objects really are.
         switches: devices that digital outputs switch.
         cameras: by device.
@@ -78,6 +80,7 @@ class Plant:
     watches: ClaimWatches
     effects: Effects
     start: RealStart
+    loads: Loads
     world: World
     switches: Switches
     cameras: dict[str, Camera]

@@ -1,4 +1,4 @@
-"""How a run differs from its folder: real poses, readings of clocks, and the distance from tip to goal.
+"""How a run differs from its folder: real poses, readings of clocks, loads, and the distance from tip to goal.
 
 The description, TF and the planner keep the poses of the folder: what the robot assumes. Only the world has the real
 poses, so that a wrong calibration moves the robot to a wrong place, as in the real cell.
@@ -28,12 +28,16 @@ class Reality:
         links: child frame → where it really is, seen from where the description has it.
         objects: dynamic frame → how far its object is displaced.
         offsets_s: clock → how much more it reads.
+        part_more_kg: device → by which the part of its tool is heavier.
+        compensation: device → share by which it compensates its weight too much.
         noise: seed of what is drawn again for every sample, by networks and joints; None for that of the run.
     """
 
     links: Mapping[str, Pose] = field(default_factory=dict)
     objects: Mapping[str, Displacement] = field(default_factory=dict)
     offsets_s: Mapping[str, float] = field(default_factory=dict)
+    part_more_kg: Mapping[str, float] = field(default_factory=dict)
+    compensation: Mapping[str, float] = field(default_factory=dict)
     noise: int | None = None
 
 

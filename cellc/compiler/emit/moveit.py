@@ -31,6 +31,7 @@ from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
 from cellc.compiler.formats.yaml_text import Tree, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.control_laws import start_outside
 from cellc.compiler.link.control import TRAJECTORY_ACTION
 from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.diagnostics import YamlPath
@@ -176,8 +177,9 @@ def _pipeline(cell: Cell, pipeline: Pipeline) -> Parameters:
     name = pipeline.name
     if Feature.PLUGIN_LISTS not in features(cell.distro):
         adapters = "" if pipeline.timed else " ".join(f"{_TEXT_PREFIX}/{adapter}" for adapter in _TEXT_ADAPTERS)
-        # Zero: a start state outside its bounds is refused, never moved inside them.
-        bounds: Parameters = {} if pipeline.timed else {f"{name}.start_state_max_bounds_error": 0.0}
+        # Zero: a start state outside its bounds is refused, and moved inside only as far as springs let joints droop.
+        outside: Parameters = {f"{name}.start_state_max_bounds_error": start_outside(cell)}
+        bounds = {} if pipeline.timed else outside
         return {f"{name}.planning_plugin": pipeline.plugin, f"{name}.request_adapters": adapters, **bounds}
     response = (adapter for adapter in _RESPONSE_ADAPTERS if not (pipeline.timed and adapter == _TIMES))
     return {

@@ -159,6 +159,7 @@ class MotionAnswer:
         holding: joints that have a limit of effort, each where gravity takes most of it.
         droops: joints behind springs, each in the pose or goal in which it droops most.
         on_paths: the same on the paths of rehearsals.
+        outside: the same where it is outside its limits by more than motions may begin.
         tips: of groups with such joints, in each pose and goal with each load that rehearsals have there.
         areas: volumes that arms share, with what is in them.
     """
@@ -174,4 +175,5 @@ class MotionAnswer:
     areas: tuple[AreaAnswer, ...] = ()
     droops: tuple[DroopAnswer, ...] = ()
     on_paths: tuple[DroopAnswer, ...] = ()
+    outside: tuple[DroopAnswer, ...] = ()
     tips: tuple[TipAnswer, ...] = ()

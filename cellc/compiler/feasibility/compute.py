@@ -114,6 +114,7 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], budget: Budget
         holding=weights.holding,
         areas=_areas(question, postures, scene),
         droops=weights.droops,
+        outside=weights.outside,
         on_paths=weights.on_paths,
         tips=weights.tips,
     )

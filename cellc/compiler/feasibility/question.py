@@ -13,7 +13,7 @@ from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup, Step
 from cellc.compiler.formats.urdf.robot import manager_description, start_positions
 from cellc.compiler.formats.xml_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.compiler.graph.control_laws import control_laws
+from cellc.compiler.graph.control_laws import control_laws, start_outside
 from cellc.compiler.graph.frame_tree import FrameTree
 from cellc.contract.control_law import ControlLaw, LinkMass
 from cellc.contract.transforms import Pose, Vector3, climb
@@ -95,7 +95,12 @@ class AreaQuestion:
 
 @dataclass(frozen=True, slots=True)
 class MotionQuestion:
-    """The whole question; its text is what an answer is kept under. ``held`` are the joints with a limit of effort."""
+    """The whole question; its text is what an answer is kept under.
+
+    Attributes:
+        held: joints with a limit of effort.
+        start_outside: how far outside its limits a joint may be where a motion begins, rad or m.
+    """
 
     urdf: str
     start: Positions
@@ -109,6 +114,7 @@ class MotionQuestion:
     areas: tuple[AreaQuestion, ...] = ()
     laws: tuple[LawQuestion, ...] = ()
     visits: tuple[VisitQuestion, ...] = ()
+    start_outside: float = 0.0
 
 
 def shapes_and_joints(cell: Cell) -> str:
@@ -139,6 +145,7 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
         areas=tuple(_areas(graph)),
         laws=tuple(LawQuestion(name, law) for name, law in graph.once(_laws).items() if law.joints),
         visits=_visits(cell, [name for name, law in graph.once(_laws).items() if law.part]),
+        start_outside=start_outside(cell),
     )
 
 

@@ -41,6 +41,7 @@ class Weighed:
     holding: tuple[HoldingAnswer, ...]
     droops: tuple[DroopAnswer, ...]
     on_paths: tuple[DroopAnswer, ...]
+    outside: tuple[DroopAnswer, ...]
     tips: tuple[TipAnswer, ...]
 
 
@@ -65,10 +66,13 @@ def weighed(
         if visit.posture in postures
     ]
     alone = [_At(name, "", (), positions) for name, positions in postures.items()]
+    start = _At("", "", (), postures[""])
+    at_rest = list(_at_rest(question, visits, robot))
     return Weighed(
         holding=_holding(question, (*alone, *paths), robot),
-        droops=_droops(question, visits, robot),
-        on_paths=_droops(question, paths, robot),
+        droops=_worst(one for one, _ in at_rest),
+        on_paths=_worst(one for one, _ in _at_rest(question, paths, robot)),
+        outside=_worst(_outside(question, (*at_rest, *_at_rest(question, (start,), robot)))),
         tips=tuple(_tips(question, visits, planners, scene)) if question.laws else (),
     )
 
@@ -126,16 +130,36 @@ def _settled(question: MotionQuestion, at: _At, robot: RobotModel) -> Iterator[t
         yield springs, commanded, springs.balance(commanded)
 
 
-def _droops(question: MotionQuestion, places: Iterable[_At], robot: RobotModel) -> tuple[DroopAnswer, ...]:
-    most: dict[str, DroopAnswer] = {}
+def _at_rest(question: MotionQuestion, places: Iterable[_At], robot: RobotModel) -> Iterator[tuple[DroopAnswer, float]]:
+    """Yield how far each joint behind a spring droops in each place, and where it is then, rad or m."""
     for at in places:
+        place = at.posture, at.towards, bool(at.holding)
         for springs, commanded, rest in _settled(question, at, robot):
             efforts = springs.held(springs.efforts(rest)).tolist()
-            for joint, droop, effort in zip(springs.joints, (commanded - rest).tolist(), efforts, strict=True):
-                if joint not in most or abs(droop) > abs(most[joint].droop) + _ALIKE:
-                    place = at.posture, at.towards, bool(at.holding)
-                    most[joint] = DroopAnswer(joint, round(droop, 9), round(effort, 9), *place)
+            droops = (commanded - rest).tolist()
+            for joint, droop, effort, here in zip(springs.joints, droops, efforts, rest.tolist(), strict=True):
+                yield DroopAnswer(joint, round(droop, 9), round(effort, 9), *place), here
+
+
+def _worst(droops: Iterable[DroopAnswer]) -> tuple[DroopAnswer, ...]:
+    most: dict[str, DroopAnswer] = {}
+    for one in droops:
+        if one.joint not in most or abs(one.droop) > abs(most[one.joint].droop) + _ALIKE:
+            most[one.joint] = one
     return tuple(most.values())
+
+
+def _outside(question: MotionQuestion, at_rest: Iterable[tuple[DroopAnswer, float]]) -> Iterator[DroopAnswer]:
+    """Yield the places in which a joint is farther outside its limits than a motion may begin."""
+    bounds = {
+        joint: (lower - question.start_outside - _ALIKE, upper + question.start_outside + _ALIKE)
+        for group in question.groups
+        for joint, lower, upper in zip(group.joints, group.lower, group.upper, strict=True)
+    }
+    for one, here in at_rest:
+        lower, upper = bounds.get(one.joint, (-math.inf, math.inf))
+        if not lower <= here <= upper:
+            yield one
 
 
 def _tips(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
@@ -13,7 +13,7 @@ from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import Adapter, CommandLaw
 from cellc.contract.control_law import ControlLaw, JointLaw, LinkMass
 from cellc.contract.transforms import Pose, climb
-from cellc.contract.vocabulary import TRAJECTORIES, Distro, Gravity, Loop
+from cellc.contract.vocabulary import TRAJECTORIES, Distro, Feature, Gravity, Held, Loop, features
 
 _ROUNDING_KG = 0.05
 """Masses of descriptions are rounded: a payload that differs from its tool by less has no part in it."""
@@ -34,6 +34,20 @@ def control_laws(cell: Cell) -> Mapping[str, ControlLaw]:
     commands = _commands(cell)
     laws = ((device.name, _law(cell, device, commands)) for device in cell.devices)
     return {name: law for name, law in laws if law is not None}
+
+
+def start_outside(cell: Cell) -> float:
+    """Return how far outside its limits a joint may be when a motion is planned, rad or m.
+
+    A joint commanded at a limit may come to rest as far outside as its goal tolerance allows, where springs hold it.
+    MoveIt plans from the limit then, until it took lists of adapters: none of those does that for joints with limits
+    (moveit2@065602a check_start_state_bounds.cpp).
+    """
+    if Feature.PLUGIN_LISTS in features(cell.distro):
+        return 0.0
+    springs = {joint for law in control_laws(cell).values() for joint in law.joints}
+    figures = (figure for loop in cell.controllers for figure in (loop.goal_tolerance or {}).items())
+    return min((figure.value for joint, figure in figures if joint in springs and figure.value > 0.0), default=0.0)
 
 
 def _commands(cell: Cell) -> _Commands:
@@ -138,20 +152,22 @@ def _number(value: object) -> float | None:
 
 
 def _adapted(cell: Cell, device: Device, joints: Sequence[str]) -> ControlLaw:
-    """Return the law of a loop on the vendor's library: what the spec states, against the gravity of the device."""
-    stated, always = (
-        device.control.adapter or Adapter(),
-        next((law for law in device.control.laws if not law.commands), None),
-    )
+    """Return the law of a loop on the vendor's library: what the spec states, against the gravity of the device.
+
+    An adapter holds by bringing its set points to a standstill, not by taking what is measured for the next one.
+    """
+    control = device.control
+    stated, always = control.adapter or Adapter(), next((law for law in control.laws if not law.commands), None)
     if stated.stiffness is None:
         if always is not None and always.loop is Loop.POSITION:
-            return ControlLaw(loop=Loop.POSITION, held=always.held)
+            return ControlLaw(loop=Loop.POSITION, held=Held.COMMANDED)
         return _unknown(f"the `adapter` of `{device.name}` states no `stiffness`")
-    known = _of_kind(device.control.laws, _EFFORT)
+    known = _of_kind(control.laws, _EFFORT)
     if known is None:
         return _unknown(f"the `device.yaml` of `{device.model}` states no law for commands by `{_EFFORT}`")
     springs = _by_figures(joints, stated.stiffness, stated.damping or ())
-    return _unknown(springs) if isinstance(springs, str) else _spring(cell, device, known, springs)
+    law = replace(known, held=Held.COMMANDED)
+    return _unknown(springs) if isinstance(springs, str) else _spring(cell, device, law, springs)
 
 
 def _spring(cell: Cell, device: Device, law: CommandLaw, joints: Mapping[str, JointLaw]) -> ControlLaw:

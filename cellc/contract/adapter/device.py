@@ -234,5 +234,8 @@ class DeviceAdapter(Protocol):
         ...
 
     def hold(self) -> None:
-        """End the stream: come to a standstill within `stop_time_s` and stay; the phase remains."""
+        """End the stream: bring the set points to a standstill within `stop_time_s` and stay; the phase remains.
+
+        What is measured is no set point: a joint behind a spring would sink by its droop with each hold.
+        """
         ...

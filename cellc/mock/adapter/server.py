@@ -188,7 +188,7 @@ class AdapterServer:
         """Run the periods up to ``until_ns``, or up to the first that has something to tell."""
         published = len(self._events)
         while self._next_ns <= until_ns and len(self._events) == published:
-            if self._follower is None and self.adapter.phase is self._phase:
+            if self._follower is None and self.adapter.phase is self._phase and self.adapter.settled:
                 self._rest(until_ns)
             else:
                 self._tick()

@@ -8,13 +8,16 @@ from dataclasses import replace
 import numpy as np
 
 from cellc.contract.adapter import AdapterModel, DeviceState, JointCommand, Phase, Refusal, check_command
+from cellc.contract.control_law import ControlLaw
+from cellc.mock.adapter.measured import MeasuredMotion
 from cellc.mock.control.hardware.disturbances import JointFault
+from cellc.robot.planning import Springs
 
 WATCHDOG_FAULT = "no command within the watchdog's time"
 
 
 class SimulatedAdapter:
-    """A device in simulated time; joints reach a command one period after it was taken.
+    """A device in simulated time; it leads its joints to a command in one period, and they follow by its law.
 
     Attributes:
         joint_faults: of the joints that do not follow their commands as they should.
@@ -34,6 +37,7 @@ class SimulatedAdapter:
         self._taken_ns = now_ns()
         self._streaming = False
         self._stop_velocity: tuple[float, ...] | None = None
+        self._measured: MeasuredMotion | None = None
 
     @property
     def model(self) -> AdapterModel:
@@ -49,6 +53,21 @@ class SimulatedAdapter:
     def fresh_command(self) -> tuple[float, ...] | None:
         """Positions of the command that was taken at this instant; None where none was."""
         return self._commanded if self._streaming and self._taken_ns == self.now_ns() else None
+
+    @property
+    def settled(self) -> bool:
+        """Whether the joints come to rest where they are, without a command."""
+        springs = self._springs
+        return springs is None or (springs.settled and not self._leads())
+
+    def bind(self, law: ControlLaw, springs: Springs) -> None:
+        """Let the joints follow by a law from where they are; a law that binds them already gets another load."""
+        if self._measured is not None:
+            self._measured.load(springs)
+            return
+        names, now_ns = self._model.joint_names, self.now_ns()
+        period_ns = round(self._model.command_period_s * 1e9)
+        self._measured = MeasuredMotion(law, springs, names, self._motion(now_ns)[0], period_ns, now_ns)
 
     def now_ns(self) -> int:
         """Return the device's time."""
@@ -66,11 +85,14 @@ class SimulatedAdapter:
         if self._phase is not Phase.INACTIVE:
             raise RuntimeError(f"`{self._model.device}` is {self._phase.value}, not inactive")
         self._phase = Phase.ACTIVE
+        if self._measured is not None:
+            self._measured.rest(self._motion(self.now_ns())[0], self.now_ns())
 
     def deactivate(self) -> None:
         """Hold and refuse commands: active to inactive."""
         self.hold()
         if self._phase is Phase.ACTIVE:
+            self._leave_springs(self.now_ns())
             self._phase = Phase.INACTIVE
 
     def acknowledge(self) -> None:
@@ -93,7 +115,7 @@ class SimulatedAdapter:
             raise ConnectionError(f"`{self._model.device}` is {self._phase.value}")
         self._watch()
         now_ns = self.now_ns()
-        positions, velocities = self._motion(now_ns)
+        positions, velocities = self._state(now_ns)
         return DeviceState(now_ns, positions, velocities, (), self._phase, self._fault)
 
     def command(self, command: JointCommand) -> Refusal | None:
@@ -101,7 +123,7 @@ class SimulatedAdapter:
         self._watch()
         now_ns = self.now_ns()
         at = self._motion(now_ns)[0]
-        last = self._commanded if self._streaming else at
+        last = self._commanded if self._streaming else self._state(now_ns)[0]
         refusal = check_command(self._model, command, phase=self._phase, last=last, now_ns=now_ns)
         if refusal is None:
             self._from, self._to, self._taken_ns = at, self._reachable(command.positions, at), now_ns
@@ -141,12 +163,15 @@ class SimulatedAdapter:
     def _stop(self, at_ns: int, fault: str) -> None:
         if self._streaming:
             self._brake(at_ns)
+        self._leave_springs(at_ns)
         if self._phase in (Phase.ACTIVE, Phase.INACTIVE):
             self._phase, self._fault = Phase.STOPPED, fault
 
     def _brake(self, at_ns: int) -> None:
         """Slow down evenly to standstill within the stop time, from the motion at an instant."""
-        positions, velocities = self._motion(at_ns)
+        springs = self._springs
+        measured = springs is not None and springs.holds_measured
+        positions, velocities = self._state(at_ns) if measured else self._motion(at_ns)
         self._streaming = False
         self._from, self._taken_ns, self._stop_velocity = positions, at_ns, velocities
 
@@ -165,8 +190,32 @@ class SimulatedAdapter:
             return wanted
         return float(fault.follow(np.array([wanted]), at, self._model.command_period_s)[0])
 
+    @property
+    def _springs(self) -> MeasuredMotion | None:
+        """What holds the joints while the device takes commands; else its vendor's own brakes and loops hold them."""
+        return self._measured if self._phase is Phase.ACTIVE else None
+
+    def _leave_springs(self, at_ns: int) -> None:
+        """Let the vendor hold the joints where the springs have let them go."""
+        if self._springs is not None:
+            positions, velocities = self._state(at_ns)
+            self._from, self._taken_ns, self._stop_velocity = positions, at_ns, velocities
+
+    def _state(self, at_ns: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return measured positions and velocities at an instant that is not before the last one asked about."""
+        springs = self._springs
+        if springs is None:
+            return self._motion(at_ns)
+        springs.advance(at_ns, lambda time_ns: self._motion(time_ns)[0], leads=self._leads())
+        return springs.positions, springs.velocities
+
+    def _leads(self) -> bool:
+        """Return whether the device moves its joints since the last period."""
+        over_s = self._model.stop_time_s if self._stop_velocity is not None else 0.0
+        return self._streaming or self.now_ns() <= self._taken_ns + round((over_s + self._model.command_period_s) * 1e9)
+
     def _motion(self, at_ns: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Return positions and velocities at an instant since the last command or brake."""
+        """Return where joints are led at an instant since the last command or brake, and their velocities."""
         elapsed_s = max(0, at_ns - self._taken_ns) / 1e9
         zero = (0.0,) * len(self._from)
         if self._stop_velocity is not None:

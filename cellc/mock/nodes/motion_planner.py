@@ -49,10 +49,14 @@ _MEETING_NS = 20_000_000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroupModel:
-    """A planning group: goals are for its tip frame, which may be fixed to the link that the planner moves."""
+    """A planning group: goals are for its tip frame, which may be fixed to the link that the planner moves.
+
+    Joints that begin outside their limits by no more than ``start_outside`` are planned for from the limit, rad or m.
+    """
 
     planner: Planner
     transform_tip_to_link: Pose
+    start_outside: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,7 +110,7 @@ def _group_model(
         tip_link, transform_tip_to_link = _link_of(group.tip_frame, contract, robot)
         planning_group = PlanningGroup(name, group.joints, group.base_link, tip_link)
         limits = _limits(group.joints, [contract.joint_limits[joint] for joint in group.joints])
-        return GroupModel(Planner(robot, planning_group, limits, scene), transform_tip_to_link)
+        return GroupModel(Planner(robot, planning_group, limits, scene), transform_tip_to_link, group.start_outside)
     except (ModelError, LimitsError) as error:
         raise MockError("contract.json", f"group `{name}`: {error}") from None
 
@@ -303,9 +307,10 @@ class MotionPlanner:
             positions: of all joints, rad or m.
             retreat: where the arm has to go back to on a straight line, because it is at a goal.
         """
-        joints = self._model.groups[group].planner.group.joints
+        model = self._model.groups[group]
+        joints = model.planner.group.joints
         others = tuple((name, value) for name, value in self._independent(positions) if name not in joints)
-        start = tuple(positions[joint] for joint in joints)
+        start = model.planner.limits.inside([positions[joint] for joint in joints], model.start_outside)
         return self._memory.plan(MotionRequest(group, start, others, self._scene, goal, retreat, self._rng_seed))
 
     def room(self, group: str, positions: Mapping[str, float]) -> tuple[float, float | None]:

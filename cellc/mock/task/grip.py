@@ -33,6 +33,7 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> W
     require_success(ended, context)
     state = yield from state_since(context, ended.decided_ns)
     _require_arrival(state, facts, target)
+    context.plant.loads.hold(device, holds=command == "close")
     if between is not None:
         take(context, device, between)
     elif command == "open":

@@ -25,6 +25,7 @@ def switch(context: TaskContext, device: str, state: str) -> None:
     held = facts.holds is not None and plant.switches.state(device, plant.now_ns) == facts.holds
     arrives_ns = plant.switches.set(device, state, plant.now_ns)
     if held and state != facts.holds:
+        plant.loads.hold(device, holds=False)
         release(context, device)
     elif state == facts.holds:
         plant.simulation.at(arrives_ns, partial(_close, context, device, state))
@@ -32,8 +33,11 @@ def switch(context: TaskContext, device: str, state: str) -> None:
 
 def _close(context: TaskContext, device: str, state: str) -> None:
     """Take what is between the jaws as they come together, unless they were opened again on their way."""
+    if context.plant.switches.state(device, context.now_ns) != state:
+        return
+    context.plant.loads.hold(device, holds=True)
     between = object_between(context, device)
-    if between is not None and context.plant.switches.state(device, context.now_ns) == state:
+    if between is not None:
         take(context, device, between)
 
 

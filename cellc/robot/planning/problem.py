@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -76,6 +77,12 @@ class JointLimits:
             if not lower <= value <= upper:
                 return f"joint `{joint}` at {value:.6g} is outside {lower:.6g} to {upper:.6g}"
         return ""
+
+    def inside(self, configuration: Sequence[float], most: float) -> tuple[float, ...]:
+        """Return a configuration in which joints are at their limit that are outside it by no more than ``most``."""
+        bounds = zip(configuration, self.lower, self.upper, strict=True)
+        near = ((value, min(max(value, lower), upper)) for value, lower, upper in bounds)
+        return tuple(limit if abs(value - limit) <= most else value for value, limit in near)
 
 
 @dataclass(frozen=True, slots=True)

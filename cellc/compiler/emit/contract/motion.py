@@ -10,6 +10,7 @@ from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import described_frames
 from cellc.compiler.graph.claims import adapter_of_group
+from cellc.compiler.graph.control_laws import start_outside
 from cellc.contract.base import ContractPose
 from cellc.contract.contract import (
     ContractCalibration,
@@ -77,8 +78,11 @@ def goals(cell: Cell) -> dict[str, ContractGoal]:
 def _group(cell: Cell, group: PlanningGroup) -> ContractGroup:
     active = (c.label for c in cell.controllers if c.label in group.controllers and c.active)
     adapted = adapter_of_group(cell, group)
-    controller = next(active, None if adapted is None else adapted.device)
-    return ContractGroup.model_validate({**shared(group, ContractGroup), "controller": controller})
+    special = {
+        "controller": next(active, None if adapted is None else adapted.device),
+        "start_outside": start_outside(cell),
+    }
+    return ContractGroup.model_validate({**shared(group, ContractGroup), **special})
 
 
 def _goal(goal: CartesianGoal) -> ContractGoal:

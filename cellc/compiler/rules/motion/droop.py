@@ -71,6 +71,21 @@ def _where(one: DroopAnswer) -> str:
     return f"between {place}{loaded}" if one.towards else f"in `{one.posture}`{loaded}"
 
 
+@rule(Severity.ERROR, assumes=(*_WEIGHED, "pose-outside-limits"))
+def droop_beyond_limits(graph: CellGraph) -> Findings:
+    """Yield places in which a joint droops out of its limits, from where no motion is planned."""
+    paths = {pose.name: pose.path for pose in graph.cell.poses}
+    paths |= {goal.name: (*goal.path, "frame") for goal in graph.cell.goals}
+    for one in motion_answer(graph).outside:
+        device, _ = _laws(graph)[one.joint]
+        unit = "m" if device.joint(one.joint).slides else "rad"
+        where = _where(one) if one.posture else "where the cell begins"
+        message = (
+            f"`{one.joint}` droops by {abs(one.droop):.3g} {unit} {where}, out of its limits: MoveIt plans no motion"
+        )
+        yield found(graph, paths.get(one.posture, (*device.path, "model")), f"{message} that begins there")
+
+
 @rule(Severity.ERROR, assumes=_WEIGHED)
 def tip_droop_beyond_tolerance(graph: CellGraph) -> Findings:
     """Yield goals at which a tip comes to rest farther from its command than it may be from the goal."""

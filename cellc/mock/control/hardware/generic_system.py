@@ -9,11 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.control_law import ControlLaw
 from cellc.mock.control.hardware.disturbances import Disturbances
 from cellc.mock.control.hardware.joint_motion import Motion, differences, hold_last, integral
+from cellc.mock.control.hardware.spring_joints import SpringJoints
 from cellc.mock.control.interfaces import Array, InterfaceTable
 from cellc.mock.control.robot_description import follows, read_flag, read_number
 from cellc.robot.description.model import HardwareComponent, HardwareInterface, Joint, Mimic
+from cellc.robot.planning import Springs
 
 _MODES = ("position", "velocity", "acceleration")
 
@@ -38,6 +41,7 @@ class GenericSystem:
         self._table = table
         self._disturbances = disturbances
         self._first_cycle = self._read_cycles = 0
+        self._springs: SpringJoints | None = None
         parameters = info.parameters
         self._dynamics = read_flag(parameters.get("calculate_dynamics", "false"))
         self.commands_disabled = read_flag(parameters.get("disable_commands", "false"))
@@ -156,7 +160,11 @@ class GenericSystem:
         self._motion = None
         self._first_cycle = self._read_cycles
         if self.commands_disabled or self._disturbances.ignores_commands(self.info.name):
+            if self._springs is not None:
+                self._springs.rest(self._position)
             return len(command)
+        if self._springs is not None:
+            self._springs.clear()
         cycles = self._computable(command)
         if cycles == 0:
             return 0
@@ -215,6 +223,9 @@ class GenericSystem:
     def _move_kind(self, motion: Motion, kind: str, indices: NDArray[np.intp], values: Array, period_s: float) -> None:
         if kind == "position":
             position = values if self._custom_offset else values + self._offset
+            if self._springs is not None:
+                position = position.copy() if position is values else position
+                self._springs.follow(indices, position, self._first_cycle, period_s)
             self._follow(indices, position, period_s, moved_by_position=True)
             motion.position[:, indices] = position
             if self._dynamics:
@@ -257,10 +268,19 @@ class GenericSystem:
         if len(columns):
             state[:, targets] = hold_last(command[:, columns] + self._offset, state[0, targets])
 
+    def bind(self, law: ControlLaw, springs: Springs) -> None:
+        """Let the joints follow by a law from where they are; a law that binds them already gets another load."""
+        if self._springs is None:
+            self._springs = SpringJoints(law, springs, self._names, self._position)
+        else:
+            self._springs.load(springs)
+
     def place(self, joint: str, position: float) -> None:
         """Move a joint from outside."""
         index = self._names.index(joint)
         self._position[index] = position
+        if self._springs is not None:
+            self._springs.rest(self._position)
         self._table.state[self._table.state_column(f"{joint}/position")] = position
 
     def rest(self) -> None:
@@ -275,6 +295,8 @@ class GenericSystem:
         motion = self._motion
         if motion is None:
             return
+        if self._springs is not None:
+            self._springs.commit(cycles)
         self._position = motion.position[cycles - 1].copy()
         self._velocity = motion.velocity[cycles - 1].copy()
         self._acceleration = motion.acceleration[cycles - 1].copy()

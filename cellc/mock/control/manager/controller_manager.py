@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from cellc.contract.control_law import ControlLaw
 from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control.controllers.base import Controller, DeclaredInterfaces
 from cellc.mock.control.controllers.broadcasters import JointStateBlock, JointStateBroadcaster
@@ -34,6 +35,7 @@ from cellc.mock.control.messages import (
 )
 from cellc.mock.control.parameters import ParameterError, ParameterFile, ParameterValue
 from cellc.robot.description.model import Description
+from cellc.robot.planning import Springs
 
 
 class ControllerManager:
@@ -267,6 +269,12 @@ class ControllerManager:
         """Present positions of all joints that have a position state."""
         names = [name for name in self._table.state_names() if name.endswith("/position") and name.count("/") == 1]
         return {name.removesuffix("/position"): self.state(name) for name in names}
+
+    def bind(self, component: str, law: ControlLaw, springs: Springs) -> None:
+        """Let the joints of a component follow by a law, or by the one that binds them with another load."""
+        self._touch()
+        if self._hardware is not None and component in self._hardware.components:
+            self._hardware.components[component].system.bind(law, springs)
 
     def write_state(self, name: str, value: float) -> None:
         """Let the outside world set a state interface that no command moves: a sensor, a speed scaling factor."""
