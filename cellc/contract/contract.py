@@ -18,6 +18,7 @@ from cellc.contract.quantities import (
     Coordinate,
     Count,
     Drift,
+    Magnitude,
     Offset,
     PositiveMagnitude,
     Rate,
