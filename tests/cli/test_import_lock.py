@@ -12,7 +12,7 @@ _ROBOT = """<robot name="rr"><link name="base"/><link name="arm"/><joint name="t
 <parent link="base"/><child link="arm"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="10"/>
 </joint></robot>
 """
-SAID = "import.lock.json was damaged: device.yaml has nothing of what the vendor changed since"
+SAID = "import.lock.json was damaged: device.yaml lacks later changes of the vendor"
 
 
 @pytest.fixture

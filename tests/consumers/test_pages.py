@@ -127,7 +127,7 @@ def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str)
         limits += [f": {limit}" for limit in facts.get("mock_cannot_prove", ())]
         limits += [pair["because"] for pair in facts.get("allowed_collisions", ())]
         limits += [": its adapter - no launch file starts it on the mock"] if by == "adapter" else []
-    limits += [] if written(cell).get("scene") else ["planned through table and fence"]
+    limits += [] if written(cell).get("scene") else ["planned paths may pass through table and fence"]
     assert [line for line in text.splitlines() if re.match(r"\d+\. |\w+, \w+:$", line)] == wanted
     proof = build(cell, distro).texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
     assert len([line for line in proof.splitlines() if line.startswith("- ")]) == len(limits)

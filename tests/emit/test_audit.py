@@ -61,7 +61,7 @@ def test_untested_version_is_a_question_to_the_supplier(tmp_path: Path) -> None:
 
 def test_what_stands_on_the_device_is_asked_of_its_owner() -> None:
     rows = section(artifacts_of("ur5e_pick")["audit.md"], "Open questions")
-    assert ["robot", "Which serial does arm have, by its nameplate or panel?", "`devices.arm.serial`"] in rows
+    assert ["robot", "What is the serial of arm? See its nameplate or panel.", "`devices.arm.serial`"] in rows
 
 
 def test_every_command_interface_has_its_owner() -> None:
@@ -132,7 +132,7 @@ def test_audit_says_where_the_planner_knows_nothing_around_the_devices(tmp_path:
     text = spec_text("ur5e_pick")
     scene = "scene:\n  table: {parent: world, xyz: 350 0 780 mm, box: 900 1200 40 mm}\n"
     assert scene in text
-    told = "`scene` is empty, so paths are planned through table and fence"
+    told = "`scene` is empty, so planned paths may pass through table and fence"
     assert told in emitted(tmp_path, text.replace(scene, ""))["audit.md"]
     assert told not in artifacts_of("ur5e_pick")["audit.md"]
 

@@ -125,5 +125,5 @@ def test_the_gate_has_the_service_that_starts_servo_and_its_figures(texts: dict[
     # servo_node.cpp of 2.5.9, line 58; of 2.12.4, line 130.
     gate = texts["gates/promotion.md"].split("\n## G7 ")[1].replace("\\", "")
     starts = "/servo/start_servo" if distro == "humble" else "/servo/switch_command_type"
-    assert f"Call {starts} and switch in `/arm_jog`." in gate
+    assert f"Then call {starts} and activate `/arm_jog`." in gate
     assert "at no more than 50 mm/s, 0.2 rad/s and 0.1 rad/s per joint. It must stop within 0.1 s" in gate

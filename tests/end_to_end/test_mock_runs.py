@@ -23,6 +23,7 @@ def test_built_cell_passes_its_rehearsals(pick: Path) -> None:
         ("stale_camera", "stale_state", True),
         ("program_stopped", "claim_failure", True),
         ("jogged_and_restarted", "succeeded", True),
+        ("stopped_and_resumed", "succeeded", True),
         ("gripper_activated", "succeeded", True),
         ("canceled", "canceled", True),
     ]

@@ -282,6 +282,7 @@ def test_mock_runs_without_the_rest_of_the_compiler(built_folder: Path, tmp_path
         "stale_camera": "stale_state",
         "program_stopped": "claim_failure",
         "jogged_and_restarted": "succeeded",
+        "stopped_and_resumed": "succeeded",
         "gripper_activated": "succeeded",
         "canceled": "canceled",
     }

@@ -14,6 +14,7 @@ _PAST_IT = {
     "cellc/robot/description/mesh_child.py": "the child process answers its parent there, in numbers",
     "cellc/robot/description/xacro_expansion.py": "the child process answers its parent there, and nobody reads it",
     "cellc/compiler/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/emit/launch/claim_watch_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/first_goal_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/required_program.py": "it runs on the robot's host, without cellc",

@@ -101,6 +101,7 @@ def test_a_name_that_is_not_exported_is_an_attribute_error() -> None:
 _OTHERS = {
     "XacroError": "stands for the one of xacro while types are checked",
     "XacroRefusedError": "must be one of xacro's",
+    "MotionError": "of a program that runs in a generated folder, without cellc",
     "UnansweredError": "of a program that runs in a generated folder, without cellc",
     "Stopped": "a signal, which nobody catches by mistake",
     "FileTooLargeError": "answers of the system: who opens files catches OSError",

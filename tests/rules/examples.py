@@ -160,7 +160,7 @@ def _with_first_motions(cell: Any, fragment: Any) -> Any:
         if str(controller.get("type", "")).endswith("trajectory"):
             takers.add(controller.get("device", "arm"))
     motions = [cell["bringup"]["first_motion"]]
-    for name in sorted(takers - {"arm"}):
+    for name in sorted((takers - {"arm"}) & extended["devices"].keys()):
         description = "".join(path.read_text() for path in (BASE / extended["devices"][name]["model"]).glob("*.urdf"))
         if joint := re.search(r'joint name="(\w+)" type="revolute"', description):
             motions.append(motions[0] | {"joint": f"{name}/{joint[1]}"})
