@@ -214,7 +214,9 @@ def test_audit_expects_no_name_of_a_driver_that_the_launch_file_gives_to_another
 def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell: str, distro: str) -> None:
     rows = {row[0].strip("`"): row for row in tables(cell, distro)["Expected nodes"]}
     started = {
-        node_name(one): one for one in processes(cell, distro, "real") if one.executable not in ("spawner", "bring_up")
+        node_name(one): one
+        for one in processes(cell, distro, "real")
+        if one.executable not in ("spawner", "bring_up", "claim_watch")
     }
     contract = contract_data(build(cell, distro).texts["contract.json"])
     plugins = {
