@@ -103,6 +103,11 @@ def stream_edge(contract: Contract, network: Network, topic: str, source: str, s
     return StreamEdge(EdgeName(topic, source, sink), offered, requested, network)
 
 
+def _horizon_s(contract: Contract) -> float:
+    """Return for how long transforms are kept."""
+    return max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
+
+
 def assemble(
     folder: GeneratedFolder,
     memory: PlanMemory,
@@ -122,7 +127,7 @@ def assemble(
         ManagerAbortedError: a controller manager ended while it started.
     """
     contract = folder.contract
-    horizon_s = max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
+    horizon_s = _horizon_s(contract)
     noise = seed if reality.noise is None else reality.noise
     control = standing or ControlStack(_managers(folder, noise), contract.managers, horizon_s, _adapters(contract))
     simulation = Simulation(control)
@@ -132,8 +137,8 @@ def assemble(
     feeds = joint_state_feeds(contract, control, network, ROBOT_STATE_PUBLISHER)
     tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task.name)
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
-    stops, devices = Stops(control), DeviceView(contract, control)
-    watches = ClaimWatches(contract, folder.watches, control, simulation)
+    stops, watches = Stops(control), ClaimWatches(contract, folder.watches, control, simulation)
+    devices = DeviceView(contract, control)
     effects = Effects(devices, stops, watches, simulation)
     plant = Plant(
         contract=contract,

@@ -10,6 +10,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -115,10 +116,10 @@ def other(value: Plain) -> Plain:
 def with_other(data: Plain, path: YamlPath) -> Plain:
     """Return the data with another value at a path."""
     changed = copy.deepcopy(data)
-    at = changed
+    at: Any = changed
     for step in path[:-1]:
-        at = at[step]  # type: ignore[index]
-    at[path[-1]] = other(at[path[-1]])  # type: ignore[index]
+        at = at[step]
+    at[path[-1]] = other(at[path[-1]])
     return changed
 
 
