@@ -13,6 +13,7 @@ from cellc.contract.base import ContractModel, ContractPose
 from cellc.contract.devices import ContractAdapter, ContractDevice, ContractSimulatedJoint
 from cellc.contract.entities import TARGETS, ContractInterface, Kpis, Target
 from cellc.contract.file_names import BesidePath, CellName, InnerPath
+from cellc.contract.gates import Gates
 from cellc.contract.grading import FURTHER, PLANNED, SECOND_CLIENT, STALE, Graded, Rule
 from cellc.contract.quantities import (
     Coordinate,
@@ -319,3 +320,6 @@ class Contract(ContractModel):
     attempt_fields: Annotated[
         tuple[str, ...], Graded(ReviewArea.FIGURES, "recorded fields of an attempt", Rule.LOST, ordered=False)
     ] = Field(description="What every attempt records.")
+    gates: Gates | None = Field(
+        None, description="What gates set, and what is known of the versions; null in contracts of an older cellc."
+    )

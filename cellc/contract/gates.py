@@ -1,6 +1,6 @@
-"""``gates/gates.json``: what the gates of a cell have set in robots, and what is known of each pinned version.
+"""What the gates of a cell have set in robots, and what is known of each pinned version: a part of ``contract.json``.
 
-The checklists in the same folder and ``audit.md`` say it to people. Read by ``cellc diff``.
+The checklists of the gates and ``audit.md`` say it to people. Read by ``cellc diff``.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from cellc.contract.base import ContractModel
 from cellc.contract.vocabulary import GateCode, RobotSetting
 
 GATES = "gates/gates.json"
+"""File of its own in packages that an older cellc wrote."""
 _READ = ConfigDict(extra="forbid")
 
 
@@ -45,6 +46,6 @@ class PinAnswer:
 class Gates(ContractModel):
     """What the gates of one cell have set, and what they rest on."""
 
-    format: Literal[1] = Field(description="Version of this format.")
+    format: Literal[1] = Field(1, description="Version of this format.")
     settings: tuple[GateSetting, ...] = Field((), description="What is set or checked in robots.")
     versions: tuple[PinAnswer, ...] = Field(description="The version tuple, part by part.")

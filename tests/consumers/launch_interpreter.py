@@ -143,8 +143,11 @@ class Launch:
         path = self._file(self._text(action.attrib["file"]))
         given = {one.attrib["name"]: self._text(one.attrib["value"]) for one in action.findall("arg")}
         # IncludeLaunchDescription.execute looks at what the include itself is given, not at its parent's arguments.
-        for argument in fromstring(self.texts[path]).findall("arg"):
-            if "default" not in argument.attrib and argument.attrib["name"] not in given:
+        # Of several declarations of an argument the first counts there, and none that has a condition.
+        declared = {argument.attrib["name"]: argument for argument in fromstring(self.texts[path]).findall("arg")[::-1]}
+        for argument in declared.values():
+            conditional = {"if", "unless"} & set(argument.attrib)
+            if not conditional and "default" not in argument.attrib and argument.attrib["name"] not in given:
                 name = argument.attrib["name"]
                 raise LaunchError(f"included launch description missing required argument '{name}'")
         self.configurations |= given

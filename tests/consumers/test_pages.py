@@ -230,6 +230,6 @@ def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell:
         process = started[name]
         assert rows[name][1].removesuffix(" (real target)") == f"{process.package}/{process.executable}"
         told = {one.strip("`") for one in rows[name][4].split(", ")}
-        assert set(process.files) - {f"config/{name[1:].replace('/', '.')}.yaml"} <= told
+        assert set(process.files) <= told
         if process.executable != "ros2_control_node":  # Humble's is given the description as well
             assert set(process.values) - {"use_sim_time"} <= told

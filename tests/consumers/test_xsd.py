@@ -70,6 +70,7 @@ def _take_newer_away(action: Element) -> None:
         action.remove(choice)
     if action.tag == "arg":
         action.text = None
+        action.attrib.pop("if", None)
     if action.tag == "param":
         assert action.attrib.pop("type", "str") in {"str", "int", "float", "bool"}
     if action.tag in ("node", "executable"):

@@ -44,7 +44,7 @@ def test_reliability_of_an_endpoint() -> None:
     assert document_of(PICK).text_at(path) == "reliable"
     interface = next(each for each in linked(PICK).interfaces if each.name == "/object_pose")
     assert [end.qos.reliability for end in interface.sinks if end.node == "task"] == ["reliable"]
-    overrides = safe_load(built("ur5e_pick").texts["config/qos_overrides.yaml"])
+    overrides = safe_load(built("ur5e_pick").texts["config/nodes.yaml"])
     assert "reliable" in str(overrides)
     promised = load(generated("ur5e_pick")).contract.interfaces["/object_pose"]
     assert [end.qos.reliability for end in promised.sinks if end.node == "task"] == ["reliable"]

@@ -127,9 +127,10 @@ def test_launch_starts_each_process_once_and_real_hardware_behind_its_gate() -> 
         ("demo", "bring_up", None, real),
         ("demo", "bring_up", real, None),
     ]
-    (gate,) = launch.iterfind("include")
-    assert (gate.get("file"), gate.get("if")) == ("$(find-pkg-share demo)/launch/real_gate.launch.xml", real)
-    defaults = {one.get("name"): one.get("default") for one in launch.iterfind("arg")}
+    (gate,) = (one for one in launch.iterfind("arg") if one.get("if"))
+    assert (gate.get("name"), gate.get("default"), gate.get("if")) == ("confirm_real", None, real)
+    assert [choice.get("value") for choice in gate] == ["I_HAVE_PASSED_GATES_G0_TO_G2"]
+    defaults = {one.get("name"): one.get("default") for one in launch.iterfind("arg") if one is not gate}
     assert defaults == {"target": "mock", "confirm_real": "no", "arm_address": "192.168.56.101"}
     (mover,) = _xml("complete", "launch/move.launch.xml").iterfind("node")
     assert (mover.get("pkg"), mover.get("name")) == ("cell_tasks", "task")

@@ -191,7 +191,7 @@ def test_zenoh_router_listens_and_sessions_connect_to_it_alone() -> None:
 
 
 def test_qos_overrides_are_those_that_rclcpp_reads() -> None:
-    sections = safe_load(artifacts_of("ur5e_pick")["config/qos_overrides.yaml"])
+    sections = safe_load(artifacts_of("ur5e_pick")["config/nodes.yaml"])
     overrides = sections["perception"]["ros__parameters"]["qos_overrides"]
     assert overrides["/camera/color/image_raw"]["subscription"] == {
         "reliability": "best_effort",
@@ -208,7 +208,7 @@ def test_durations_of_qos_are_whole_nanoseconds(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick")
     assert before in text
     text = text.replace(before, "from: {perception: {deadline: 150 ms, lifespan: 0.5 s, lease_duration: 1 s}}")
-    overrides = safe_load(emitted(tmp_path, text)["config/qos_overrides.yaml"])
+    overrides = safe_load(emitted(tmp_path, text)["config/nodes.yaml"])
     policies = overrides["perception"]["ros__parameters"]["qos_overrides"]["/object_pose"]["publisher"]
     assert policies["deadline"] == 150_000_000
     assert policies["lifespan"] == 500_000_000

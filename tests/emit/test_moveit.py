@@ -125,7 +125,7 @@ def _planning(text: str, distro: str, folder: Path) -> dict[str, Any]:
     spec = spec_text("ur5e_pick").replace("groups: {manipulator: {base: arm/base_link, tip: tcp}}", text)
     assert text in spec
     texts = emitted(folder, spec.replace("ros: jazzy", f"ros: {distro}"))
-    (told,) = safe_load(texts["config/moveit/planning_pipelines.yaml"]).values()
+    (told,) = safe_load(texts["config/moveit/move_group.yaml"]).values()
     (solved,) = safe_load(texts["config/moveit/kinematics.yaml"]).values()
     package = ElementTree.fromstring(texts["package.xml"])
     needed = {one.text: one.get("version_gte") for one in package.findall("exec_depend")}

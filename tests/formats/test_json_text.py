@@ -35,9 +35,30 @@ def test_short_parts_stand_in_a_line_and_defaults_are_left_out() -> None:
     )  # fmt: skip
 
 
-def test_what_does_not_fit_has_one_item_a_line() -> None:
+def test_a_list_that_does_not_fit_fills_its_lines() -> None:
     text = render(Whole(parts={}, words=tuple("long" * 10 + str(number) for number in range(4))))
-    assert text.splitlines()[2:4] == ['  "words": [', '    "' + "long" * 10 + '0",']
+    first, second = (", ".join(f'"{"long" * 10}{number}"' for number in pair) for pair in ((0, 1), (2, 3)))
+    assert text.splitlines()[2:6] == ['  "words": [', f"    {first},", f"    {second}", "  ]"]
+
+
+def test_an_entry_of_a_table_fills_its_lines_and_another_mapping_has_one_item_a_line() -> None:
+    class Tables(BaseModel):
+        table: dict[str, dict[str, int]]
+        alone: dict[str, int]
+        name: str = "tables"
+
+    row = {"long" * 10 + str(number): number for number in range(3)}
+    lines = render(Tables(table={"one": row, "other": {"a": 1}}, alone=row, name="x")).splitlines()
+    first, second, third = (f'"{name}": {value}' for name, value in row.items())
+    assert lines[1:7] == [
+        '  "table": {',
+        '    "one": {',
+        f"      {first}, {second},",
+        f"      {third}",
+        "    },",
+        '    "other": {"a": 1}',
+    ]
+    assert lines[8:13] == ['  "alone": {', f"    {first},", f"    {second},", f"    {third}", "  },"]
 
 
 @pytest.mark.parametrize(("indent", "length"), [("  ", 119), ("    ", 119), ("      ", 119)])

@@ -7,7 +7,8 @@ import math
 import pytest
 import yaml
 
-from cellc.compiler.formats.yaml_text import nested, render, scalar
+from cellc.compiler.cell.interface import ParameterValue
+from cellc.compiler.formats.yaml_text import nested, render, render_rows, scalar
 from tests.properties import given, st
 
 # YAML 1.1's readings, and the words that strtod takes for numbers in rcl_yaml_param_parser.
@@ -58,3 +59,17 @@ def test_lists_take_a_line_an_item_and_empty_ones_none() -> None:
 def test_name_of_what_is_empty_is_left_out() -> None:
     """rcl refuses a parameter file with a name without a value (rcl_yaml_param_parser, `No value at line`)."""
     assert yaml.safe_load(render({"a": {"b": {"c": (), "d": {}}, "e": {"f": ()}}, "g": 1})) == {"g": 1}
+
+
+def test_rows_are_in_flow_style_with_their_lists_below_where_one_line_is_too_short() -> None:
+    row: dict[str, ParameterValue] = {"parent": "b" * 40, "kind": "link", "authority": "c" * 40}
+    row |= {"xyz": (0.0, 1.5, 2.0), "note": "a: b"}
+    text = render_rows({"short": {"kind": "y", "xyz": (0.0, 1.0)}, "long": row, "bare": {}}, 1)
+    assert text.splitlines() == [
+        '  short: {kind: "y", xyz: [0.0, 1.0]}',
+        f'  long: {{parent: {"b" * 40}, kind: link, authority: {"c" * 40}, note: "a: b",',
+        "    xyz: [0.0, 1.5, 2.0]}",
+        "  bare: {}",
+    ]
+    read = yaml.safe_load(f"rows:\n{text}")["rows"]
+    assert read["long"] == {**row, "xyz": [0.0, 1.5, 2.0]}

@@ -144,7 +144,7 @@ def test_a_package_that_would_grow_is_refused(main: Package) -> None:
     deep = "[" * 5000 + "]" * 5000
     for text in (bomb, deep, "a: [", "!!python/object:os.system {}"):
         with pytest.raises(FactsError, match=r"config/camera\.yaml: "):
-            facts_of({**main.files, "config/camera.yaml": text})
+            facts_of({**main.files, "config/drivers.yaml": text})
 
 
 def test_a_missing_or_broken_file_is_told_by_name(main: Package) -> None:

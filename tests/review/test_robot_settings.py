@@ -1,4 +1,4 @@
-"""What people tell a robot, and how fast it servos, is graded by itself: each is in `gates.json` or a file alone."""
+"""What people set in a robot, and how fast it servos, is graded by itself: the contract or one file has each."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from cellc.contract.gates import GATES
 from cellc.tools.review.compare import changes_between
-from cellc.tools.review.facts import Facts, FactsError, facts_of
+from cellc.tools.review.facts import CONTRACT, Facts, FactsError, facts_of
 from tests.cells import generated
 
 _SETTINGS = {
@@ -38,9 +38,9 @@ def _graded(files: dict[str, str], path: str, before: str, after: str) -> list[t
 
 
 def _with_setting(files: dict[str, str], sets: str, name: str, value: str) -> Facts:
-    gates = json.loads(files[GATES])
-    gates["settings"] = [{"gate": "G5", "sets": sets, "device": "arm", "values": {name: value}}]
-    return facts_of({**files, GATES: json.dumps(gates)})
+    contract = json.loads(files[CONTRACT])
+    contract["gates"]["settings"] = [{"gate": "G5", "sets": sets, "device": "arm", "values": {name: value}}]
+    return facts_of({**files, CONTRACT: json.dumps(contract)})
 
 
 @pytest.mark.parametrize("quantity", _SETTINGS)
@@ -57,20 +57,24 @@ def test_another_unit_of_the_same_figure_is_no_change(files: dict[str, str]) -> 
 
 
 def test_a_version_that_is_no_longer_fit_is_dangerous(files: dict[str, str]) -> None:
-    gates = json.loads(files[GATES])
-    known = next(pin for pin in gates["versions"] if pin["answer"] == "OK")
+    contract = json.loads(files[CONTRACT])
+    known = next(pin for pin in contract["gates"]["versions"] if pin["answer"] == "OK")
     known["answer"] = "INCOMPATIBLE"
-    (change,) = changes_between(facts_of(files), facts_of({**files, GATES: json.dumps(gates)}))
+    (change,) = changes_between(facts_of(files), facts_of({**files, CONTRACT: json.dumps(contract)}))
     assert (str(change.grade), change.quantity) == ("dangerous", "compatibility matrix")
 
 
 def test_a_package_without_gates_as_data_is_compared_by_its_checklists(files: dict[str, str]) -> None:
-    older = {path: text for path, text in files.items() if path != GATES}
+    contract = json.loads(files[CONTRACT])
+    gates = contract.pop("gates")
+    older = {**files, CONTRACT: json.dumps(contract)}
     assert not changes_between(facts_of(older), facts_of(files))
+    # Between the two, a file of its own had them.
+    assert not changes_between(facts_of({**older, GATES: json.dumps({"format": 1, **gates})}), facts_of(files))
 
 
 def test_settings_of_a_folder_are_read_as_untrusted(files: dict[str, str]) -> None:
-    with pytest.raises(FactsError, match=r"gates/gates\.json: `settings"):
+    with pytest.raises(FactsError, match=r"contract\.json: `gates\.settings"):
         _with_setting(files, "firmware", "version", "1")
 
 

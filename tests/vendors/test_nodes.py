@@ -69,8 +69,7 @@ def test_nobody_waits_for_what_no_node_of_the_cell_has(case: Case) -> None:
 def test_a_node_is_given_only_parameters_that_its_program_reads(case: Case) -> None:
     target = real_target(case)
     for node in _started(target):
-        path = f"config/{node.get('name')}.yaml"
-        (given,) = (section["ros__parameters"] for section in target.yaml(path).values())
+        given = target.yaml("config/drivers.yaml")[node.get("name")]["ros__parameters"]
         assert set(given) <= set(_told(case)[node.get("exec", "")]["parameters"])
 
 

@@ -70,11 +70,11 @@ def test_the_camera_is_told_the_exposure_and_the_serial_that_the_spec_states(tmp
     # realsense2_camera: a serial of digits alone becomes an integer and fails; the node cuts the underscore off.
     model = "    model: realsense_d435i\n"
     text = spec_text("ur5e_pick").replace(model, f'{model}    serial: "123456"\n')
-    given = safe_load(emitted(tmp_path, text)["config/camera.yaml"])["camera"]["ros__parameters"]
+    given = safe_load(emitted(tmp_path, text)["config/drivers.yaml"])["camera"]["ros__parameters"]
     assert given["serial_no"] == "_123456"
     assert given["rgb_camera"]["enable_auto_exposure"] is given["depth_module"]["enable_auto_exposure"] is False
     assert (given["rgb_camera"]["exposure"], given["depth_module"]["exposure"]) == (80, 8000)  # 8 ms
-    untold = safe_load(artifacts_of("ur5e_pick")["config/camera.yaml"])["camera"]["ros__parameters"]
+    untold = safe_load(artifacts_of("ur5e_pick")["config/drivers.yaml"])["camera"]["ros__parameters"]
     assert "serial_no" not in untold
 
 

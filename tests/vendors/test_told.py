@@ -35,7 +35,7 @@ def test_a_program_of_the_driver_is_told_to_plugin_and_helper_and_needs_remote_c
     texts = _ways(tmp_path, "program: {played_by: driver, mode: remote}")
     robot = ElementTree.fromstring(texts["urdf/ur5e_pick.real.urdf"])
     assert [one.text for one in robot.iter("param") if one.get("name") == "headless_mode"] == ["true"]
-    helper = safe_load(texts["config/arm_state_helper.yaml"])["arm_state_helper"]["ros__parameters"]
+    helper = safe_load(texts["config/drivers.yaml"])["arm_state_helper"]["ros__parameters"]
     assert helper["headless_mode"] is True
     gates = texts["gates/promotion.md"]
     assert "When the driver starts, it stops any program on the robot" in _gate(gates, "G3")

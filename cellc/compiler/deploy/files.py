@@ -39,19 +39,16 @@ SOURCES = "sources.repos"
 RVIZ = "config/cell.rviz"
 """What RViz shows of the cell."""
 
-QOS_OVERRIDES = "config/qos_overrides.yaml"
-"""QoS of the nodes that the spec names."""
+NODES, DRIVERS = "config/nodes.yaml", "config/drivers.yaml"
+"""Parameters of nodes, each under its name; what only real hardware starts apart, so that no mock gets an address."""
 
 JOINT_LIMITS = "config/joint_limits.yaml"
 CONTROLLERS = "config/moveit/controllers.yaml"
 PARAMETER_FILES = (
     "config/moveit/kinematics.yaml",
     JOINT_LIMITS,
-    "config/moveit/cartesian_limits.yaml",
-    "config/moveit/planning_pipelines.yaml",
     CONTROLLERS,
-    "config/moveit/trajectory_execution.yaml",
-    "config/moveit/planning_scene.yaml",
+    "config/moveit/move_group.yaml",
 )
 """In the order in which move_group is given them."""
 
@@ -82,8 +79,8 @@ def controllers_file(cell: Cell, manager: ControllerManager, target: str) -> str
 
 
 def node_file(node: Node) -> str:
-    """Return the path of a node's parameter file; None for a node without parameters."""
-    return f"config/{node.full_name.lstrip('/').replace('/', '.')}.yaml"
+    """Return the path of the file with the parameters of a node, where it has any."""
+    return DRIVERS if node.real_only else NODES
 
 
 def parameter_files(cell: Cell, target: str) -> tuple[str, ...]:

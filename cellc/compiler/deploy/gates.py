@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from string import Formatter
@@ -43,12 +43,14 @@ _STARTS = ("ros2 launch ", "ros2 bag record ")
 class Check:
     """One line to tick; ``commands`` read and never change anything at the cell, or start what its gate releases.
 
-    ``setting`` is what it has set in a robot.
+    ``setting`` is what it has set in a robot. ``traced`` commands are printed above their answers, which tells these
+    apart.
     """
 
     text: str
     commands: tuple[str, ...] = ()
     setting: GateSetting | None = None
+    traced: bool = False
 
     @property
     def starts(self) -> bool:
@@ -87,9 +89,13 @@ class Gate:
 
 
 class Line(CatalogModel):
-    """A text that is written once for each subject, with its commands."""
+    """A text that is written once for each subject, with its commands.
+
+    Where ``first`` is stated, it is a line with the commands of all of them, before their texts.
+    """
 
     of: str = CELL
+    first: Text | None = None
     text: Text
     each: str | None = None
     run: tuple[Text, ...] = ()
@@ -105,7 +111,8 @@ class Line(CatalogModel):
     def _names_its_subject(self) -> Line:
         of_text = {*FIELDS[CELL], *FIELDS[self.of]}
         of_commands = {*of_text, *FIELDS[self.each or CELL]}
-        for text, known in ((self.text, of_text), *((command, of_commands) for command in self.run)):
+        texts = ((self.first or "", {*FIELDS[CELL]}), (self.text, of_text))
+        for text, known in (*texts, *((command, of_commands) for command in self.run)):
             unknown = {name for _, name, _, _ in Formatter().parse(text) if name is not None} - known
             if unknown:
                 raise ValueError(f"`{self.of}` has no {', '.join(sorted(unknown))}")
@@ -126,9 +133,22 @@ class GateText(CatalogModel):
     measured: tuple[Text, ...] = ()
 
 
-class GateTexts(CatalogModel):
-    """All gates: from the powered-off manifest to a trajectory, and from the cable to the command path."""
+class PageText(CatalogModel):
+    """What the page of several gates begins with."""
 
+    title: Text
+    text: Text
+
+
+class GateTexts(CatalogModel):
+    """All gates: from the powered-off manifest to a trajectory, and from the cable to the command path.
+
+    ``usage`` is on each page below its own text, ``result`` the line that ends each gate.
+    """
+
+    pages: Mapping[str, PageText]
+    usage: Text
+    result: Text
     promotion: tuple[GateText, ...]
     network: tuple[GateText, ...]
 
@@ -181,6 +201,16 @@ def _owners(graph: CellGraph) -> Mapping[str, str]:
 
 
 def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
+    checks = tuple(_each(line, graph, base))
+    commands = tuple(command for check in checks for command in check.commands)
+    if line.first is None or len(commands) < 2:
+        yield from checks
+        return
+    yield Check(_said(line.first, base), commands, traced=True)
+    yield from (replace(check, commands=()) for check in checks)
+
+
+def _each(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
     repeated = tuple(_rows(line.each or CELL, graph, base["gate"]))
     for row in _rows(line.of, graph, base["gate"]) if repeated else ():
         filled = {**base, **row}

@@ -9,60 +9,59 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.artifact import Artifact
-from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.frame import Frame
+from cellc.compiler.cell.interface import ParameterValue
+from cellc.compiler.cell.site import Calibration
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.formats.numbers import rounded
-from cellc.compiler.formats.yaml_text import Tree, render
+from cellc.compiler.formats.yaml_text import render_rows
 from cellc.compiler.graph.cell_graph import CellGraph
+
+Row = dict[str, ParameterValue]
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the frame tree."""
-    calibrations: Tree = {"calibrations": {name: _calibration(graph.cell, name) for name in graph.cell.calibrations}}
-    frames: Tree = {"frames": {frame.name: _frame(frame) for frame in graph.cell.frames}}
+    calibrations = {name: _calibration(calibration) for name, calibration in graph.cell.calibrations.items()}
+    frames = {frame.name: _frame(frame) for frame in graph.cell.frames}
     sections = (
-        "# calibrations\n",
-        render(calibrations),
-        "\n# frames, devices with their mounts, scene\n",
-        render(frames),
+        f"# {origin}\n{key}:\n{render_rows(rows, 1)}"
+        for key, origin, rows in (
+            ("calibrations", "calibrations", calibrations),
+            ("frames", "frames, devices with their mounts, scene", frames),
+        )
+        if rows
     )
-    yield Artifact("config/frames.yaml", plan.header.commented("#") + "".join(sections))
+    yield Artifact("config/frames.yaml", plan.header.commented("#") + "\n".join(sections))
 
 
-def _calibration(cell: Cell, name: str) -> Tree:
-    stated = cell.calibrations[name]
-    samples = {} if stated.samples is None else {"samples": stated.samples}
-    residual = {} if stated.residual_m is None else {"residual_m": stated.residual_m}
-    return {
-        "revision": stated.revision,
-        "measured": stated.measured,
-        "method": stated.method,
-        **samples,
-        **residual,
-        "owner": stated.owner,
-        **({} if stated.file is None else {"file": stated.file.path, "sha256": stated.file.sha256}),
-    }
+def _calibration(calibration: Calibration) -> Row:
+    file = calibration.file
+    return _stated(
+        revision=calibration.revision,
+        measured=calibration.measured,
+        method=calibration.method,
+        samples=calibration.samples,
+        residual_m=calibration.residual_m,
+        owner=calibration.owner,
+        file=None if file is None else file.path,
+        sha256=None if file is None else file.sha256,
+    )
 
 
-def _frame(frame: Frame) -> Tree:
-    calibration = {} if frame.calibration is None else {"calibration": frame.calibration}
-    rate = {} if frame.rate_hz is None else {"rate_hz": frame.rate_hz}
-    buffer = {} if frame.buffer_s is None else {"buffer_s": frame.buffer_s}
-    parent = {"parent": frame.parent} if frame.parent else {}
-    return {
-        **parent,
-        "kind": frame.kind.value,
-        "authority": frame.authority,
-        **calibration,
-        **rate,
-        **buffer,
-        **_transform(frame),
-    }
+def _frame(frame: Frame) -> Row:
+    pose = frame.transform_to_parent if frame.parent else None
+    return _stated(
+        parent=frame.parent or None,
+        kind=frame.kind.value,
+        authority=frame.authority,
+        calibration=frame.calibration,
+        rate_hz=frame.rate_hz,
+        buffer_s=frame.buffer_s,
+        xyz=None if pose is None else tuple(map(rounded, pose.position)),
+        rpy=None if pose is None else tuple(map(rounded, pose.rpy())),
+    )
 
 
-def _transform(frame: Frame) -> Tree:
-    pose = frame.transform_to_parent
-    if pose is None or not frame.parent:
-        return {}
-    return {"xyz": tuple(map(rounded, pose.position)), "rpy": tuple(map(rounded, pose.rpy()))}
+def _stated(**values: ParameterValue | None) -> Row:
+    return {name: value for name, value in values.items() if value is not None}

@@ -88,10 +88,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     yield _joint_limits(cell, plan.header)
     for name, origin, parameters in (
         ("kinematics", _GROUPS, _kinematics(cell)),
-        ("cartesian_limits", ("motion",), _cartesian_limits()),
-        ("planning_pipelines", _GROUPS, _planning_pipelines(cell)),
-        ("trajectory_execution", control_path(cell), _trajectory_execution(cell)),
-        ("planning_scene", ("scene",), _planning_scene()),
+        ("move_group", ("motion",), _move_group(cell)),
     ):
         section = NodeParameters(ANY_NODE, origin, parameters)
         yield Artifact(f"config/moveit/{name}.yaml", parameter_file(plan.header, [section]))
@@ -144,6 +141,11 @@ def _kinematics(cell: Cell) -> Parameters:
         }
         parameters |= {f"{prefix}.{name}": value for name, value in solver.parameters.items()}
     return parameters
+
+
+def _move_group(cell: Cell) -> Parameters:
+    """Return pipelines, execution, scene and the limits of linear motion."""
+    return {**_planning_pipelines(cell), **_trajectory_execution(cell), **_planning_scene(), **_cartesian_limits()}
 
 
 def _cartesian_limits() -> Parameters:

@@ -1,10 +1,10 @@
-"""``config/*.yaml``: ROS parameter files of controller managers, nodes and drivers, and the overrides of QoS.
+"""``config/*.yaml``: ROS parameter files of controller managers, nodes and drivers, and what an attempt records.
 
 ``controllers.yaml`` tells a manager its rate and the plugin of each controller, then each controller its parameters;
 there is one file for each manager (``<manager>.controllers.yaml`` where there are several, ``controllers.mock.yaml``
-and ``controllers.real.yaml`` where a controller commands real hardware otherwise) and one for each node, because each
-is read by another process. ``qos_overrides.yaml`` has the QoS of the contract with the names of rclcpp's
-QosOverridingOptions; a node whose author passed no such options ignores it without a word: gate L4 looks at what the
+and ``controllers.real.yaml`` where a controller commands real hardware otherwise). ``nodes.yaml`` has a section for
+each other node, ``drivers.yaml`` for each that only real hardware starts. Overrides of QoS have the names of rclcpp's
+QosOverridingOptions; a node whose author passed no such options ignores them without a word: gate L4 looks at what the
 endpoints really offer. ``recording_qos.yaml`` is the override file of rosbag2: what an attempt records, with the QoS
 that every publisher offers, below the command that records it; raw images on the control path are recorded only where
 the spec asks for them, since their volume belongs on another card. Left out: what is a matter of launching, such as
@@ -19,23 +19,22 @@ from collections.abc import Iterator
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
-from cellc.compiler.cell.interface import NodeSource, ParameterValue
+from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.files import QOS_OVERRIDES, RECORDING, control_path, controllers_file, node_file
+from cellc.compiler.deploy.files import DRIVERS, NODES, RECORDING, control_path, controllers_file, node_file
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.formats.header import Header
-from cellc.compiler.formats.parameter_file import NodeParameters, parameter_file, qos_parameters
-from cellc.compiler.formats.yaml_text import Tree, render
+from cellc.compiler.formats.parameter_file import NodeParameters, node_parameters, parameter_file
+from cellc.compiler.formats.yaml_text import render_rows
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.entities import TARGETS, Qos, Target
 from cellc.contract.vocabulary import Feature, features
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
-    """Yield the files of controller managers, of nodes, of QoS overrides, and of the recording."""
+    """Yield the files of controller managers, of nodes, and of the recording."""
     yield from _of_managers(graph, plan.header)
     yield from _of_nodes(graph, plan.header)
-    yield from _qos_overrides(graph, plan.header)
     yield _recording(graph, plan)
 
 
@@ -76,33 +75,24 @@ def _of_controller(manager: ControllerManager, controller: Controller, target: T
 
 
 def _of_nodes(graph: CellGraph, header: Header) -> Iterator[Artifact]:
-    for node in graph.cell.nodes:
-        if node.parameters:
-            section = NodeParameters(node.full_name, node.path, node.parameters)
-            yield Artifact(node_file(node), parameter_file(header, [section]))
-
-
-def _qos_overrides(graph: CellGraph, header: Header) -> Iterator[Artifact]:
-    sections = [
-        NodeParameters(node.full_name, node.path, parameters)
-        for node in graph.cell.nodes
-        if node.source is NodeSource.SPEC and (parameters := qos_parameters(graph.cell, node))
-    ]
-    if sections:
-        yield Artifact(QOS_OVERRIDES, parameter_file(header, sections))
+    for file in (NODES, DRIVERS):
+        nodes = (node for node in graph.cell.nodes if node_file(node) == file)
+        sections = [NodeParameters(node.full_name, node.path, node_parameters(graph.cell, node)) for node in nodes]
+        if any(section.parameters for section in sections):
+            yield Artifact(file, parameter_file(header, sections))
 
 
 def _recording(graph: CellGraph, plan: Deployment) -> Artifact:
     # As a comment, so that the override file says what it is used with; E is the folder of the attempt. Durations are
     # left at their defaults, which match any publisher.
     command = "# " + " \\\n#   ".join(record_command(graph.cell, "bag")) + "\n\n"
-    text = render({name: _profile(qos) for name, qos in plan.recorded.items()})
+    text = render_rows({name: _profile(qos) for name, qos in plan.recorded.items()})
     places = dict.fromkeys(("interfaces", ".".join(map(str, control_path(graph.cell))), "recording.topics"))
     origin = f"# {', '.join(places)}\n"
     return Artifact(RECORDING, plan.header.commented("#") + command + origin + text)
 
 
-def _profile(qos: Qos) -> Tree:
+def _profile(qos: Qos) -> dict[str, ParameterValue]:
     return {
         "history": "keep_last",
         "depth": qos.depth,

@@ -73,7 +73,6 @@ _FILES = (
     ("graph/nodes.svg", "node graph: each node once, with a list of the interfaces"),
     ("graph/responsibility.svg", "contract and owner of each arrow"),
     ("gates/promotion.md", "checklist of gates G0 to G7 for one attempt; `gates/network.md` has layers L1 to L6"),
-    ("gates/gates.json", "for programs: what the gates set in robots, and what is known about each version"),
     ("audit.md", "open questions, version tuple, command paths, expected nodes and interfaces, owners"),
     ("config/recording_qos.yaml", "topics that an attempt records, with their QoS and the command"),
     ("manifest.json", "version tuple, hash of every file, configuration ID"),

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import Node, ParameterValue
+from cellc.compiler.cell.interface import Node, NodeSource, ParameterValue
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.yaml_text import nested, render
 from cellc.contract.diagnostics import YamlPath
@@ -48,6 +48,12 @@ def _section(section: NodeParameters) -> str:
     plain = section.node.count("/") == 1 and section.node != ANY_NODE
     key = section.node.removeprefix("/") if plain else section.node
     return f"# {spec_path(section.origin)}\n" + render({key: {"ros__parameters": nested(section.parameters)}})
+
+
+def node_parameters(cell: Cell, node: Node) -> dict[str, ParameterValue]:
+    """Return the parameters of a node, with the QoS of the topics that the spec writes where it names the node."""
+    overrides = qos_parameters(cell, node) if node.source is NodeSource.SPEC else {}
+    return {**node.parameters, **overrides}
 
 
 def qos_parameters(cell: Cell, node: Node) -> dict[str, ParameterValue]:

@@ -1,4 +1,7 @@
-"""XML text from a tree: two spaces a level, one element a line, attributes in the order given."""
+"""XML text from a tree: two spaces a level, attributes in the order given.
+
+One element a line; an element with nothing but one other that takes a line shares it where both fit.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ from xml.etree.ElementTree import Element
 from cellc.contract.diagnostics.unsafe_text import HIDDEN, escaped_within
 
 _COMMENT = "!--"
+_WIDTH = 120
 _NO_CHARACTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -78,7 +82,9 @@ def _lines(node: Element, depth: int) -> Iterator[str]:
     if len(node) == 0:
         yield f"{indent}<{start}>{_escaped(node.text)}</{node.tag}>" if node.text else f"{indent}<{start}/>"
         return
-    yield f"{indent}<{start}>"
-    for child in node:
-        yield from _lines(child, depth + 1)
-    yield f"{indent}</{node.tag}>"
+    inner = [line for child in node for line in _lines(child, depth + 1)]
+    alone = f"{indent}<{start}>{inner[0].strip()}</{node.tag}>"
+    if len(inner) == 1 and len(alone) <= _WIDTH:
+        yield alone
+        return
+    yield from (f"{indent}<{start}>", *inner, f"{indent}</{node.tag}>")

@@ -18,6 +18,7 @@ from cellc.contract.diagnostics.unsafe_text import HIDDEN
 _Scalar = Union[bool, int, float, str]
 Tree = Mapping[str, Union[ParameterValue, "Tree", tuple["Tree", ...]]]
 
+_WIDTH = 120
 _PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
 # Texts that YAML 1.1 reads as a boolean or null, and strtod, which rcl_yaml_param_parser calls, as a number.
 _MISREAD = frozenset(("y", "yes", "n", "no", "true", "false", "on", "off", "null", "nan", "inf", "infinity"))
@@ -26,6 +27,29 @@ _MISREAD = frozenset(("y", "yes", "n", "no", "true", "false", "on", "off", "null
 def render(tree: Tree, depth: int = 0) -> str:
     """Write a mapping as block YAML, every level indented by two spaces; ends in a line break."""
     return "".join(f"{line}\n" for line in _mapping(tree, depth))
+
+
+def render_rows(rows: Mapping[str, Mapping[str, ParameterValue]], depth: int = 0) -> str:
+    """Write mappings of scalars and lists below their names, in flow style: one line, or a second with the lists."""
+    indent = "  " * depth
+    return "".join(
+        f"{line}\n" for name, row in rows.items() for line in _row(f"{indent}{scalar(name)}: {{", row, indent)
+    )
+
+
+def _row(start: str, row: Mapping[str, ParameterValue], indent: str) -> Iterator[str]:
+    entries = {key: f"{scalar(key)}: {_flow(value)}" for key, value in row.items()}
+    line = f"{start}{', '.join(entries.values())}}}"
+    if len(line) <= _WIDTH:
+        yield line
+        return
+    lists = [key for key, value in row.items() if isinstance(value, tuple)] or [*row][-1:]
+    yield f"{start}{', '.join(entries[key] for key in row if key not in lists)},"
+    yield f"{indent}  {', '.join(entries[key] for key in lists)}}}"
+
+
+def _flow(value: ParameterValue) -> str:
+    return f"[{', '.join(map(scalar, value))}]" if isinstance(value, tuple) else scalar(value)
 
 
 def scalar(value: _Scalar) -> str:
@@ -104,4 +128,4 @@ def _scalars(name: str, values: list[_Scalar], indent: str) -> Iterator[str]:
         yield name
         yield from (f"{indent}  - {scalar(value)}" for value in values)
     elif values:
-        yield f"{name} [{', '.join(scalar(value) for value in values)}]"
+        yield f"{name} {_flow(tuple(values))}"

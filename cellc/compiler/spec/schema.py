@@ -11,7 +11,6 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.base import DIALECT, Json, contract_schema
 from cellc.contract.contract import Contract
 from cellc.contract.fleet import Fleet
-from cellc.contract.gates import Gates
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import Rehearsals
 from cellc.contract.review import Review
@@ -43,7 +42,6 @@ def schema_files() -> Mapping[str, str]:
     contracts: tuple[tuple[str, type[BaseModel]], ...] = (
         ("contract", Contract),
         ("fleet", Fleet),
-        ("gates", Gates),
         ("manifest", Manifest),
         ("rehearsals", Rehearsals),
         ("review", Review),

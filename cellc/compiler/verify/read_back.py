@@ -23,7 +23,6 @@ from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import Meant
 from cellc.contract.base import contract_schema
 from cellc.contract.contract import Contract
-from cellc.contract.gates import GATES, Gates
 from cellc.contract.manifest import Manifest
 from cellc.contract.rehearsals import Rehearsals
 
@@ -32,7 +31,6 @@ _YAML = (".yaml", ".yml", ".repos", ".rviz")
 
 _MODELS: Mapping[str, type[BaseModel]] = {
     "contract.json": Contract,
-    GATES: Gates,
     "manifest.json": Manifest,
     "rehearsals.json": Rehearsals,
 }

@@ -40,6 +40,17 @@ OF_SPEC = ("spec", "area", "frame", "device", "excused")
 """First parts of the paths of what a spec says and a package does not."""
 OF_GATES = ("check", "matrix")
 """First parts of the paths of what the gates have as data."""
+_XML = (".xml", ".urdf", ".srdf", ".svg")
+_ANY_NODE = "/**"
+_MOVEIT = "config/moveit"
+_OLDER = dict.fromkeys(
+    (
+        f"{_MOVEIT}/{name}.yaml"
+        for name in ("planning_pipelines", "trajectory_execution", "planning_scene", "cartesian_limits")
+    ),
+    f"{_MOVEIT}/move_group.yaml",
+)
+"""Files of packages that an older cellc wrote, and where their values are now."""
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
@@ -83,7 +94,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         FactsError: a file is missing or not what its name says.
     """
     contract, manifest = _model(files, CONTRACT, Contract), _model(files, MANIFEST, Manifest)
-    gates = _model(files, GATES, Gates) if GATES in files else None
+    gates = contract.gates or (_model(files, GATES, Gates) if GATES in files else None)
     named = contract.files
     real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
     read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up, POLICY, COMMON}
@@ -109,10 +120,11 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
     for path in sorted(files.keys() - read):
         if path.endswith((".yaml", ".json")):
             read.add(path)
-            leaves.update(flatten(_loaded(path, files[path]), of_manager.get(path, ("file", path))))
+            data = _loaded(path, files[path])
+            leaves.update(flatten(data, of_manager.get(path) or _place(path, data)))
     known_files = {named.urdf_real: "urdf/real", named.urdf_mock: "urdf/mock", named.srdf: "config/moveit/srdf"}
     lines = {
-        known_files.get(path, path): _lines(files[path], is_srdf=path == named.srdf)
+        known_files.get(path, path): _lines(path, files[path], is_srdf=path == named.srdf)
         for path in sorted(files.keys() - read)
     }
     edited = {path for path, known in manifest.files.items() if path in files and _sha256(files[path]) != known}
@@ -123,8 +135,10 @@ def _sha256(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _lines(text: str, *, is_srdf: bool) -> tuple[str, ...]:
-    lines = (line.strip() for line in text.split("\n"))
+def _lines(path: str, text: str, *, is_srdf: bool) -> tuple[str, ...]:
+    # One tag a line, however an XML file is laid out.
+    apart = re.sub(r">\s*<", ">\n<", text) if path.endswith(_XML) else text
+    lines = (line.strip() for line in apart.split("\n"))
     return tuple(line for line in lines if line and not (is_srdf and line.startswith("<disable_collisions ")))
 
 
@@ -161,6 +175,14 @@ def _loaded(path: str, text: str) -> Json:
         raise FactsError(f"{path}: is not YAML that cellc writes: {reason}") from None
 
 
+def _place(path: str, data: Json) -> Path:
+    """Return the path that the values of a file are compared under: parameters by node, whatever file has them."""
+    sections = [*data.values()] if isinstance(data, dict) and _ANY_NODE not in data else []
+    if sections and all(isinstance(section, dict) and "ros__parameters" in section for section in sections):
+        return "parameters", "nodes"
+    return "file", _OLDER.get(path, path)
+
+
 def _plain(value: object) -> Json:
     """Return what was loaded with every key as text, and every other kind of scalar, such as a date, too."""
     if isinstance(value, dict):
@@ -191,7 +213,7 @@ def _of_contract(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
             yield from flatten(_dumped(controller), ("controller", name))
             yield ("controller", name, "manager"), of
         yield from flatten({**_dumped(manager), "controllers": None}, ("manager", of))
-    for key in ("managers", "configuration_id", "format"):
+    for key in ("managers", "configuration_id", "format", "gates"):
         del data[key]
     for name, inner in data.items():
         yield from flatten(inner, ("contract", name))

@@ -24,6 +24,7 @@ from cellc.tools.review.rules import Row
 
 _A = ReviewArea
 
+_MOVE_GROUP = "file config/moveit/move_group.yaml {_} ros__parameters"
 _BURNS = "a tool with a lower rating is destroyed"
 _MEET = "arms may meet in it"
 _OTHER = "another device may answer at this address"
@@ -123,9 +124,12 @@ ROWS: Sequence[Row] = (
         "contract poses {pose} {group} positions",
         Graded(_A.MOTION, "joint positions", unit="joint", why=PLANNED),
     ),
-    Row("file config/moveit/cartesian_limits.yaml ...", Graded(_A.LIMITS, "Cartesian limit", Rule.MORE, why=FURTHER)),
-    Row("file config/moveit/planning_pipelines.yaml ...", Graded(_A.MOTION, "planning", why=PLANNED)),
-    Row("file config/moveit/trajectory_execution.yaml ...", Graded(_A.MOTION, "execution")),
+    Row(
+        f"{_MOVE_GROUP} robot_description_planning ...",
+        Graded(_A.LIMITS, "Cartesian limit", Rule.MORE, why=FURTHER),
+    ),
+    Row(f"{_MOVE_GROUP} trajectory_execution ...", Graded(_A.MOTION, "execution")),
+    Row(f"{_MOVE_GROUP} ...", Graded(_A.MOTION, "planning", why=PLANNED)),
     # What others rely on.
     # What it is made of, and where it runs.
     Row("matrix {part}", Graded(_A.VERSIONS, "compatibility matrix", Rule.MATRIX)),
@@ -163,12 +167,12 @@ ROWS: Sequence[Row] = (
         "file config/uncertainty.json expected {rehearsal} confidence",
         Graded(_A.REHEARSALS, "required confidence", Rule.FEWER),
     ),
-    Row("file config/uncertainty.json quantities {quantity} {what}", Graded(_A.REHEARSALS, "sweep quantity:")),
-    Row("file config/uncertainty.json ...", Graded(_A.REHEARSALS, "sweep")),
-    Row("spec recording ...", Graded(_A.FIGURES, "recording", ordered=False)),
-    Row("file config/recording_qos.yaml ...", Graded(_A.FIGURES, "recording")),
-    Row("file config/moveit/kinematics.yaml ...", Graded(_A.MOTION, "inverse kinematics")),
-    Row("file config/moveit/planning_scene.yaml ...", Graded(_A.MOTION, "planning scene")),
+    Row(
+        f"{_MOVE_GROUP} robot_description_planning ...",
+        Graded(_A.LIMITS, "Cartesian limit", Rule.MORE, why=FURTHER),
+    ),
+    Row(f"{_MOVE_GROUP} trajectory_execution ...", Graded(_A.MOTION, "execution")),
+    Row(f"{_MOVE_GROUP} ...", Graded(_A.MOTION, "planning", why=PLANNED)),
     Row(
         "file {_} {_} ros__parameters moveit_simple_controller_manager {controller} {what}",
         Graded(_A.CONTROL, "parameter in MoveIt's controller list:"),
@@ -202,7 +206,7 @@ FOLLOWS: Sequence[str] = (
     "step real {step} after",
     "contract clock_of ...",
     "file config/joint_limits.yaml ...",
-    "file config/qos_overrides.yaml ...",
+    "parameters nodes {node} ros__parameters qos_overrides ...",
     "file config/recording_qos.yaml ...",
     "file config/uncertainty.json quantities ...",
     "file config/moveit/controllers.yaml ...",

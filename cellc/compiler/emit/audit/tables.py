@@ -10,7 +10,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
 from cellc.compiler.cell.stops import effect_of, stops_of
 from cellc.compiler.cell.vendor import RecordSource
-from cellc.compiler.deploy.files import QOS_OVERRIDES, controllers_file, is_planner, parameter_files, plans
+from cellc.compiler.deploy.files import controllers_file, is_planner, node_file, parameter_files, plans
 from cellc.compiler.deploy.labels import (
     ON_TARGET,
     failure_label,
@@ -27,7 +27,7 @@ from cellc.compiler.deploy.watches import heard
 from cellc.compiler.formats.escape import code
 from cellc.compiler.formats.markdown_table import TableCell, table
 from cellc.compiler.formats.numbers import shortest
-from cellc.compiler.formats.parameter_file import qos_parameters
+from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER
 from cellc.contract.vocabulary import InterfaceKind, LeftBy, Moment
@@ -290,8 +290,8 @@ def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
     if node.source is NodeSource.STANDARD:
         return ("robot_description", "publish_frequency")
     planned = ("robot_description", "robot_description_semantic", *parameter_files(cell, "real"))
-    overrides = (QOS_OVERRIDES,) if node.source is NodeSource.SPEC and qos_parameters(cell, node) else ()
-    return (*node.parameters, *(planned if is_planner(node) and plans(cell) else ()), *overrides)
+    own = (node_file(node),) if node_parameters(cell, node) else ()
+    return (*(planned if is_planner(node) and plans(cell) else ()), *own)
 
 
 def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:

@@ -29,7 +29,9 @@ from cellc.compiler.emit.contract.motion import (
 from cellc.compiler.emit.contract.uncertainty import uncertainty
 from cellc.compiler.formats.json_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.versions import compatibility
 from cellc.contract.contract import Contract, ContractFiles, ContractSafety
+from cellc.contract.gates import Gates, GateSetting, PinAnswer
 from cellc.contract.uncertainty import UNCERTAINTY_FILE
 
 
@@ -72,6 +74,7 @@ def _contract(graph: CellGraph, plan: Deployment) -> Contract:
         safety=_safety(cell),
         kpis=cell.kpis,
         attempt_fields=cell.recording.attempt_fields,
+        gates=_gates(cell, plan),
     )
 
 
@@ -86,6 +89,18 @@ def _files(cell: Cell) -> ContractFiles:
         bring_up=BRING_UP,
         packages=tuple(os.path.relpath(folder, beside).replace(os.sep, "/") for folder in cell.packages),
     )
+
+
+def _gates(cell: Cell, plan: Deployment) -> Gates:
+    checks = [check for gate in (*plan.promotion, *plan.network) for check in gate.checks]
+    settings = list[GateSetting]()
+    for setting in (check.setting for check in checks if check.setting is not None):
+        settings += () if setting in settings else (setting,)
+    versions = tuple(
+        PinAnswer(holder=judged.pin.holder, part=judged.pin.part, answer=judged.answer.value, reason=judged.evidence)
+        for judged in compatibility(cell)
+    )
+    return Gates(settings=tuple(settings), versions=versions)
 
 
 def _safety(cell: Cell) -> ContractSafety:

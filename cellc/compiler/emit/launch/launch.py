@@ -4,8 +4,10 @@ Launch XML for ``ros2 launch``, Humble to Lyrical: only actions and substitution
 ``cell.launch.xml`` discovers, configures and observes, and on the mock claims; it enables no drive and starts no motion
 client, on any target. With several hosts it includes the file of the host in its argument. On the real target a person
 releases ``activate.launch.xml`` (self-moving hardware) and ``claim.launch.xml``. ``move.launch.xml`` starts motion
-clients. Each has a gate on the real target: an argument without a default and with one choice. Left out: enabling,
-which is a step of the vendor's procedure.
+clients. Each has a gate on the real target: an argument without a default and with one choice. Where the mock passes
+too, the argument is declared again under the condition of the real target: launch checks a value at each declaration
+(launch/actions/declare_launch_argument.py of Humble to Lyrical). Left out: enabling, which is a step of the vendor's
+procedure.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.first_goal import NODE, FirstGoal, first_goals
 from cellc.compiler.deploy.processes import started_by_a_person
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, GOAL, MOVE, START, Release
-from cellc.compiler.emit.launch.processes import HOST, ON_REAL, enclave, moving_node, on_host, share
+from cellc.compiler.emit.launch.processes import ON_REAL, enclave, moving_node, on_host, share
 from cellc.compiler.emit.launch.stages import before_motion, bring_up, programs_and_plan, stages
 from cellc.compiler.formats.escape import launch_text, launch_words
 from cellc.compiler.formats.header import Header
@@ -42,14 +44,11 @@ _NOT_YET = "no"
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
-    """Yield the launch files, the gates before their real targets, and what their steps wait for."""
+    """Yield the launch files, and what their steps wait for."""
     cell = graph.cell
     yield _file(plan.header, _CELL, _by_host(cell, plan.hosts) if plan.hosts else _whole(cell, plan))
     for host in plan.hosts:
-        actions = [*_arguments(cell), *_gate(cell, {"host": host}), *stages(cell, plan, host)]
-        yield _file(plan.header, _host_file(host), actions)
-    demanded = [_stated_host_argument(plan.hosts)] if plan.hosts else []
-    yield _file(plan.header, _gate_file(START), [_gate_argument(START), *demanded])
+        yield _file(plan.header, _host_file(host), [*_arguments(cell), *_gate(START), *stages(cell, plan, host)])
     yield from programs_and_plan(cell, plan)
     released = phases(plan.bring_up, "real")
     for release, phase in ((ACTIVATE, BringUpPhase.ACTIVATE), (CLAIM, BringUpPhase.CLAIM)):
@@ -60,15 +59,10 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         yield _file(plan.header, f"launch/{GOAL.file}.launch.xml", _sending(cell, goals))
     if plan.motion_clients:
         yield _file(plan.header, _MOVE, _moving(cell, plan))
-        yield _file(plan.header, _gate_file(MOVE), [_gate_argument(MOVE)])
 
 
 def _file(header: Header, path: str, actions: Iterator[Element] | list[Element]) -> Artifact:
     return Artifact(path, render(element("launch", _VERSION, actions), header.text))
-
-
-def _gate_file(release: Release) -> str:
-    return f"launch/{'real' if release is START else release.file}_gate.launch.xml"
 
 
 def _released(cell: Cell, release: Release, phase: BringUpPhase, devices: tuple[str, ...]) -> Iterator[Element]:
@@ -99,21 +93,23 @@ def _arguments(cell: Cell) -> Iterator[Element]:
     yield from _address_arguments(cell)
 
 
-def _gate(cell: Cell, more: dict[str, str]) -> Iterator[Element]:
-    yield comment("gate before real hardware: nothing below starts until a person confirms it")
-    yield _include(cell, _gate_file(START), {START.argument: f"$(var {START.argument})"} | more, {"if": ON_REAL})
+def _gate(release: Release, *more: Element) -> Iterator[Element]:
+    yield comment("gate before real hardware: nothing below starts there until a person confirms it")
+    for argument in (_gate_argument(release), *more):
+        argument.set("if", ON_REAL)
+        yield argument
 
 
 def _whole(cell: Cell, plan: Deployment) -> Iterator[Element]:
     yield from _arguments(cell)
-    yield from _gate(cell, {})
+    yield from _gate(START)
     yield from stages(cell, plan, None)
 
 
 def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
     yield from _arguments(cell)
     yield _host_argument(hosts)
-    yield from _gate(cell, {"host": HOST})
+    yield from _gate(START, _stated_host_argument(hosts))
     yield comment("the part of each computer; its steps wait for the others")
     passed = {name: f"$(var {name})" for name in ("target", START.argument, *addresses(cell))}
     for host in hosts:
@@ -131,8 +127,7 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
     yield _release_argument(MOVE)
     if plan.hosts:
         yield _host_argument(plan.hosts)
-    yield comment("gate before motion on real hardware: nothing below starts until a person confirms it")
-    yield _include(cell, _gate_file(MOVE), {MOVE.argument: f"$(var {MOVE.argument})"}, {"if": ON_REAL})
+    yield from _gate(MOVE)
     yield comment("motion clients: each waits for claims, actions and states; on the mock also for the mock")
     for node in plan.motion_clients:
         if started_by_a_person(cell, node):

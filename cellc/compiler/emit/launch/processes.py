@@ -11,10 +11,9 @@ from xml.etree.ElementTree import Element
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
-from cellc.compiler.cell.interface import Node, NodeSource
+from cellc.compiler.cell.interface import Node
 from cellc.compiler.cell.robot import HostProgram
 from cellc.compiler.deploy.files import (
-    QOS_OVERRIDES,
     REQUIRED_PROGRAM,
     controllers_file,
     description_file,
@@ -31,7 +30,7 @@ from cellc.compiler.deploy.labels import TF_RATE_HZ
 from cellc.compiler.deploy.spawning import spawnings
 from cellc.compiler.formats.escape import launch_text, launch_words
 from cellc.compiler.formats.numbers import decimal
-from cellc.compiler.formats.parameter_file import qos_parameters
+from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.formats.xml_text import element
 from cellc.compiler.graph.enclaves import enclave_of, manager_enclave, spawner_enclave
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
@@ -151,10 +150,8 @@ def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
         yield element("param", {"name": "robot_description_semantic", "value": semantic, "type": "str"})
         files = parameter_files(cell, TARGET) if is_planner(node) else servo_files(cell)
         yield from (element("param", {"from": share(cell, file)}) for file in files)
-    if node.parameters:
+    if node_parameters(cell, node):
         yield element("param", {"from": share(cell, node_file(node))})
-    if node.source is NodeSource.SPEC and qos_parameters(cell, node):
-        yield element("param", {"from": share(cell, QOS_OVERRIDES)})
     if node.clock == "sim":
         yield element("param", {"name": "use_sim_time", "value": "true"})
     yield from remaps(node)
