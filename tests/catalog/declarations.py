@@ -21,7 +21,6 @@ DECLARATIONS = {
 
 
 def upstream_parameters(kind: str, distro: Distro) -> dict[str, Declaration]:
-    """Return the declaration of each parameter of a kind, by its name with dots."""
     file = DECLARATIONS[kind]
     if kind == "parallel_gripper" and distro == "humble":
         file = "gripper_controllers__gripper_action_controller"

@@ -31,7 +31,7 @@ from tests.consumers.starting import CONFIRMED
 from tests.deploy.test_unknown_effects import _SPEC as SILENT
 from tests.feasibility.test_kept_answers import LARGE, SMALL, _cube
 from tests.output.building import contents, staging_at_work
-from tests.store.test_leftovers import _meanwhile
+from tests.store.test_swap import _meanwhile
 
 _FOUND = "in-collision"
 

@@ -1,4 +1,4 @@
-"""Forward kinematics against pinocchio, which has its own reader and its own mathematics."""
+"""Forward kinematics against pinocchio, and joints that follow followers by hand."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import pytest
 
 from cellc.compiler.catalog.load import device_names, load_device
 from cellc.contract.transforms import Pose, identity
-from cellc.robot.description.model import Description, Joint
+from cellc.robot.description.model import Description, Joint, Mimic
 from cellc.robot.description.posture import farthest, posture
 from cellc.robot.description.urdf_reader import read_urdf
+from tests.cells import device_of, there
 
 # A slider, a mimic with offset, an axis that is no unit vector, and a turned joint frame.
 _ODD = """<robot name="odd"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
@@ -25,9 +26,7 @@ _ODD = """<robot name="odd"><link name="a"/><link name="b"/><link name="c"/><lin
 
 
 def _read(text: str) -> Description:
-    description = read_urdf(text, "odd.urdf", None).value
-    assert description is not None
-    return description
+    return there(read_urdf(text, "odd.urdf", None).value)
 
 
 def test_odd_joints_stand_where_pinocchio_has_them() -> None:
@@ -73,10 +72,55 @@ def _arms() -> list[str]:
 
 @pytest.mark.parametrize("name", _arms())
 def test_arm_of_the_catalog_reaches_what_its_vendor_says(name: str) -> None:
-    entry = load_device(name).value
-    assert entry is not None
-    assert entry.model.limits.reach is not None
-    assert entry.model.tool_frame is not None
-    reach = farthest(entry.description, entry.model.tool_frame, {})
+    entry = device_of(name)
+    reach = farthest(entry.description, there(entry.model.tool_frame), {})
     # Vendors measure to the wrist or to the flange; the tool frame lies at most a wrist beyond.
-    assert 0.95 <= reach / entry.model.limits.reach.value.si <= 1.3
+    assert 0.95 <= reach / there(entry.model.limits.reach).value.si <= 1.3
+
+
+Follows = dict[str, tuple[str, float, float]]
+
+
+def _direct(follows: Follows, *leaders: str) -> Follows:
+    joints = tuple(
+        Joint(name, "revolute", "base", f"{name}_link", identity(), (0.0, 0.0, 1.0), mimic=None) for name in leaders
+    ) + tuple(
+        Joint(name, "revolute", "base", f"{name}_link", identity(), (0.0, 0.0, 1.0), mimic=Mimic(*mimic))
+        for name, mimic in follows.items()
+    )
+    direct = Description(name="chain", links=(), joints=joints).with_direct_mimics()
+    assert [joint.name for joint in direct.joints] == [joint.name for joint in joints]
+    return {
+        joint.name: (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
+        for joint in direct.joints
+        if joint.mimic is not None
+    }
+
+
+@pytest.mark.parametrize(
+    ("follows", "direct"),
+    [
+        ({"b": ("a", 3.0, 0.5)}, {"b": ("a", 3.0, 0.5)}),
+        # c = 2 b + 0.1, b = 3 a + 0.5: c = 6 a + 1.1.
+        ({"c": ("b", 2.0, 0.1), "b": ("a", 3.0, 0.5)}, {"c": ("a", 6.0, 1.1), "b": ("a", 3.0, 0.5)}),
+        # d = -c + 1 = -6 a - 0.1.
+        (
+            {"b": ("a", 3.0, 0.5), "c": ("b", 2.0, 0.1), "d": ("c", -1.0, 1.0)},
+            {"b": ("a", 3.0, 0.5), "c": ("a", 6.0, 1.1), "d": ("a", -6.0, -0.1)},
+        ),
+        # Two that follow each other, and one that follows them, stay as they are.
+        (
+            {"b": ("c", 2.0, 0.0), "c": ("b", 0.5, 0.0), "d": ("c", 1.0, 0.0)},
+            {"b": ("c", 2.0, 0.0), "c": ("b", 0.5, 0.0), "d": ("c", 1.0, 0.0)},
+        ),
+        ({"b": ("b", 1.0, 0.2)}, {"b": ("b", 1.0, 0.2)}),
+        ({"b": ("nothing", 2.0, 0.2)}, {"b": ("nothing", 2.0, 0.2)}),
+    ],
+)
+def test_follower_of_a_follower_follows_the_first_leader(follows: Follows, direct: Follows) -> None:
+    found = _direct(follows, "a")
+    assert {name: leader for name, (leader, _, _) in found.items()} == {
+        name: leader for name, (leader, _, _) in direct.items()
+    }
+    for name, (_, multiplier, offset) in direct.items():
+        assert found[name][1:] == pytest.approx((multiplier, offset))

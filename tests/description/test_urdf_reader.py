@@ -1,14 +1,18 @@
-"""What the reader of URDF keeps, and what it refuses."""
+"""The one reader of URDF: what it takes, refuses, and changes to the letter."""
 
 from __future__ import annotations
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 
 from cellc.contract.diagnostics import Diagnostic, Span
-from cellc.robot.description.model import Box, Cylinder, Description, Mesh, Sphere
+from cellc.robot.description.model import Box, Cylinder, Description, HardwareInterface, Mesh, Sphere
 from cellc.robot.description.urdf_reader import read_urdf
+from cellc.robot.description.xml_tree import with_values
+from tests.cells import there
 from tests.properties import given, settings, st
 
 ROBOT = """<?xml version="1.0"?>
@@ -54,8 +58,7 @@ def _refused(body: str) -> Diagnostic:
 
 
 def test_shapes_keep_their_dimensions() -> None:
-    link = _read(ROBOT).link("a")
-    assert link is not None
+    link = there(_read(ROBOT).link("a"))
     assert [collision.geometry for collision in link.collisions] == [
         Box((1.0, 2.0, 3.0)),
         Cylinder(0.1, -1.0),
@@ -77,8 +80,7 @@ def test_what_is_wrong_survives_for_the_rules() -> None:
 
 
 def test_what_is_absent_takes_the_defaults_of_the_specification() -> None:
-    joint = _read(ROBOT).joint("k")
-    assert joint is not None
+    joint = there(_read(ROBOT).joint("k"))
     assert joint.axis == (1.0, 0.0, 0.0)
     assert joint.limit is None
     assert joint.mimic is not None
@@ -87,22 +89,19 @@ def test_what_is_absent_takes_the_defaults_of_the_specification() -> None:
 
 def test_absent_limits_are_none_and_not_zero() -> None:
     text = ROBOT.replace('lower="2" upper="-2" ', "")
-    joint = _read(text).joint("j")
-    assert joint is not None
+    joint = there(_read(text).joint("j"))
     assert joint.limit is not None
     assert (joint.limit.lower, joint.limit.upper, joint.limit.velocity) == (None, None, 1.0)
 
 
 def test_soft_limits_are_read() -> None:
-    joint = _read(ROBOT).joint("j")
-    assert joint is not None
+    joint = there(_read(ROBOT).joint("j"))
     assert joint.safety is not None
     assert (joint.safety.soft_lower, joint.safety.soft_upper, joint.safety.k_velocity) == (-1.0, 1.0, 20.0)
 
 
 def test_inertial_pose_turns_fixed_axes() -> None:
-    link = _read(ROBOT).link("a")
-    assert link is not None
+    link = there(_read(ROBOT).link("a"))
     assert link.inertial is not None
     assert link.inertial.pose.position == (1.0, 2.0, 3.0)
     assert link.inertial.pose.quaternion == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
@@ -119,10 +118,8 @@ def test_span_of_a_link_is_its_start_tag() -> None:
 def test_prefix_reaches_every_reference() -> None:
     renamed = _read(ROBOT).renamed("left_")
     assert [link.name for link in renamed.links] == ["left_a", "left_b", "left_c"]
-    joint = renamed.joint("left_k")
-    assert joint is not None
-    assert joint.mimic is not None
-    assert (joint.parent, joint.child, joint.mimic.joint) == ("left_b", "left_c", "left_nothing")
+    joint = there(renamed.joint("left_k"))
+    assert (joint.parent, joint.child, there(joint.mimic).joint) == ("left_b", "left_c", "left_nothing")
 
 
 def test_roots_are_the_links_that_are_nobodys_child() -> None:
@@ -241,3 +238,111 @@ def test_a_user_brings_no_text_that_is_evaluated_or_hidden_later(body: str, text
     assert {(found.code, found.span.line) for found in outcome.diagnostics} == {(code, 2)}
     # What hides text is no more welcome in a folder that somebody else generated.
     assert (read_urdf(urdf, "r.urdf").value is None) == (text.startswith("x&#x"))
+
+
+@pytest.mark.parametrize(
+    ("text", "changed"),
+    [
+        ('<r><mesh filename="a"/></r>', '<r><mesh filename="A"/></r>'),
+        (
+            "<r><mesh a='1'\n filename='a' /><mesh  filename = 'b'/></r>",
+            '<r><mesh a=\'1\'\n filename="A" /><mesh  filename = "B"/></r>',
+        ),
+        ('<r filename="a"><box/><mesh name="a"/></r>', '<r filename="a"><box/><mesh name="a"/></r>'),
+        (
+            '<!-- <mesh filename="a"/> --><mesh filename="a&amp;b"/>',
+            '<!-- <mesh filename="a"/> --><mesh filename="A&amp;B"/>',
+        ),
+        ("<mesh filename='A'>é</mesh>", "<mesh filename='A'>é</mesh>"),  # nothing to change, not even the quotes
+        ('<r>é<mesh filename="é"/>ü</r>', '<r>é<mesh filename="É"/>ü</r>'),
+    ],
+)
+def test_values_are_changed_in_their_places(text: str, changed: str) -> None:
+    assert with_values(text, "mesh", "filename", str.upper) == changed
+
+
+PACKAGE = Path(__file__).resolve().parents[2] / "cellc"
+READING = re.compile(r"\b(fromstring|parseString|iterparse|XMLParser|ParserCreate)\(|\b(minidom|ElementTree)\.parse\(")
+READERS = {
+    "robot/description/meshes.py",  # takes meshes out of a text that the reader has accepted
+    "robot/description/xacro_confinement.py",
+    "robot/description/xml_tree.py",
+    "compiler/verify/read_back.py",
+}
+
+
+def test_xml_is_read_in_one_place() -> None:
+    reading = {
+        file.relative_to(PACKAGE).as_posix()
+        for file in PACKAGE.rglob("*.py")
+        if READING.search(file.read_text(encoding="utf-8"))
+    }
+    assert reading == READERS
+
+
+COMPONENT = """<ros2_control name="arm_hw" type="system" rw_rate="50">
+    <hardware><plugin> mock_components/GenericSystem </plugin><param name="calculate_dynamics">true</param></hardware>
+    <joint name="slide">
+      <command_interface name="position"><param name="min">-1</param><param name="max">2</param></command_interface>
+      <state_interface name="position"><param name="initial_value">0.5</param></state_interface>
+      <limits enable="false"/>
+    </joint>
+    <sensor name="wrist"><state_interface name="force.x" data_type="float32"/></sensor>
+  </ros2_control>"""
+
+
+def described(hardware: str) -> Description:
+    """Return the model of a robot with one joint and the given hardware."""
+    read = read_urdf(
+        f"""<robot name="r"><link name="a"/><link name="b"/>
+        <joint name="slide" type="prismatic"><parent link="a"/><child link="b"/></joint>{hardware}</robot>""",
+        "robot_description",
+    )
+    return there(read.value)
+
+
+def test_component_is_read_with_its_parts() -> None:
+    (component,) = described(COMPONENT).hardware
+    assert (component.name, component.type, component.rw_rate) == ("arm_hw", "system", 50)
+    assert component.plugin == "mock_components/GenericSystem"
+    assert component.parameters == {"calculate_dynamics": "true"}
+    (joint,), (sensor,) = component.joints, component.sensors
+    assert joint.command_interfaces == (HardwareInterface("position", "double", "", "-1", "2"),)
+    assert joint.state_interfaces == (HardwareInterface("position", "double", "0.5", "", ""),)
+    assert not joint.limits_enabled
+    assert sensor.state_interfaces[0].data_type == "float32"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('<ros2_control name="arm_hw"', "<ros2_control", "no attribute 'name' in 'ros2_control' tag"),
+        (
+            "<plugin> mock_components/GenericSystem </plugin>",
+            "",
+            "Missing <plugin> tag of <hardware> element for 'arm_hw'",
+        ),
+        ('rw_rate="50"', 'rw_rate="fast"', 'Invalid value: "fast", expected a positive integer.'),
+        ('data_type="float32"', 'size="0"', 'Got "0", but expected a non-zero positive integer.'),
+    ],
+)
+def test_refused_component_leaves_links_and_joints_readable(old: str, new: str, message: str) -> None:
+    description = described(COMPONENT.replace(old, new))
+    assert message in description.hardware_error
+    assert description.hardware == ()
+    assert [joint.name for joint in description.joints] == ["slide"]
+
+
+def test_robot_without_hardware_is_no_error() -> None:
+    assert (described("").hardware, described("").hardware_error) == ((), "")
+
+
+def test_links_of_a_cycle_are_unreached() -> None:
+    loop = "".join(
+        f'<link name="{child}"/><joint name="to_{child}" type="fixed"><parent link="{parent}"/>'
+        f'<child link="{child}"/></joint>'
+        for parent, child in (("d", "c"), ("c", "d"))
+    )
+    description = described(loop)
+    assert description.roots() == ("a",)
+    assert description.unreached("a") == ("c", "d")

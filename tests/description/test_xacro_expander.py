@@ -10,6 +10,7 @@ import pytest
 from cellc.contract.diagnostics import Diagnostic
 from cellc.robot.description.read_description import read_description
 from cellc.robot.description.xacro_expansion import expand_here, expand_xacro
+from tests.cells import there
 from tests.properties import given, settings, st
 
 HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="mine">'
@@ -84,8 +85,7 @@ def test_arguments_reach_the_description(tmp_path: Path) -> None:
     file = _write(tmp_path, '<xacro:arg name="side" default="left"/><link name="$(arg side)_tool"/>')
     names = []
     for arguments in ({}, {"side": "right"}):
-        description = read_description(file, arguments, tmp_path).value
-        assert description is not None
+        description = there(read_description(file, arguments, tmp_path).value)
         names.append(description.links[0].name)
     assert names == ["left_tool", "right_tool"]
 
@@ -211,6 +211,5 @@ def test_wildcard_takes_every_file_that_it_matches_in_order_of_names(tmp_path: P
     for name in ("parts/b.xacro", "parts/a.xacro", "parts/c.txt", "d.xacro"):
         _write(tmp_path, f'<link name="{Path(name).stem}"/>', name)
     file = _write(tmp_path, '<xacro:include filename="parts/*.xacro"/><xacro:include filename="parts/../?.xacro"/>')
-    expanded = expand_here(str(file), {}, str(tmp_path)).value
-    assert expanded is not None
+    expanded = there(expand_here(str(file), {}, str(tmp_path)).value)
     assert re.findall(r'<link name="(\w)"', str(expanded)) == ["a", "b", "d"]

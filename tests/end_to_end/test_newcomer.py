@@ -21,7 +21,6 @@ def _ran(folder: Path, line: str) -> Ran:
 
 @pytest.fixture(name="empty")
 def empty_fixture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return an empty folder, which is the current one."""
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from tests.cells import ROOT
+from tests.cells import ROOT, there
 
 Matrix = npt.NDArray[np.float64]
 
@@ -29,10 +29,8 @@ def _published() -> dict[str, float]:
     if not FACTS.exists():
         return TYPED
     text = FACTS.read_text(encoding="utf-8").replace("−", "-")
-    names = re.search(r"^\| type \|(.+)\|$", text, re.MULTILINE)
-    values = re.search(r"^\| ur5e \|(( -?[\d.]+ \|){6})$", text, re.MULTILINE)
-    assert names is not None
-    assert values is not None
+    names = there(re.search(r"^\| type \|(.+)\|$", text, re.MULTILINE))
+    values = there(re.search(r"^\| ur5e \|(( -?[\d.]+ \|){6})$", text, re.MULTILINE))
     columns = [name.strip() for name in names[1].split("|")]
     return dict(zip(columns, map(float, values[1].strip(" |").split("|")), strict=True))
 
@@ -56,7 +54,6 @@ class _Chain:
         self._above = {_link(joint, "child"): joint for joint in joints}
 
     def pose(self, link: str, angles: dict[str, float]) -> Matrix:
-        """Return the transform of a link in the root."""
         pose = np.eye(4)
         while (joint := self._above.get(link)) is not None:
             origin = joint.find("origin")
@@ -88,8 +85,7 @@ def test_table_of_facts_agrees_with_the_vendors_page() -> None:
 
 
 def _link(joint: ElementTree.Element, end: str) -> str:
-    found = joint.find(end)
-    assert found is not None
+    found = there(joint.find(end))
     return str(found.get("link"))
 
 

@@ -14,6 +14,7 @@ import pytest
 from cellc.contract.limits import DEFAULTS, in_force
 from cellc.tools.importing.beside import controllers_near, read_controllers
 from cellc.tools.importing.merge import facts_in, merged
+from tests.cells import there
 from tests.cli.run import run
 from tests.foreign.test_import import ARM, _robot
 
@@ -193,8 +194,7 @@ def test_no_number_beside_a_description_is_more_than_a_rate(number: str, tmp_pat
     file = tmp_path / "controllers.yaml"
     arm = f"arm: {{ros__parameters: {{joints: [j], constraints: {{goal_time: {number}}}}}}}\n"
     file.write_text(f"controller_manager: {{ros__parameters: {{update_rate: {number}}}}}\n{arm}", encoding="utf-8")
-    found = read_controllers(file, ["j"])
-    assert found is not None
+    found = there(read_controllers(file, ["j"]))
     assert 0.0 < found.update_rate_hz <= 100.0
     assert 0.0 < found.goal_time_s <= 1.0
 

@@ -12,7 +12,7 @@ import pytest
 from cellc.compiler.graph.releases import release_sets
 from cellc.compiler.graph.versions import Answer, compatibility
 from cellc.compiler.pipeline import check
-from tests.cells import spec_text, written
+from tests.cells import spec_text, there, written
 
 _UR = ("ur_robot_driver 3.8.0", "ur_client_library 2.14.1", "ur_description 3.5.1")
 _FRANKA = ("franka_ros2 2.5.0", "libfranka 0.20.4", "franka_description 2.8.0")
@@ -83,8 +83,7 @@ def test_audit_says_which_release_the_packages_of_a_device_are_of(tmp_path: Path
     text = spec_text("ur5e_pick")
     for old, new in _ur("3.4.0", "2.3.0", "3.3.0").items():
         text = text.replace(old, new)
-    graph = check(written(tmp_path, text)).graph
-    assert graph is not None
+    graph = there(check(written(tmp_path, text)).graph)
     judged = {(one.pin.holder, one.pin.part): one for one in compatibility(graph.cell)}
     assert judged["arm", "sdk"].answer is Answer.OK
     assert "jazzy of 2025-09-19" in judged["arm", "sdk"].evidence

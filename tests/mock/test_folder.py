@@ -22,7 +22,7 @@ from cellc.mock.gates import sign_gates
 from cellc.mock.gates.gate import gate_lines
 from tests.cells import CELLS, ROOT, generated
 from tests.cli.run import run
-from tests.end_to_end.test_mock_alone import copy_the_mock
+from tests.end_to_end.test_mock_runs import copy_the_mock
 from tests.mock.conftest import LoadWith, fault
 
 Edit = Callable[[Callable[[Any], None]], MockCell]

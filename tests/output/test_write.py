@@ -17,6 +17,7 @@ from cellc.contract.store.staging import make_staging
 from cellc.contract.store.swap import Swap, write_whole
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.folder import EvidenceFolder
+from tests.cells import there
 from tests.output.building import artifacts_of, as_contents, build_of, contents
 
 FIRST = build_of(a_txt="one\n", b_txt="two\n", config__c_yaml="c: 1\n", old__d_txt="d\n")
@@ -25,8 +26,7 @@ SECOND = build_of(a_txt="changed\n", b_txt="two\n", config__c_yaml="c: 2\n", new
 
 def test_first_build_makes_the_folder_and_its_parents(tmp_path: Path) -> None:
     folder = tmp_path / "generated" / "small"
-    report = write(FIRST, folder).value
-    assert report is not None
+    report = there(write(FIRST, folder).value)
     assert report.written == ("a.txt", "b.txt", "config/c.yaml", "old/d.txt", "manifest.json")
     assert contents(tmp_path / "generated") == {f"small/{path}": text for path, text in as_contents(FIRST).items()}
 
@@ -40,8 +40,7 @@ def test_manifest_holds_the_hash_of_every_other_file(tmp_path: Path) -> None:
 
 def test_next_build_changes_what_differs_and_removes_what_is_no_longer_made(tmp_path: Path) -> None:
     write(FIRST, tmp_path / "small")
-    report = write(SECOND, tmp_path / "small").value
-    assert report is not None
+    report = there(write(SECOND, tmp_path / "small").value)
     assert report.written == ("a.txt", "config/c.yaml", "new/deep/e.txt", "manifest.json")
     assert (report.removed, report.unchanged) == (("old/d.txt",), ("b.txt",))
     assert contents(tmp_path) == {f"small/{path}": text for path, text in as_contents(SECOND).items()}
@@ -59,8 +58,7 @@ def test_unchanged_file_keeps_inode_and_time(tmp_path: Path) -> None:
 def test_second_build_of_the_same_cell_touches_nothing(tmp_path: Path) -> None:
     write(FIRST, tmp_path / "small")
     before = (tmp_path / "small").stat().st_mtime_ns, tmp_path.stat().st_mtime_ns
-    report = write(FIRST, tmp_path / "small").value
-    assert report is not None
+    report = there(write(FIRST, tmp_path / "small").value)
     assert report.written == report.removed == ()
     assert before == ((tmp_path / "small").stat().st_mtime_ns, tmp_path.stat().st_mtime_ns)
 

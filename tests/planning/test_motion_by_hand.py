@@ -1,4 +1,4 @@
-"""Durations, curves and bounds of motion, worked out by hand."""
+"""Durations, curves and bounds of motion, reach and torques, worked out by hand."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from cellc.contract.control_law import LinkMass
 from cellc.contract.transforms import Pose
+from cellc.robot.planning import RobotModel, beyond_reach, holding_efforts
 from cellc.robot.planning.cartesian import _extrapolated, _step_count
 from cellc.robot.planning.motion_law import fastest_bounds, jerk_changes, rest_to_rest, rest_to_rest_durations
 from cellc.robot.planning.problem import JointLimits
@@ -108,3 +110,70 @@ def test_steps_of_a_line_are_5_mm_or_50_mrad(way_m: float, turn_rad: float, step
     start = Pose((0.3, 0.1, 0.2), (0.0, 0.0, 0.0, 1.0))
     goal = Pose((0.3, 0.1, 0.2 - way_m), (math.sin(turn_rad / 2), 0.0, 0.0, math.cos(turn_rad / 2)))
     assert _step_count(start, goal) == steps
+
+
+def _swing(post_m: float, kind: str = "revolute", travel_m: float = 1.0) -> RobotModel:
+    """Return a bar from 0 to 0.4 m on a joint, and a cube of 0.1 m at a distance from that joint."""
+    return RobotModel.from_urdf(f"""<robot name="swing"><link name="floor"/>
+    <link name="bar"><collision><origin xyz="0.2 0 0"/>
+    <geometry><box size="0.4 0.04 0.04"/></geometry></collision></link>
+    <link name="post"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+    <joint name="turn" type="{kind}"><parent link="floor"/><child link="bar"/><axis xyz="0 0 1"/>
+    <limit lower="{-travel_m}" upper="{travel_m}" velocity="1" effort="1"/></joint>
+    <joint name="stand" type="fixed"><parent link="floor"/><child link="post"/><origin xyz="0 {-post_m} 0"/></joint>
+    </robot>""")
+
+
+# The bar's box is held by a ball of 0.2020 m round its middle, 0.2 m from the joint; the cube by one of 0.0866 m:
+# together 0.4886 m.
+@pytest.mark.parametrize(("post_m", "apart"), [(0.482, False), (0.488, False), (0.490, True)])
+def test_balls_round_the_chains_decide(post_m: float, apart: bool) -> None:
+    assert beyond_reach(_swing(post_m), margin_m=0.0) == ({("bar", "post")} if apart else set())
+
+
+def test_the_margin_is_kept() -> None:
+    assert beyond_reach(_swing(0.490), margin_m=0.005) == set()
+    assert beyond_reach(_swing(0.495), margin_m=0.005) == {("bar", "post")}
+
+
+def test_a_sliding_joint_reaches_as_far_as_it_travels() -> None:
+    assert beyond_reach(_swing(0.6, "prismatic", 0.1), margin_m=0.0) == {("bar", "post")}
+    assert beyond_reach(_swing(0.6, "prismatic", 0.2), margin_m=0.0) == set()
+
+
+_INERTIA = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+_LIMIT = '<limit lower="-3" upper="3" velocity="1" effort="1"/>'
+# A bar of 2 kg and 0.4 m that turns about y, then a hand without mass, on a lift whose axis leans by 60 degrees.
+_URDF = f"""<robot name="bar">
+  <link name="base"/>
+  <link name="lift"/>
+  <link name="bar"><inertial><origin xyz="0.2 0 0"/><mass value="2"/>{_INERTIA}</inertial></link>
+  <link name="hand"/>
+  <joint name="leaning" type="prismatic">
+    <parent link="base"/><child link="lift"/><axis xyz="{math.sin(math.pi / 3)} 0 0.5"/>{_LIMIT}</joint>
+  <joint name="turn" type="revolute"><parent link="lift"/><child link="bar"/><axis xyz="0 1 0"/>{_LIMIT}</joint>
+  <joint name="wrist" type="revolute">
+    <parent link="bar"/><child link="hand"/><origin xyz="0.4 0 0"/><axis xyz="1 0 0"/>{_LIMIT}</joint>
+</robot>"""
+ROBOT = RobotModel.from_urdf(_URDF)
+
+
+@pytest.mark.parametrize(("angle_deg", "lever_m"), [(0.0, 0.2), (60.0, 0.1), (90.0, 0.0), (-60.0, 0.1)])
+def test_level_bar_takes_most_and_an_upright_one_nothing(angle_deg: float, lever_m: float) -> None:
+    efforts = holding_efforts(ROBOT, {"turn": math.radians(angle_deg)})
+    assert abs(efforts["turn"]) == pytest.approx(2 * 9.81 * lever_m, abs=1e-9)
+
+
+def test_joint_that_slides_holds_the_weight_along_its_axis() -> None:
+    assert abs(holding_efforts(ROBOT, {})["leaning"]) == pytest.approx(2 * 9.81 * 0.5)
+
+
+def test_carried_mass_is_held_at_its_center_as_the_links_turn_it() -> None:
+    hand = LinkMass(link="hand", mass_kg=3.0, center=(0.1, 0.2, 0.0))
+    level = holding_efforts(ROBOT, {}, [hand])
+    assert abs(level["turn"]) == pytest.approx(9.81 * (2 * 0.2 + 3 * 0.5))
+    assert abs(level["wrist"]) == pytest.approx(9.81 * 3 * 0.2)
+    assert abs(level["leaning"]) == pytest.approx(9.81 * 5 * 0.5)
+    turned = holding_efforts(ROBOT, {"wrist": math.pi / 2}, [hand])  # the center is above the axis of the wrist
+    assert turned["wrist"] == pytest.approx(0.0, abs=1e-9)
+    assert turned["turn"] == pytest.approx(level["turn"])

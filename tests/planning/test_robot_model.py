@@ -1,14 +1,34 @@
-"""Reading robot descriptions: mimic joints, and a stated reason for every refusal."""
+"""Reading robot descriptions, of the catalog too: mimic joints, meshes, and a reason for every refusal."""
 
 from __future__ import annotations
 
 import math
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
+import numpy as np
+import pinocchio
 import pytest
+import xacro
 
-from cellc.robot.planning import CollisionScene, JointLimits, ModelError, Planner, PlanningGroup, RobotModel
+from cellc.contract.transforms import Pose, from_xyz_rpy
+from cellc.robot.description.packages import on_package_path
+from cellc.robot.planning import (
+    CollisionScene,
+    JointLimits,
+    JointPath,
+    ModelError,
+    Planner,
+    PlanningGroup,
+    RobotModel,
+    disabled_collisions,
+    time_parameterize,
+)
+from tests.cells import catalog_facts
 
-from .arm import ADJACENT, HOME, JOINTS, arm_urdf
+from .arm import ADJACENT, HOME, JOINTS, arm_urdf, dh_tool_to_base
 
 # The follower sorts before its leader by name, which pinocchio's own mimic support refuses.
 GRIPPER = """
@@ -111,3 +131,110 @@ def test_group_with_an_unknown_joint_is_refused() -> None:
     limits = JointLimits(("knee",), (0.0,), (1.0,), (1.0,), (1.0,), (1.0,))
     with pytest.raises(ModelError, match="no independent movable joint `knee`"):
         Planner(model, PlanningGroup("leg", ("knee",), "base", "tool"), limits)
+
+
+CORNERS = ((0, 0, 0), (0.1, 0, 0), (0, 0.2, 0), (0, 0, 0.3))
+FACES = ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))
+ROBOT = """<robot name="r"><link name="base">
+<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+<collision><origin xyz="1 2 3" rpy="0.1 0.2 0.3"/>
+<geometry><mesh filename="package://parts/a.stl" scale="2 -1 0.5"/></geometry></collision>
+</link><link name="a_1"><visual><geometry><mesh filename="package://absent/b.dae"/></geometry></visual>
+<collision><geometry><mesh filename="package://parts/b.obj"/></geometry></collision>
+<collision><geometry><sphere radius="0.1"/></geometry></collision>
+<collision><geometry><mesh filename="package://parts/a.stl"/></geometry></collision></link>
+<joint name="turn" type="revolute"><parent link="base"/><child link="a_1"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" velocity="1" effort="1"/></joint></robot>"""
+
+
+@pytest.fixture(name="shelf")
+def shelf_fixture(tmp_path: Path) -> Iterator[Path]:
+    parts = tmp_path / "parts"
+    parts.mkdir()
+    triangles = [[value for corner in face for value in CORNERS[corner]] for face in FACES]
+    body = b"".join(struct.pack("<12fH", 0, 0, 0, *values, 0) for values in triangles)
+    (parts / "a.stl").write_bytes(bytes(80) + struct.pack("<I", len(triangles)) + body)
+    lines = [f"v {x} {y} {z}" for x, y, z in CORNERS] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in FACES]
+    (parts / "b.obj").write_text("mtllib absent.mtl\n" + "\n".join(lines) + "\n")
+    with on_package_path([str(tmp_path)]):
+        yield tmp_path
+
+
+def _shown(geometry: Any) -> list[tuple[object, ...]]:
+    shapes: list[tuple[object, ...]] = []
+    for each in geometry.geometryObjects:
+        placement = np.asarray(each.placement.homogeneous).round(12).tolist()
+        shape = each.geometry
+        numbers: object = None
+        if hasattr(shape, "num_tris"):
+            corners = [tuple(shape.tri_indices(row)[at] for at in range(3)) for row in range(shape.num_tris)]
+            numbers = (np.asarray(shape.vertices()).tolist(), corners, shape.getNumBVs())
+        shapes.append((each.name, each.parentFrame, each.parentJoint, placement, shape.getNodeType(), numbers))
+    return shapes
+
+
+def test_shapes_are_those_that_pinocchio_reads_from_the_files(shelf: Path) -> None:
+    model = pinocchio.buildModelFromXML(ROBOT)
+    expected = pinocchio.buildGeomFromUrdfString(model, ROBOT, pinocchio.GeometryType.COLLISION, None, [str(shelf)])
+    found = RobotModel.from_urdf(ROBOT).geometry
+    assert _shown(found) == _shown(expected)
+    assert sum(entry[-1] is not None for entry in _shown(found)) == 3
+
+
+DEVICES = Path(__file__).resolve().parents[2] / "cellc" / "compiler" / "catalog" / "devices"
+ARM = DEVICES / "universal_robots" / "ur.urdf.xacro"
+GRIPPER_CATALOGUE_ARM = DEVICES / "robotiq" / "robotiq_2f_85.urdf.xacro"
+HOME_CATALOGUE_ARM = (0.0, -1.57, 1.57, -1.57, -1.57, 0.0)
+
+
+def _expanded(path: Path, model: str) -> str:
+    arguments = catalog_facts(model)["description"].get("arguments", {})
+    return str(xacro.process_file(str(path), mappings=arguments).toxml())
+
+
+@pytest.fixture(name="planner", scope="module")
+def planner_fixture() -> Planner:
+    model = RobotModel.from_urdf(_expanded(ARM, "ur5e"))
+    limits = JointLimits(
+        model.joints,
+        tuple(-math.pi if joint == "elbow_joint" else -2 * math.pi for joint in model.joints),
+        tuple(math.pi if joint == "elbow_joint" else 2 * math.pi for joint in model.joints),
+        (math.pi,) * 6,
+        (5.0,) * 6,
+        (50.0,) * 6,
+    )
+    disabled = [pair.links for pair in disabled_collisions(model, samples=100, rng_seed=1, margin_m=0.005)]
+    group = PlanningGroup("manipulator", model.joints, "base", "tool0")
+    return Planner(model, group, limits, CollisionScene(model, disabled_collisions=disabled))
+
+
+def test_tool_is_where_the_published_dh_parameters_put_it(planner: Planner) -> None:
+    for configuration in np.random.default_rng(1).uniform(-math.pi, math.pi, size=(100, 6)):
+        np.testing.assert_allclose(
+            planner.tip_pose(configuration).position, dh_tool_to_base(configuration)[:3, 3], rtol=0.0, atol=1e-6
+        )
+
+
+def test_approach_and_retreat_keep_the_limits(planner: Planner) -> None:
+    above = planner.tip_pose(HOME_CATALOGUE_ARM)
+    x, y, z = above.position
+    down = planner.plan_cartesian(HOME_CATALOGUE_ARM, Pose((x, y, z - 0.15), above.quaternion))
+    assert isinstance(down, JointPath)
+    back = planner.plan_cartesian(down.goal, above)
+    assert isinstance(back, JointPath)
+    use = time_parameterize(down.then(back), planner.limits).limit_use
+    assert 0.999 <= use.as_speed <= 1.0
+    np.testing.assert_allclose(back.goal, HOME_CATALOGUE_ARM, atol=1e-6)
+
+
+def test_followers_of_the_gripper_close_with_their_leader() -> None:
+    model = RobotModel.from_urdf(_expanded(GRIPPER_CATALOGUE_ARM, "robotiq_2f_85"))
+    (leader,) = model.joints
+    root = model.links[0]
+    for angle in (0.0, 0.4, 0.79):
+        sides = [
+            model.link_pose(f"robotiq_85_{side}_finger_tip_link", {leader: angle}, base_link=root)
+            for side in ("left", "right")
+        ]
+        turn = from_xyz_rpy((0.0, 0.0, 0.0), (0.0, 0.0, math.pi))
+        np.testing.assert_allclose(turn.apply(sides[0].position), sides[1].position, atol=1e-9)

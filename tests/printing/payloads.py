@@ -54,7 +54,6 @@ def hides(text: str) -> bool:
 
 
 def without_colour(output: str) -> str:
-    """Return output without the colours that are ours."""
     return _COLOUR.sub("", output)
 
 

@@ -23,7 +23,7 @@ import yaml
 
 from cellc.compiler.rules.kit import Rule
 from cellc.contract.diagnostics import Diagnostic
-from tests.cells import CORPUS, diagnose
+from tests.cells import CORPUS, diagnose, there
 from tests.foreign_yaml import LOADER, safe_load
 
 BASE = CORPUS / "invalid" / "base"
@@ -45,7 +45,6 @@ class Example:
 
 
 def examples(rule: Rule) -> tuple[Example, Example]:
-    """Return the example that is reported and the one that is accepted."""
     reported, accepted = (Example(language, text) for language, text in _FENCE.findall(rule.page.text))
     return reported, accepted
 
@@ -66,7 +65,6 @@ def matches(place: Place, expected: Place) -> bool:
 
 
 def marks(rule: Rule, example: Example) -> list[Place]:
-    """Return what an example is marked with."""
     places = []
     for number, line in enumerate(example.text.splitlines(), start=1):
         for mark in _MARK.finditer(line):
@@ -107,8 +105,7 @@ def _lines(text: str) -> dict[tuple[str, ...], int]:
             found[inner] = start.start_mark.line + 1
             walk(value, inner)
 
-    root = yaml.compose(text, Loader=LOADER)
-    assert root is not None
+    root = there(yaml.compose(text, Loader=LOADER))
     walk(root, ())
     return found
 

@@ -11,7 +11,6 @@ from cellc.compiler.rules.kit import Rule
 
 
 def module_of(rule: Rule) -> ast.Module:
-    """Return the module of a rule as a new tree."""
     return ast.parse(inspect.getsource(sys.modules[rule.check.__module__]))
 
 

@@ -16,6 +16,7 @@ from cellc.compiler.deploy.gate_subjects import ROWS
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.pipeline import check, emit_cell
 from cellc.compiler.rules.run import ALL_RULES
+from tests.cells import there
 
 if TYPE_CHECKING:
     from _typeshed import TraceFunction
@@ -129,8 +130,7 @@ def test_no_rule_and_no_line_of_a_gate_searches_the_cell_for_each_of_its_things(
     cells = []
     for size in (15, 30, 60):
         (tmp_path / "cell.yaml").write_text(spec(size), encoding="utf-8")
-        graph = check(tmp_path / "cell.yaml").graph
-        assert graph is not None
+        graph = there(check(tmp_path / "cell.yaml").graph)
         cells.append(graph.cell)
     # Of three sizes the constant part drops out: twice the things that are added are twice the steps, or four times.
     steps = {name: [_steps(work, cell) for cell in cells] for name, work in WORK.items()}

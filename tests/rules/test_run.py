@@ -1,14 +1,19 @@
-"""Rules run in an order that lets one cause give one finding, and their order never shows."""
+"""Rules run in an order that lets one cause give one finding, and turn at their bounds."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
 
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.rules.kit import Finding, Rule
 from cellc.compiler.rules.run import ALL_RULES, run_rules
 from cellc.contract.diagnostics import Severity, Span
 from tests.cells import CORPUS, graph_of
+from tests.rules.boundaries import BOUNDARIES
+from tests.rules.examples import Example, diagnose_example
 
 
 def rule(code: str, line: int | None, assumes: tuple[str, ...] = ()) -> Rule:
@@ -47,3 +52,45 @@ def test_reversed_rules_say_the_same_of_a_broken_cell() -> None:
     graph = graph_of(CORPUS / "invalid" / "scripted-servo-loop-hundred.yaml")
     assert run_rules(graph, ALL_RULES) == run_rules(graph, tuple(reversed(ALL_RULES)))
     assert run_rules(graph)
+
+
+@pytest.mark.parametrize(
+    ("code", "fragment", "reported"),
+    BOUNDARIES,
+    ids=[f"{code}-{number}" for number, (code, *_) in enumerate(BOUNDARIES)],
+)
+def test_rule_turns_at_its_bound(code: str, fragment: Example, reported: bool, folder: Path) -> None:
+    found = {diagnostic.code for diagnostic in diagnose_example(fragment, folder)}
+    assert (code in found) is reported, found
+
+
+TAGS = """
+<link name="tool"/>
+<ros2_control name="stage" type="system">
+  <hardware><plugin>stage_driver/Hardware</plugin></hardware>
+  <joint name="turn">
+    <command_interface name="positon"/><state_interface name="position"/><state_interface name="position"/>
+  </joint>
+  <joint name="slide">
+    <command_interface name="position"><param name="min">2</param><param name="max">1</param></command_interface>
+    <state_interface name="velocity"><param name="initial_value">fast</param></state_interface>
+  </joint>
+</ros2_control>
+<ros2_control name="second" type="system">
+  <hardware><plugin>second_driver/Hardware</plugin></hardware>
+  <joint name="turn"><command_interface name="effort"/></joint>
+  <joint name="slide"/>
+</ros2_control>
+"""
+
+
+def test_each_fault_of_a_tag_is_named(folder: Path) -> None:
+    found = diagnose_example(Example("xml", TAGS), folder)
+    assert sorted(one.message for one in found if one.code == "unusable-ros2-control") == [
+        "`position` of `slide` must have `min` at most `max`, got 2 and 1",
+        "`slide` of `second` has no interface",
+        "`turn` has the command interface `positon`, which is not `position`",
+        "`turn` has the state interface `position` twice",
+        "`turn` is commanded by `stage` and `second`",
+        "`velocity` of `slide` must have a number in `initial_value`, got `fast`",
+    ]

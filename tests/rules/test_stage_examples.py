@@ -16,7 +16,7 @@ from cellc.contract.code_page import page_of
 from cellc.contract.codes import STAGES
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xacro_expansion import expand_here
-from tests.cells import spec_text, written
+from tests.cells import spec_text, there, written
 from tests.cli.run import MINIMAL, run
 from tests.rules.examples import Example, Place, diagnose_example, matches, places
 
@@ -100,8 +100,7 @@ def test_example_of_a_description_is_reported_at_its_mark_and_nowhere_else(
 def test_example_of_a_comment_is_reported_on_its_line(code: str, text: str, tmp_path: Path) -> None:
     section, line = text.rstrip("\n").split("\n")
     spec = spec_text("ur5e_pick")
-    start = re.search(rf"^{section}", spec, re.MULTILINE)
-    assert start is not None
+    start = there(re.search(rf"^{section}", spec, re.MULTILINE))
     after, times = re.subn(rf"^{line.partition(':')[0]}: .*$", line, spec[start.end() :], count=1, flags=re.MULTILINE)
     assert times == 1
     spec = spec[: start.end()] + after

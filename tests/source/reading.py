@@ -6,6 +6,7 @@ from pathlib import Path
 
 from cellc.compiler.source import SourceDocument, read
 from cellc.contract.diagnostics import Outcome
+from tests.cells import there
 
 
 def read_bytes(folder: Path, content: bytes | str) -> Outcome[SourceDocument]:
@@ -25,5 +26,4 @@ def places(outcome: Outcome[SourceDocument]) -> list[tuple[str, int, int]]:
 def document(folder: Path, content: bytes | str) -> SourceDocument:
     outcome = read_bytes(folder, content)
     assert outcome.ok, outcome.diagnostics
-    assert outcome.value is not None
-    return outcome.value
+    return there(outcome.value)

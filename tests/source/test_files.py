@@ -12,6 +12,7 @@ from cellc.compiler.source import Plain, read
 from cellc.compiler.source.compose import compose
 from cellc.contract.diagnostics import Span
 from cellc.contract.limits import limits
+from tests.cells import there
 from tests.properties import given, settings, st
 from tests.source.reading import codes, read_bytes
 
@@ -100,9 +101,8 @@ def test_no_bytes_raise(tmp_path: Path, content: bytes) -> None:
 @given(pieces=st.lists(_PIECES, max_size=40))
 def test_no_text_raises_and_every_finding_points_into_it(tmp_path: Path, pieces: list[str]) -> None:
     outcome = read_bytes(tmp_path, "".join(pieces))
-    assert outcome.value is not None
     for found in outcome.diagnostics:
-        text = outcome.value.texts.get(found.span.file, "")
+        text = there(outcome.value).texts.get(found.span.file, "")
         assert 1 <= found.span.line <= text.count("\n") + 1
 
 
@@ -130,8 +130,7 @@ def test_json_means_what_it_means_to_a_json_reader(tmp_path: Path, data: dict[st
     text = json.dumps(data, indent=2)
     outcome = read_bytes(tmp_path, text)
     if "include" not in data and data != {}:
-        assert outcome.value is not None
-        assert outcome.value.data == json.loads(text)
+        assert there(outcome.value).data == json.loads(text)
 
 
 def test_text_of_an_editor_is_bounded_as_a_file_is(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from cellc.compiler.source import read
+from tests.cells import there
 from tests.source.reading import codes, places
 
 
@@ -58,8 +59,7 @@ def test_file_reached_twice_is_read_once(tmp_path: Path) -> None:
     )
     outcome = read(path)
     assert outcome.ok
-    assert outcome.value is not None
-    assert outcome.value.data == {"a": 1, "c": 1, "b": 1}
+    assert there(outcome.value).data == {"a": 1, "c": 1, "b": 1}
 
 
 @pytest.mark.parametrize(
@@ -104,5 +104,4 @@ def test_thirty_two_files_are_read_and_one_more_is_not(tmp_path: Path) -> None:
 def test_mistakes_of_all_files_are_told_at_once(tmp_path: Path) -> None:
     outcome = read(_write(tmp_path, cell="include: [a.yaml, b.yaml]\n", a="x: 1\nx: 2\n", b="<robot/>\n"))
     assert codes(outcome) == ["duplicate-key", "not-yaml"]
-    assert outcome.value is not None
-    assert len(outcome.value.texts) == 3
+    assert len(there(outcome.value).texts) == 3

@@ -10,15 +10,14 @@ from pathlib import Path
 from cellc.compiler.source import Plain, read
 from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import YamlPath
+from tests.cells import there
 from tests.properties import st
 
 
 @cache
 def data_of(path: Path) -> Plain:
-    """Return the plain data of a spec."""
     outcome = read(path)
-    assert outcome.value is not None
-    return outcome.value.data
+    return there(outcome.value).data
 
 
 def places(data: Plain, path: YamlPath = ()) -> Iterator[YamlPath]:

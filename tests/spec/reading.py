@@ -10,7 +10,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Outcome
-from tests.cells import ROOT
+from tests.cells import ROOT, there
 
 CELLS = sorted(ROOT.glob("cells/*/cell.yaml"))
 
@@ -28,8 +28,7 @@ def document_of(text: str, folder: Path) -> SourceDocument:
     path.write_text(text, encoding="utf-8")
     outcome = read(path)
     assert outcome.ok, outcome.diagnostics
-    assert outcome.value is not None
-    return outcome.value
+    return there(outcome.value)
 
 
 def parsed(text: str, folder: Path) -> Outcome[CellSpec]:
@@ -38,5 +37,4 @@ def parsed(text: str, folder: Path) -> Outcome[CellSpec]:
 
 
 def as_yaml(data: Plain) -> str:
-    """Write data as JSON, which is YAML 1.2."""
     return json.dumps(data, ensure_ascii=False)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.cells import there
 from tests.spec.reading import ARM, CELLS, HEAD, parsed
 
 FRAME = "frames: {a: {parent: world, "
@@ -106,8 +107,7 @@ def test_mistake_is_reported_once_at_its_place(
 def test_cells_of_the_repository_parse(path: Path, tmp_path: Path) -> None:
     outcome = parsed(path.read_text(encoding="utf-8"), tmp_path)
     assert outcome.ok
-    assert outcome.value is not None
-    assert outcome.value.cell == path.parent.name
+    assert there(outcome.value).cell == path.parent.name
 
 
 def test_misspelt_required_key_is_one_error(tmp_path: Path) -> None:
@@ -143,17 +143,14 @@ def test_name_that_ends_in_a_line_break_is_bad(tmp_path: Path) -> None:
 
 
 def test_quantity_keeps_value_and_text(tmp_path: Path) -> None:
-    spec = parsed(HEAD + ARM + "frames: {tcp: {parent: world, xyz: 0 0 162 mm}}", tmp_path).value
-    assert spec is not None
-    xyz = spec.frames["tcp"].xyz
-    assert xyz is not None
+    spec = there(parsed(HEAD + ARM + "frames: {tcp: {parent: world, xyz: 0 0 162 mm}}", tmp_path).value)
+    xyz = there(spec.frames["tcp"].xyz)
     assert (xyz.si, xyz.text) == ((0.0, 0.0, 0.162), "0 0 162 mm")
 
 
 def test_parameters_keep_the_type_that_was_written(tmp_path: Path) -> None:
     text = "nodes: {a: {run: x/y, parameters: {i: 1, f: 1.0, b: true, s: '1', l: [a]}}}"
-    spec = parsed(HEAD + ARM + text, tmp_path).value
-    assert spec is not None
+    spec = there(parsed(HEAD + ARM + text, tmp_path).value)
     values = spec.nodes["a"].parameters
     assert [(type(value), value) for value in values.values()] == [
         (int, 1), (float, 1.0), (bool, True), (str, "1"), (tuple, ("a",))
@@ -172,8 +169,7 @@ def test_parameters_keep_the_type_that_was_written(tmp_path: Path) -> None:
 def test_each_value_of_a_pose_has_the_unit_behind_it(
     written: str, si: tuple[float, ...], units: tuple[str, ...], tmp_path: Path
 ) -> None:
-    spec = parsed(HEAD + ARM + f'motion: {{poses: {{home: {{all: "{written}"}}}}}}\n', tmp_path).value
-    assert spec is not None
+    spec = there(parsed(HEAD + ARM + f'motion: {{poses: {{home: {{all: "{written}"}}}}}}\n', tmp_path).value)
     pose = spec.motion.poses["home"]["all"]
     assert pose.si == pytest.approx(si)
     assert pose.units == units

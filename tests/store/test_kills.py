@@ -22,6 +22,7 @@ from cellc.tools.importing import folder as importing
 from cellc.tools.importing.folder import changed_files, write_folder
 from cellc.tools.importing.role import role_of
 from cellc.tools.importing.source import read_robot
+from tests.cells import there
 from tests.output.building import as_contents, build_of, contents
 
 OLD = build_of(a_txt="one\n", b_txt="two\n", old__d_txt="d\n")
@@ -148,8 +149,7 @@ def test_kill_at_any_step_of_evidence_is_healed_by_the_next(tmp_path: Path) -> N
 def test_kill_at_any_step_of_an_import_is_healed_by_the_next(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # What is written is the same, whatever a check of it finds.
     monkeypatch.setattr(importing, "_judged", lambda folder, role, away, before: (before, _UNCHECKED))
-    robot = read_robot(_arm(tmp_path), {}).value
-    assert robot is not None
+    robot = there(read_robot(_arm(tmp_path), {}).value)
     role = role_of(robot.description)
 
     def act(place: Path) -> None:
