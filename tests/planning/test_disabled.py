@@ -10,7 +10,7 @@ import pytest
 from cellc.robot.planning import CollisionScene, DisabledReason, RobotModel, decided_collisions, disabled_collisions
 
 from .arm import ADJACENT, arm_urdf
-from .test_catalogue_arm import ARM, GRIPPER, _expanded
+from .test_robot_model import ARM, TWO_FINGERS, _expanded
 from .test_scene import SLIDER
 
 
@@ -79,7 +79,7 @@ def test_same_seed_gives_the_same_pairs() -> None:
     assert _reasons(arm_urdf()) == _reasons(arm_urdf())
 
 
-@pytest.mark.parametrize(("path", "device"), [(ARM, "ur5e"), (GRIPPER, "robotiq_2f_85")], ids=["arm", "gripper"])
+@pytest.mark.parametrize(("path", "device"), [(ARM, "ur5e"), (TWO_FINGERS, "robotiq_2f_85")], ids=["arm", "gripper"])
 def test_pairs_hold_at_other_samples(path: Path, device: str) -> None:
     model = RobotModel.from_urdf(_expanded(path, device))
     pairs = disabled_collisions(model, samples=10_000, rng_seed=0, margin_m=0.005)

@@ -183,8 +183,8 @@ def test_shapes_are_those_that_pinocchio_reads_from_the_files(shelf: Path) -> No
 
 DEVICES = Path(__file__).resolve().parents[2] / "cellc" / "compiler" / "catalog" / "devices"
 ARM = DEVICES / "universal_robots" / "ur.urdf.xacro"
-GRIPPER_CATALOGUE_ARM = DEVICES / "robotiq" / "robotiq_2f_85.urdf.xacro"
-HOME_CATALOGUE_ARM = (0.0, -1.57, 1.57, -1.57, -1.57, 0.0)
+TWO_FINGERS = DEVICES / "robotiq" / "robotiq_2f_85.urdf.xacro"
+ARM_HOME = (0.0, -1.57, 1.57, -1.57, -1.57, 0.0)
 
 
 def _expanded(path: Path, model: str) -> str:
@@ -216,19 +216,19 @@ def test_tool_is_where_the_published_dh_parameters_put_it(planner: Planner) -> N
 
 
 def test_approach_and_retreat_keep_the_limits(planner: Planner) -> None:
-    above = planner.tip_pose(HOME_CATALOGUE_ARM)
+    above = planner.tip_pose(ARM_HOME)
     x, y, z = above.position
-    down = planner.plan_cartesian(HOME_CATALOGUE_ARM, Pose((x, y, z - 0.15), above.quaternion))
+    down = planner.plan_cartesian(ARM_HOME, Pose((x, y, z - 0.15), above.quaternion))
     assert isinstance(down, JointPath)
     back = planner.plan_cartesian(down.goal, above)
     assert isinstance(back, JointPath)
     use = time_parameterize(down.then(back), planner.limits).limit_use
     assert 0.999 <= use.as_speed <= 1.0
-    np.testing.assert_allclose(back.goal, HOME_CATALOGUE_ARM, atol=1e-6)
+    np.testing.assert_allclose(back.goal, ARM_HOME, atol=1e-6)
 
 
 def test_followers_of_the_gripper_close_with_their_leader() -> None:
-    model = RobotModel.from_urdf(_expanded(GRIPPER_CATALOGUE_ARM, "robotiq_2f_85"))
+    model = RobotModel.from_urdf(_expanded(TWO_FINGERS, "robotiq_2f_85"))
     (leader,) = model.joints
     root = model.links[0]
     for angle in (0.0, 0.4, 0.79):
