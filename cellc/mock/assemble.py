@@ -154,8 +154,6 @@ def assemble(
         loads=Loads(contract, control, memory.model.robot, memory.model.links),
         world=World(memory.model.links.displaced(reality.links), control.histories.values()),
         switches=Switches(contract),
-        cameras={},
-        perceptions={},
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
         task=task,

@@ -83,11 +83,11 @@ class Plant:
     loads: Loads
     world: World
     switches: Switches
-    cameras: dict[str, Camera]
-    perceptions: dict[str, Perception]
     robot_state_publisher: RobotStatePublisher
     planner: MotionPlanner
     task: TaskNode
+    cameras: dict[str, Camera] = field(default_factory=dict)
+    perceptions: dict[str, Perception] = field(default_factory=dict)
     arrivals: list[Arrival] = field(default_factory=list)
 
     @property

@@ -48,8 +48,8 @@ def test_audit_says_what_rests_on_a_statement(cell: Compiled) -> None:
     said = [line for line in proof.splitlines() if "touches no hardware" in line]
     assert [line.partition(":")[0] for line in said] == ["- one", "- two"]
     assert [line.rpartition(" of ")[2] for line in said] == [
-        "controls states it, 2026-07-01",
-        "drivers states it, 2026-07-02",
+        "controls alone, 2026-07-01",
+        "drivers alone, 2026-07-02",
     ]
 
 

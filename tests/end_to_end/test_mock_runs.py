@@ -100,7 +100,7 @@ FURTHER = tuple(cell for cell in EVERY_CELL if cell not in CELLS)
 
 @pytest.mark.parametrize("name", FURTHER)
 def test_a_further_cell_is_short_and_its_rehearsals_pass(name: str) -> None:
-    assert len(spec_text(name).splitlines()) <= 120
+    assert len(spec_text(name).splitlines()) <= 125
     cell = load(ROOT / "generated" / name)
     ended = {one: cell.run(one, seed=0) for one in cell.rehearsals}
     assert not [f"{one}: {result.outcome}" for one, result in ended.items() if not result.passed]

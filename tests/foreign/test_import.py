@@ -173,7 +173,7 @@ def test_second_import_brings_what_the_vendor_changed_and_keeps_what_a_person_wr
     changed = _robot(_links("a", "b", "c", "d"), *ARM[1:], _joint("j3", "c", "d", "prismatic", slide))
     code, out = _import(here, changed)
     assert code == 0, out
-    assert "device.yaml is kept, with what the vendor changed: summary, frames, tool_frame, limits" in out
+    assert "changes of the vendor: summary, frames, tool_frame, limits" in out
     merged = yaml.safe_load(device.read_text(encoding="utf-8"))
     assert "vendor: Us  # asked on the phone\n" in device.read_text(encoding="utf-8")
     assert (merged["summary"], merged["tool_frame"]) == ("Odd-Arm, 3 joints", "d")

@@ -71,7 +71,7 @@ def test_comments_at_any_place_stay() -> None:
     drawn = random.Random(14)
     texts = [spec_of(cell).read_text() for cell in EVERY_CELL]
     tried = 0
-    for _ in range(60):
+    for _ in range(80):
         lines = drawn.choice(texts).split("\n")
         begin = drawn.randrange(len(lines))
         text = _disturbed(lines[begin : begin + drawn.randrange(3, 20)], drawn)

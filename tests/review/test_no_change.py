@@ -87,7 +87,7 @@ def test_an_edit_by_hand_is_told_wherever_it_is(main: Package) -> None:
             "<topic>/all",
             "review network | /commissioning, /people",
         ),
-        ("gates/promotion.md", "no person and no object is", "a person is", "review gates"),
+        ("gates/promotion.md", "Check that no person and no loose", "Check that a person and no loose", "review gates"),
         ("README.md", "generated from the spec", "not generated from the spec", "review documents"),
         ("graph/responsibility.svg", "<svg ", "<svg onload='' ", "review documents"),
         ("config/bring_up.json", '"phase": "claim"', '"phase": "start"', "dangerous start order"),

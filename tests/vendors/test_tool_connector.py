@@ -62,7 +62,7 @@ def test_the_voltage_is_named_before_anything_has_power(tmp_path: Path) -> None:
     inventory, enabling = (next(one for one in gates if one.startswith(code)) for code in ("G0 ", "G5 "))
     assert "The tool connector of arm supplies 24 V to gripper" in inventory
     # The settings reach the connector as the program starts, and the gripper is activated with no program.
-    played, activated = enabling.index("play the program once and stop it"), enabling.index("hardware that moves")
+    played, activated = enabling.index("start the program once and stop it"), enabling.index("hardware that moves")
     assert played < activated
 
 

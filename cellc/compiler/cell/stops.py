@@ -11,7 +11,7 @@ from cellc.contract.vocabulary import GateCode
 
 def stops_of(device: Device) -> tuple[SafetyState, ...]:
     """Return the states that stop a device; of one whose folder names no state, those that every cell recovers from."""
-    if device.procedures.safety.states or device.control.hardware is None or not device.actuated_joints:
+    if device.procedures.safety.states or not (device.control.is_driven and device.actuated_joints):
         return tuple(state for state in device.procedures.safety.states if state.stops)
     return tuple(SafetyState(name=name, stops=True, reported=None, gate=GateCode.G4) for name in STOPPED)
 

@@ -57,6 +57,7 @@ from cellc.contract.bring_up import (
     TopicProof,
     TransformProof,
     Transition,
+    Watch,
 )
 from cellc.contract.entities import HardwareState, Target
 from cellc.contract.vocabulary import BringUpPhase, InterfaceKind, Moment, Need
@@ -213,14 +214,14 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
 
 def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[BringUpStep]:
     """Yield the steps that give command interfaces their owners: one for each arm with what it carries."""
-    later = activated_later(cell, manager, target)
+    later, watched = activated_later(cell, manager, target), tuple(watches(cell))
     claiming: dict[str, list[str]] = {}
     for controller in started_active(manager, target):
         if is_claiming(cell, controller, later):
             claiming.setdefault(moved_with(cell, controller.device), []).append(controller.name)
     for released, names in claiming.items():
         if target == "real":
-            yield from _acknowledge(cell, manager, released, names)
+            yield from _acknowledge(cell, manager, watched, released, names)
         yield _step(
             BringUpPhase.CLAIM,
             f"claim_{manager.name}" if len(claiming) == 1 else f"claim_{manager.name}_of_{released}",
@@ -240,9 +241,11 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
         )
 
 
-def _acknowledge(cell: Cell, manager: ControllerManager, released: str, names: Sequence[str]) -> Iterator[BringUpStep]:
+def _acknowledge(
+    cell: Cell, manager: ControllerManager, watched: Sequence[Watch], released: str, names: Sequence[str]
+) -> Iterator[BringUpStep]:
     """Yield what lets claims be made: the person who authorizes them acknowledges, and each proof must hold by then."""
-    for watch in watches(cell):
+    for watch in watched:
         if watch.manager == manager.node and not set(watch.controllers).isdisjoint(names):
             yield _step(
                 BringUpPhase.CLAIM,

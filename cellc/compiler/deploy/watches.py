@@ -19,19 +19,19 @@ from cellc.contract.vocabulary import Behavior, InterfaceKind, Need
 
 def heard(cell: Cell, device: Device) -> Mapping[Need, TopicProof]:
     """Return what a claim of a device needs, with what says in this cell that it has it; the rest is unheard."""
-    telling = {(controller.kind, controller.device): controller.full_name for controller in cell.controllers}
+    telling = {each.kind: each.full_name for each in cell.controllers if each.device == device.name}
     reports = {} if device.control.hardware is None else device.control.hardware.heard_before_a_claim
     return {
         need: TopicProof(
             kind="topic",
-            topic=f"{telling[report.controller_kind, device.name]}/{report.topic}",
+            topic=f"{telling[report.controller_kind]}/{report.topic}",
             type=report.type,
             field=report.field,
             values=report.values,
             above=report.above,
         )
         for need, report in reports.items()
-        if (report.controller_kind, device.name) in telling
+        if report.controller_kind in telling
     }
 
 

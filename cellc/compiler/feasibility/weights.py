@@ -143,9 +143,9 @@ def _at_rest(question: MotionQuestion, places: Iterable[_At], robot: RobotModel)
 
 def _worst(droops: Iterable[DroopAnswer]) -> tuple[DroopAnswer, ...]:
     most: dict[str, DroopAnswer] = {}
-    for one in droops:
-        if one.joint not in most or abs(one.droop) > abs(most[one.joint].droop) + _ALIKE:
-            most[one.joint] = one
+    for droop in droops:
+        if droop.joint not in most or abs(droop.droop) > abs(most[droop.joint].droop) + _ALIKE:
+            most[droop.joint] = droop
     return tuple(most.values())
 
 

@@ -76,14 +76,13 @@ def droop_beyond_limits(graph: CellGraph) -> Findings:
     """Yield places in which a joint droops out of its limits, from where no motion is planned."""
     paths = {pose.name: pose.path for pose in graph.cell.poses}
     paths |= {goal.name: (*goal.path, "frame") for goal in graph.cell.goals}
-    for one in motion_answer(graph).outside:
-        device, _ = _laws(graph)[one.joint]
-        unit = "m" if device.joint(one.joint).slides else "rad"
-        where = _where(one) if one.posture else "where the cell begins"
-        message = (
-            f"`{one.joint}` droops by {abs(one.droop):.3g} {unit} {where}, out of its limits: MoveIt plans no motion"
-        )
-        yield found(graph, paths.get(one.posture, (*device.path, "model")), f"{message} that begins there")
+    for droop in motion_answer(graph).outside:
+        device, _ = _laws(graph)[droop.joint]
+        unit = "m" if device.joint(droop.joint).slides else "rad"
+        where = _where(droop) if droop.posture else "where the cell begins"
+        how_far = f"`{droop.joint}` droops by {abs(droop.droop):.3g} {unit} {where}"
+        message = f"{how_far}, out of its limits: MoveIt plans no motion that begins there"
+        yield found(graph, paths.get(droop.posture, (*device.path, "model")), message)
 
 
 @rule(Severity.ERROR, assumes=_WEIGHED)
