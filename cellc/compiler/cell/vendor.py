@@ -42,10 +42,12 @@ class VendorSafety:
     """The vendor's safety boundary; no software of the cell is part of it.
 
     Args:
+        stop_authority: what stops the device, by its vendor; None where no source says.
         topics: what says in which state the device is, where the cell has the controller that publishes it.
         ending, ended: what people do at the device once nothing is claimed, before and after its driver ends.
     """
 
+    stop_authority: str | None = None
     states: tuple[SafetyState, ...] = ()
     topics: tuple[str, ...] = ()
     ending: tuple[str, ...] = ()

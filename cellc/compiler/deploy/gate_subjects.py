@@ -27,6 +27,7 @@ from cellc.compiler.deploy.gate_motion import (
     stop_reasons,
     unguarded,
 )
+from cellc.compiler.deploy.gate_states import calm_states, modes, self_resuming, stopping_devices
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
@@ -38,7 +39,7 @@ from cellc.compiler.formats.numbers import positive_zero, shortest
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.pins import is_commit, last_word
-from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, GateCode, InterfaceKind, LeftBy, features
+from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, InterfaceKind, features
 
 Row = Mapping[str, str]
 CELL = "cell"
@@ -142,22 +143,6 @@ def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
         if node.lifecycle:
             later = asks_for_motion(graph.cell, node) or node.full_name in graph.once(silent)
             yield node.full_name, "inactive" if later else "active"
-
-
-def _stopping_devices(graph: CellGraph) -> Iterator[Values]:
-    for device in graph.cell.devices:
-        safety = device.procedures.safety
-        for gate in GateCode:
-            stops = [state for state in safety.states if state.stops and state.gate is gate]
-            if stops:
-                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(topic)}" for topic in safety.topics)
-                states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
-                yield device.name, states, "\n".join(echoes), gate
-
-
-def _self_resuming(graph: CellGraph) -> Iterator[Values]:
-    states = ((device.name, state) for device in graph.cell.devices for state in device.procedures.safety.states)
-    return ((name, state.name) for name, state in states if state.stops and state.left_by is LeftBy.ITSELF)
 
 
 def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
@@ -353,8 +338,10 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "joint_states": (("topic",), lambda graph: ((interface.name,) for interface in _joint_states(graph))),
     "idle_joint_states": (("topic",), _idle_joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
-    "stopping_device": (("device", "states", "command", "gate"), _stopping_devices),
-    "self_resuming": (("device", "state"), _self_resuming),
+    "stopping_device": (("device", "states", "command", "gate"), stopping_devices),
+    "calm_states": (("device", "states"), calm_states),
+    "modes": (("device", "modes"), modes),
+    "self_resuming": (("device", "state"), self_resuming),
     "loaded_device": (_PAYLOAD, _loaded_devices),
     "tool_center": (("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "command"), _tool_centers),
     "tool_connector": (("device", "voltage", "tools"), _tool_connectors),

@@ -340,6 +340,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
         return tuple(known.fill(step) for step in free if step)
 
     return VendorSafety(
+        stop_authority=safety.stop_authority,
         states=tuple(
             SafetyState(
                 name=state.name,

@@ -15,6 +15,7 @@ from cellc.compiler.cell.stops import stops_of
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.processes import motion_clients
+from cellc.compiler.emit.audit.moments import moments_section, stops_section
 from cellc.compiler.emit.audit.tables import (
     calibration_section,
     command_section,
@@ -25,7 +26,6 @@ from cellc.compiler.emit.audit.tables import (
     record_section,
     shapes_section,
     signals_section,
-    stops_section,
     tf_section,
 )
 from cellc.compiler.formats.escape import code, markdown, markdown_comment
@@ -74,6 +74,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         ),
         "Approvals": table(("area", "question", "owner"), approvals(cell)),
         "Responsibilities": table(("responsibility", "owner"), responsibilities(cell)),
+        "What devices do": moments_section(cell),
         "Shutdown": _numbered(ending(cell)),
         "Recovery": "\n".join(recovery(cell)),
         **({"What resumes": stops_section(cell)} if any(map(stops_of, cell.devices)) else {}),
@@ -155,6 +156,8 @@ def recovery(cell: Cell) -> Iterator[str]:
     yield markdown(f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}.")
     yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
     for device in cell.devices:
+        if device.procedures.safety.stop_authority is not None:
+            yield from ("", markdown(f"{device.name} is stopped by: {device.procedures.safety.stop_authority}."))
         for procedure in device.procedures.safety.recovery:
             yield from ("", markdown(f"{device.name}, {procedure.state}:"), "", _numbered(procedure.steps))
 

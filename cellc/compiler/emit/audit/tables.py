@@ -8,7 +8,6 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
-from cellc.compiler.cell.stops import effect_of, stops_of
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.compiler.deploy.files import controllers_file, is_planner, node_file, parameter_files, plans
 from cellc.compiler.deploy.labels import (
@@ -23,42 +22,17 @@ from cellc.compiler.deploy.labels import (
     watched_stream,
 )
 from cellc.compiler.deploy.processes import past_controllers
-from cellc.compiler.deploy.watches import heard
 from cellc.compiler.formats.escape import code
-from cellc.compiler.formats.markdown_table import TableCell, table
+from cellc.compiler.formats.markdown_table import table
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER
-from cellc.contract.vocabulary import InterfaceKind, LeftBy, Moment
+from cellc.contract.vocabulary import InterfaceKind
 
 _NOT_STATED = "not stated"
 _ALONE: Mapping[tuple[str, ...], str] = {("real",): " (real target)", ("mock",): " (mock)"}
 """Mark of what only one target has."""
-
-
-def stops_section(cell: Cell) -> str:
-    """Write what a stop of each device leaves, how this cell hears of it, and what brings its motion back."""
-    return table(("device", "stop", "component", "heard on", "ends by", "then"), _stops(cell))
-
-
-def _stops(cell: Cell) -> Iterator[tuple[TableCell, ...]]:
-    for device in cell.devices:
-        topic_of = {need: proof.topic for need, proof in heard(cell, device).items()}
-        for state in stops_of(device):
-            effect = effect_of(device, state)
-            lost = (*(() if effect is None else effect.ends), *state.ends)
-            left = _NOT_STATED if effect is None or effect.leaves is None else effect.leaves
-            topics = tuple(dict.fromkeys(code(topic_of[need]) for need in lost if need in topic_of))
-            known = topics or "nothing" if left == "active" else "the component"
-            goes_on = device.control.hardware is not None and topics and state.left_by is not LeftBy.ACTIVATION
-            resumed = (
-                device.control.hardware.effects.get(Moment.PROGRAM_RESUME)
-                if device.control.hardware and goes_on
-                else None
-            )
-            then = resumed or effect
-            yield device.name, state.name, left, known, state.left_by.value, then.does if then else _NOT_STATED
 
 
 def owners_section(graph: CellGraph) -> str:

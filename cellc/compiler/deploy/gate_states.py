@@ -1,0 +1,42 @@
+"""Lines of the gates about the states of devices: which of them stop, in which they may be moved, and their modes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.deploy.gate_motion import Values
+from cellc.compiler.formats.escape import shell_word
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.vocabulary import GateCode, LeftBy
+
+
+def stopping_devices(graph: CellGraph) -> Iterator[Values]:
+    """Yield the states that stop each device, with what shows them, in the gates that look for them."""
+    for device in graph.cell.devices:
+        safety = device.procedures.safety
+        for gate in GateCode:
+            stops = [state for state in safety.states if state.stops and state.gate is gate]
+            if stops:
+                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(topic)}" for topic in safety.topics)
+                states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
+                yield device.name, states, "\n".join(echoes), gate
+
+
+def calm_states(graph: CellGraph) -> Iterator[Values]:
+    """Yield the states in which a device may be moved, where it reports them."""
+    for device in graph.cell.devices:
+        states = (state for state in device.procedures.safety.states if not state.stops and state.reported)
+        if shown := "; ".join(f"{state.name} ({state.reported})" for state in states):
+            yield device.name, shown
+
+
+def modes(graph: CellGraph) -> Iterator[Values]:
+    """Yield the operating modes of each device, by its vendor's names."""
+    named = ((device.name, ", ".join(device.procedures.safety.modes)) for device in graph.cell.devices)
+    return ((name, listed) for name, listed in named if listed)
+
+
+def self_resuming(graph: CellGraph) -> Iterator[Values]:
+    """Yield the stops that end without a person."""
+    states = ((device.name, state) for device in graph.cell.devices for state in device.procedures.safety.states)
+    return ((name, state.name) for name, state in states if state.stops and state.left_by is LeftBy.ITSELF)
