@@ -147,7 +147,9 @@ class Comparison(ContractModel):
     """Compare what is installed on this computer with the version tuple of ``manifest.json``; a difference stops."""
 
     kind: Literal["versions"]
-    parts: tuple[str, ...] = Field(description="Parts of the tuple that this computer must show.")
+    parts: tuple[str, ...] = Field(
+        description="Parts of the tuple that this computer must show, as `arm.driver=package:NAME`."
+    )
 
 
 class Acknowledgment(ContractModel):

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
+from tests.cells import EVERY_CELL, built
 from tests.consumers.matrix import build
 from tests.consumers.starting import plan
+from tests.foreign_yaml import safe_load
 
 _COMMIT = "3b6cf8ff9106384e72c23de7d3ba989fb6b41141"
-_WORD = "I_HAVE_READ_THE_DIFFERENCES"
 
 
 def _program(tmp_path: Path, name: str, distro: str = "jazzy") -> Path:
@@ -40,11 +43,15 @@ def workspace(tmp_path: Path) -> Path:
     return tmp_path / "ws"
 
 
-def _compare(tmp_path: Path, pinned: dict[str, str], **env: str) -> tuple[int, str]:
+def _compare(
+    tmp_path: Path, pinned: dict[str, str], shown: dict[str, str] | None = None, /, **env: str
+) -> tuple[int, str]:
     manifest = tmp_path / "manifest.json"
     manifest.write_text(json.dumps({"version_tuple": pinned}), encoding="utf-8")
     program = str(_program(tmp_path, "installed_versions"))
-    command = [sys.executable, program, "--manifest", str(manifest), *pinned]
+    where = {"ros": "system", "rmw": "package:rmw_fastrtps_cpp", **(shown or {})}
+    asked = (f"{part}={where.get(part, 'package:robotiq_driver')}" for part in pinned)
+    command = [sys.executable, program, "--manifest", str(manifest), *asked]
     ended = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
     assert not ended.stderr
     return ended.returncode, ended.stdout
@@ -82,31 +89,78 @@ def test_number_of_a_package_distribution_and_middleware_are_told_with_both_figu
     assert "gripper.driver must be robotiq_driver 0.0.2, is 0.0.1" in said
     assert "ros must be jazzy, is humble" in said
     assert "rmw must be rmw_fastrtps_cpp 8.4.4, is rmw_zenoh_cpp in RMW_IMPLEMENTATION" in said
-    assert f"CELL_ACCEPT_VERSIONS={_WORD}" in said
+    assert 'CELL_ACCEPT_VERSIONS: "gripper.driver: NAME; ros: NAME; rmw: NAME"' in said
 
 
-def test_person_goes_on_with_a_word_that_is_written_into_the_record_of_the_attempt(tmp_path: Path) -> None:
-    pinned, word = {"ros": "jazzy"}, {"ROS_DISTRO": "humble", "CELL_ACCEPT_VERSIONS": _WORD}
-    code, said = _compare(tmp_path, pinned, **word)
+def test_person_accepts_each_part_by_name_and_the_record_has_both(tmp_path: Path) -> None:
+    pinned, env = {"ros": "jazzy", "kernel": "6.1"}, {"ROS_DISTRO": "humble"}
+    shown = {"kernel": "system"}
+    one, both = "ros: Ada", "ros: Ada; kernel: Ben"
+    code, said = _compare(tmp_path, pinned, shown, **env, CELL_ACCEPT_VERSIONS=one, E=str(tmp_path))
+    assert (code, '"kernel: NAME"' in said, (tmp_path / "versions.txt").exists()) == (1, True, False)
+    code, said = _compare(tmp_path, pinned, shown, **env, CELL_ACCEPT_VERSIONS=both)
     assert (code, "set E to the folder of the attempt" in said) == (1, True)
-    assert _compare(tmp_path, pinned, **word, E=str(tmp_path))[0] == 0
-    assert (tmp_path / "versions.txt").read_text(encoding="utf-8").endswith(f"{_WORD} ros must be jazzy, is humble\n")
-    assert _compare(tmp_path, pinned, ROS_DISTRO="humble", CELL_ACCEPT_VERSIONS="yes", E=str(tmp_path))[0] == 1
+    assert _compare(tmp_path, pinned, shown, **env, CELL_ACCEPT_VERSIONS=both, E=str(tmp_path))[0] == 0
+    first, second = (tmp_path / "versions.txt").read_text(encoding="utf-8").splitlines()
+    assert first.endswith(" accepted by Ada: ros must be jazzy, is humble")
+    assert " accepted by Ben: kernel must be 6.1, is " in second
+    for nobody in ("yes", "ros", "ros:", "ros: ; kernel: "):
+        assert _compare(tmp_path, pinned, shown, **env, CELL_ACCEPT_VERSIONS=nobody, E=str(tmp_path))[0] == 1
+
+
+def test_library_of_a_debian_package_is_compared_without_epoch_and_revision(tmp_path: Path) -> None:
+    query = tmp_path / "bin/dpkg-query"
+    query.parent.mkdir()
+    query.write_text('#!/bin/sh\n[ "$3" = libopenarm-can-dev ] && printf 1:1.2.9-1~jammy\n', encoding="utf-8")
+    query.chmod(0o755)
+    shown, path = {"left.sdk": "debian:libopenarm-can-dev"}, f"{query.parent}:/usr/bin:/bin"
+    assert _compare(tmp_path, {"left.sdk": "openarm_can 1.2.9"}, shown, PATH=path)[0] == 0
+    code, said = _compare(tmp_path, {"left.sdk": "openarm_can 1.3.0"}, shown, PATH=path)
+    assert (code, "left.sdk must be openarm_can 1.3.0, is 1.2.9" in said) == (1, True)
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_each_right_installation_is_accepted_and_everything_read_is_depended_on(cell: str) -> None:
+    texts, device = built(cell).texts, built(cell).graph.cell.device
+    steps = json.loads(texts["config/bring_up.json"])["real"]
+    parts = {part for step in steps for part in step.get("request", {}).get("parts", ())}
+    shown = dict(part.split("=") for part in parts)
+    for part, where in shown.items():
+        holder, _, name = part.rpartition(".")
+        # A package of ROS is one that the device names as its own, never a repository of several.
+        if holder and name == "driver":
+            assert where == f"package:{device(holder).software.packages.driver}"
+    read = {where.removeprefix("package:") for where in shown.values() if where.startswith("package:")}
+    read |= set(re.findall(r"ros2 pkg xml -t version (\S+)", texts["gates/promotion.md"]))
+    depended = {one.text for one in ElementTree.fromstring(texts["package.xml"]).iter("exec_depend")}
+    assert read - depended == set()
+    folders = set(re.findall(r"git -C src/(\S+) rev-parse", texts["gates/promotion.md"]))
+    assert folders <= set(safe_load(texts.get("sources.repos", "repositories: {}"))["repositories"])
+
+
+def test_library_that_the_build_of_a_driver_fetches_is_no_version_of_a_package() -> None:
+    texts = built("gen3_2f").texts
+    assert "arm.sdk" not in texts["config/bring_up.json"]
+    assert "arm.sdk is `kortex_api 2.5.0`. The build of arm.driver fetches it" in texts["gates/promotion.md"]
+    assert "arm.sdk=debian" not in texts["config/bring_up.json"]
+    assert "left.sdk=debian:libopenarm-can-dev" in built("openarm_bimanual").texts["config/bring_up.json"]
 
 
 def test_versions_are_the_first_thing_that_the_real_target_asks_and_the_mock_does_not() -> None:
     steps = plan("ur5e_pick", "jazzy")
     assert steps["real"][0]["request"]["kind"] == "versions"
-    assert {"kernel", "arm.driver", "gripper.driver"} <= set(steps["real"][0]["request"]["parts"])
-    assert "arm.firmware" not in steps["real"][0]["request"]["parts"]  # no computer shows it
+    parts = dict(part.split("=") for part in steps["real"][0]["request"]["parts"])
+    assert {"kernel", "arm.driver", "gripper.driver"} <= set(parts)
+    assert "arm.firmware" not in parts  # no computer shows it
     assert not [step for step in steps["mock"] if (step.get("request") or {}).get("kind") == "versions"]
 
 
 def test_each_computer_compares_what_runs_on_it() -> None:
     first, second = plan("fr3_hand", "humble")["real"][:2]
     assert first["host"] == "control_pc"
-    assert {"kernel", "ros2_control", "arm.driver"} <= set(first["request"]["parts"])
-    assert "moveit" not in first["request"]["parts"]  # it runs on the other computer, which takes no step
+    parts = dict(part.split("=") for part in first["request"]["parts"])
+    assert {"kernel", "ros2_control", "arm.driver"} <= set(parts)
+    assert "moveit" not in parts  # it runs on the other computer, which takes no step
     assert second["name"].startswith("observe_")
 
 

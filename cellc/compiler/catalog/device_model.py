@@ -17,7 +17,7 @@ from typing import Literal, get_args
 
 from pydantic import Field
 
-from cellc.compiler.catalog.catalog_model import CatalogModel, Date, InnerPath, PartName, Text, Token
+from cellc.compiler.catalog.catalog_model import CatalogModel, Date, FileName, InnerPath, PartName, Text, Token
 from cellc.compiler.catalog.device_bring_up import CommissioningStep, JogFacts, NetworkFacts, RecordFacts, SafetyFacts
 from cellc.compiler.catalog.device_controller import DeviceController
 from cellc.compiler.catalog.device_graph import ActionFacts, CameraFacts, NodeFacts, ServiceFacts, TopicFacts
@@ -88,6 +88,19 @@ class KinematicsFacts(CatalogModel):
     source: Text
 
 
+class LibraryFacts(CatalogModel):
+    """What shows the version of a library that is no ROS package, or whose package has another number.
+
+    Attributes:
+        debian: Debian package that installs the library; absent if the build of the driver fetches it, so that the
+            version of the driver fixes it.
+        source: Document or line of code from which this was read.
+    """
+
+    debian: FileName | None = None
+    source: Text
+
+
 class PackageFacts(CatalogModel):
     """ROS package or library names as in the version tuple; absent without one.
 
@@ -95,11 +108,13 @@ class PackageFacts(CatalogModel):
         driver: ROS package of the driver, such as ``my_arm_driver``; its version is pinned as ``driver`` in the spec.
         sdk: Library of the vendor below the driver; its version is pinned as ``sdk`` in the spec.
         description: ROS package of the vendor's description; its version is pinned as ``description`` in the spec.
+        library: What shows the version of ``sdk``; absent if a ROS package of that name has it.
     """
 
     driver: Token | None = None
     sdk: Text | None = None
     description: Token | None = None
+    library: LibraryFacts | None = None
 
 
 class GripperFacts(CatalogModel):

@@ -165,11 +165,18 @@ class NetworkNeeds:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Packages:
-    """Packages or libraries of the vendor as they stand in the version tuple, or None."""
+    """Packages or libraries of the vendor as they stand in the version tuple, or None.
+
+    Args:
+        sdk_package: the ROS package whose version is that of ``sdk``; None where none has it.
+        sdk_debian: the Debian package that has it instead; without either the build of the driver fetches ``sdk``.
+    """
 
     driver: str | None = None
     sdk: str | None = None
     description: str | None = None
+    sdk_package: str | None = None
+    sdk_debian: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -32,7 +32,7 @@ from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_mock, start_real
-from cellc.compiler.deploy.versions import installed_parts
+from cellc.compiler.deploy.versions import fetched_parts, installed_parts
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import positive_zero, shortest
@@ -78,7 +78,7 @@ def _built(graph: CellGraph) -> Iterator[Values]:
 
 
 def _visible(graph: CellGraph) -> Iterator[Values]:
-    shown = {part.name for part in installed_parts(graph.cell)}
+    shown = {part.name for part in installed_parts(graph.cell)} | {name for name, *_ in fetched_parts(graph.cell)}
     for name, value in version_tuple(graph.cell).items():
         if value != UNKNOWN and name not in shown:
             yield name, value
@@ -323,6 +323,7 @@ _FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
     "installed_part": (("part", "version", "command"), _installed),
     "built_part": (("part", "version", "command"), _built),
+    "fetched_part": (("part", "version", "driver"), lambda graph: fetched_parts(graph.cell)),
     "visible_part": (("part", "version"), _visible),
     "unknown_part": (("part",), _unknown),
     "nominal_device": (("device", "state", "file", "command"), _nominal_devices),

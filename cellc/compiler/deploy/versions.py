@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.device import Packages
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.formats.escape import shell_word
@@ -30,22 +31,33 @@ class Installed:
     Args:
         name: such as ``arm.driver``.
         text: the pin as written.
-        package: the package whose version it is; empty for what the system itself says.
+        package: the ROS package whose version it is; empty for what the system itself, or a Debian package, shows.
         source: the folder of the source that a commit is of; empty where it is pinned by a number.
+        debian: the Debian package whose version it is.
     """
 
     name: str
     text: str
     package: str = ""
     source: str = ""
+    debian: str = ""
 
     @property
     def command(self) -> str:
         """What shows it to a person; empty for a commit whose source no page names."""
         if is_commit(last_word(self.text)):
             return f"git -C {shell_word(self.source)} rev-parse HEAD" if self.source else ""
+        if self.debian:
+            return f"dpkg-query -W {shell_word(self.debian)}"
         part = self.name.rpartition(".")[2]
         return _OF_SYSTEM.get(part) or f"ros2 pkg xml -t version {shell_word(self.package)}"
+
+    @property
+    def shown(self) -> str:
+        """The part and what shows it, as the program compares it: ``arm.driver=package:my_driver``."""
+        if self.debian:
+            return f"{self.name}=debian:{self.debian}"
+        return f"{self.name}=package:{self.package}" if self.package else f"{self.name}=system"
 
 
 def installed_parts(cell: Cell) -> Iterator[Installed]:
@@ -57,22 +69,40 @@ def installed_parts(cell: Cell) -> Iterator[Installed]:
     }
     for name, text in version_tuple(cell).items():
         holder, _, part = name.rpartition(".")
-        package = pinned_package(text)
         if text == UNKNOWN:
             continue
         if part in _OF_SYSTEM and not holder:
             yield Installed(name, text)
         elif part in _PACKAGES and not holder:
             yield Installed(name, text, _PACKAGES[part])
-        elif part in _INSTALLED and package:
-            yield Installed(name, text, package, sources.get((holder or cell.name, part), ""))
+        elif part in _INSTALLED:
+            package, debian = _shown_by(cell, holder, part, text)
+            if package or debian:
+                yield Installed(name, text, package, sources.get((holder or cell.name, part), ""), debian)
+
+
+def _shown_by(cell: Cell, holder: str, part: str, text: str) -> tuple[str, str]:
+    """Return the ROS package and the Debian package that show a part; a device says which, else the pin names one."""
+    packages = cell.device(holder).software.packages if holder else Packages()
+    if part == "sdk" and packages.sdk is not None:
+        return packages.sdk_package or "", packages.sdk_debian or ""
+    named = {"driver": packages.driver, "description": packages.description}.get(part)
+    return (named if named and pinned_package(text) else pinned_package(text)), ""
+
+
+def fetched_parts(cell: Cell) -> Iterator[tuple[str, str, str]]:
+    """Yield the parts that the build of a driver fetches, with the version and the part that fixes it."""
+    for device in cell.devices:
+        packages, text = device.software.packages, device.software.versions.sdk
+        if packages.sdk is not None and text != UNKNOWN and not (packages.sdk_package or packages.sdk_debian):
+            yield f"{device.name}.sdk", text, f"{device.name}.driver"
 
 
 def compared_on(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield each computer that starts something, with the parts that it must show; an empty name for the only one."""
-    parts = tuple(part.name for part in installed_parts(cell))
+    parts = tuple(installed_parts(cell))
     for host in launch_hosts(cell) or ("",):
-        yield host, tuple(name for name in parts if not host or _is_on(cell, name, host))
+        yield host, tuple(part.shown for part in parts if not host or _is_on(cell, part.name, host))
 
 
 def _is_on(cell: Cell, part: str, host: str) -> bool:

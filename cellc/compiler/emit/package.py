@@ -16,6 +16,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import SOURCES, plans
 from cellc.compiler.deploy.first_goal import first_goals, programs
+from cellc.compiler.deploy.versions import installed_parts
 from cellc.compiler.deploy.watches import watches
 from cellc.compiler.formats.urdf.hardware import share_folders
 from cellc.compiler.formats.xml_text import comment, element, render
@@ -85,7 +86,7 @@ def _pinned(cell: Cell) -> dict[str, str]:
     parts += [(name, cell.versions.moveit) for name in _of_moveit(cell)]
     for device in cell.devices:
         packages, versions = device.software.packages, device.software.versions
-        parts += [(packages.driver, versions.driver), (packages.sdk, versions.sdk)]
+        parts += [(packages.driver, versions.driver), (packages.sdk_package, versions.sdk)]
         parts += [(packages.description, versions.description)]
     return {name: number for name, text in parts if name and (number := version_number(text))}
 
@@ -103,7 +104,7 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     controllers = (controller.package for controller in cell.controllers)
     hardware = (device.software.packages.driver for device in cell.devices if device.control.hardware is not None)
     names = {*_ALWAYS, *_BRING_UP, *_GATES, *(node.package for node in cell.nodes)}
-    names |= {name for name in (*controllers, *hardware) if name}
+    names |= {name for name in (*controllers, *hardware, *(part.package for part in installed_parts(cell))) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
     programs_of = (program for device in cell.devices for program in device.site.programs)
     names |= {name for program in programs_of for name in (program.package, *program.system)}

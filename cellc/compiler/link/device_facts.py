@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from cellc.compiler.catalog.device_bring_up import CommissioningStep as CommissioningFacts
 from cellc.compiler.catalog.device_graph import ImageFacts, ViewFacts
-from cellc.compiler.catalog.device_model import DeviceModel, GripperFacts
+from cellc.compiler.catalog.device_model import DeviceModel, GripperFacts, PackageFacts
 from cellc.compiler.catalog.robot_facts import HumanStep
 from cellc.compiler.cell.device import (
     Camera,
@@ -74,8 +74,19 @@ def device_control(
 
 def device_software(facts: DeviceModel, written: DeviceSpec) -> Software:
     """Return what the version tuple has of a device."""
-    packages = Packages(**facts.packages.model_dump())
+    packages = _packages(facts.packages)
     return Software(versions=_versions(written), packages=packages, version_rows=facts.versions)
+
+
+def _packages(facts: PackageFacts) -> Packages:
+    library = facts.library
+    return Packages(
+        driver=facts.driver,
+        sdk=facts.sdk,
+        description=facts.description,
+        sdk_package=facts.sdk if library is None else None,
+        sdk_debian=None if library is None else library.debian,
+    )
 
 
 def device_sensing(facts: DeviceModel, written: DeviceSpec, known: Placeholders, prefix: str) -> Sensing:

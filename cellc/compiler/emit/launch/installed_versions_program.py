@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Compares the versions on this computer with the version tuple of the package.
 
-    installed_versions --manifest manifest.json PART...      PART is a name of its version_tuple, as arm.driver
+    installed_versions --manifest manifest.json PART=WHERE...
 
-Each difference is printed with both versions, and ends this with 1. To go on in spite of differences, set
-CELL_ACCEPT_VERSIONS=I_HAVE_READ_THE_DIFFERENCES. They are then written into $E/versions.txt, the record of the attempt,
-and this ends with 0. A version that this computer cannot prove is printed and stops nothing.
+PART is a name of its version_tuple, as arm.driver. WHERE is what shows it: package:NAME of ROS, debian:NAME or system.
+Each difference is printed with both versions, and ends this with 1. To go on in spite of one, name its part and who
+accepts it: CELL_ACCEPT_VERSIONS="arm.driver: NAME; moveit: NAME". Each is then written into $E/versions.txt, the record
+of the attempt. A version that this computer cannot prove is printed and stops nothing.
 """
 
 from __future__ import annotations
@@ -15,14 +16,12 @@ import json
 import os
 import platform
 import re
+import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-ACCEPTED = "I_HAVE_READ_THE_DIFFERENCES"
-OF_SYSTEM = ("os", "kernel", "ros")
-PACKAGES = {"ros2_control": "controller_manager", "moveit": "moveit_ros_move_group"}
 COMMIT = re.compile(r"(?=.*[a-f])[0-9a-f]{7,40}|[0-9a-f]{40}")
 NOTHING = "nothing"
 
@@ -52,6 +51,16 @@ def version_of(package: str) -> str:
     return version[1] if version else NOTHING
 
 
+def debian_version_of(package: str) -> str:
+    """Return the version of a Debian package without its epoch and revision."""
+    asked = ["dpkg-query", "-W", "-f=${Version}", package]
+    try:
+        answer = subprocess.run(asked, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    except OSError:
+        return NOTHING
+    return answer.stdout.rpartition(":")[2].partition("-")[0] or NOTHING
+
+
 def commit_of(package: str) -> str:
     """Return the commit of the source tree beside the install folder; empty where there is no such tree."""
     folder = share_of(package)
@@ -76,37 +85,43 @@ def head_of(tree: Path) -> str:
     return next((line.split()[0] for line in lines if line.endswith(f" {name}")), "")
 
 
-def compared(part: str, pinned: str) -> tuple[str, bool]:
+def compared(part: str, pinned: str, where: str) -> tuple[str, bool]:
     """Return the message about one part, empty where it is as pinned, and whether it is a difference."""
-    version = pinned.split()[-1]
-    package = PACKAGES.get(part) or pinned.split()[0]
+    version, (kind, _, package) = pinned.split()[-1], where.partition(":")
     chosen = os.environ.get("RMW_IMPLEMENTATION", NOTHING)
-    if COMMIT.fullmatch(version) and share_of(package) is not None:
+    if kind == "package" and COMMIT.fullmatch(version) and share_of(package) is not None:
         installed = commit_of(package)
         if not installed:
-            return (
-                f"{part} must be {pinned}: cannot be checked, no source of {package} is beside its installation",
-                False,
-            )
+            unseen = f"no source of {package} is beside its installation"
+            return f"{part} must be {pinned}: cannot be checked, {unseen}", False
         same = installed.startswith(version)
     elif part == "rmw" and chosen != package:
         installed, same = f"{chosen} in RMW_IMPLEMENTATION", False
     else:
-        installed = found_of_system(part) if part in OF_SYSTEM else version_of(package)
+        read = {"package": version_of, "debian": debian_version_of}.get(kind)
+        installed = found_of_system(part) if read is None else read(package)
         same = installed in (pinned, version)
     return ("", False) if same else (f"{part} must be {pinned}, is {installed}", True)
 
 
-def accepted(differing: Sequence[str]) -> str:
+def accepting() -> dict[str, str]:
+    """Return who accepts which part in spite of its difference; a part without a name is accepted by none."""
+    entries = (entry.partition(":") for entry in os.environ.get("CELL_ACCEPT_VERSIONS", "").split(";"))
+    return {part.strip(): person.strip() for part, _, person in entries if person.strip()}
+
+
+def accepted(differing: Mapping[str, str]) -> str:
     """Write accepted differences into the record of the attempt; return why that was not done."""
-    if os.environ.get("CELL_ACCEPT_VERSIONS") != ACCEPTED:
-        return f"to go on in spite of this, set CELL_ACCEPT_VERSIONS={ACCEPTED}"
+    people = accepting()
+    if missing := [part for part in differing if part not in people]:
+        wanted = "; ".join(f"{part}: NAME" for part in missing)
+        return f'to go on in spite of this, a person adds to CELL_ACCEPT_VERSIONS: "{wanted}"'
     folder = os.environ.get("E", "")
     if not folder or not Path(folder).is_dir():
         return "set E to the folder of the attempt: it records what was accepted"
-    begin = f"{time.strftime('%Y-%m-%dT%H:%M:%SZ', time.gmtime())} {platform.node()} {ACCEPTED}"
+    begin = f"{time.strftime('%Y-%m-%dT%H:%M:%SZ', time.gmtime())} {platform.node()}"
     with (Path(folder) / "versions.txt").open("a", encoding="utf-8") as record:
-        record.writelines(f"{begin} {text}\n" for text in differing)
+        record.writelines(f"{begin} accepted by {people[part]}: {text}\n" for part, text in differing.items())
     return ""
 
 
@@ -114,12 +129,13 @@ def main(arguments: Sequence[str]) -> int:
     """Compare, print and record; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--manifest", type=Path, required=True, help="manifest.json of the package")
-    parser.add_argument("parts", nargs="+", metavar="PART")
+    parser.add_argument("parts", nargs="+", metavar="PART=WHERE")
     read = parser.parse_args(arguments)
     pinned = json.loads(read.manifest.read_text(encoding="utf-8"))["version_tuple"]
-    said = [answer for answer in (compared(part, pinned[part]) for part in read.parts) if answer[0]]
-    print("; ".join(text for text, _ in said) or "all versions are as pinned", flush=True)
-    differing = [text for text, differs in said if differs]
+    asked = dict(argument.split("=", 1) for argument in read.parts)
+    said = {part: compared(part, pinned[part], where) for part, where in asked.items()}
+    print("; ".join(text for text, _ in said.values() if text) or "all versions are as pinned", flush=True)
+    differing = {part: text for part, (text, differs) in said.items() if differs}
     refused = accepted(differing) if differing else ""
     print(refused, flush=True)
     return 1 if refused else 0
