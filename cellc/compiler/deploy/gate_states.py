@@ -22,7 +22,7 @@ def stopping_devices(graph: CellGraph) -> Iterator[Values]:
                 yield device.name, states, "\n".join(echoes), gate
 
 
-def calm_states(graph: CellGraph) -> Iterator[Values]:
+def ready_states(graph: CellGraph) -> Iterator[Values]:
     """Yield the states in which a device may be moved, where it reports them."""
     for device in graph.cell.devices:
         states = (state for state in device.procedures.safety.states if not state.stops and state.reported)

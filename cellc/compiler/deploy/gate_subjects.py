@@ -27,7 +27,7 @@ from cellc.compiler.deploy.gate_motion import (
     stop_reasons,
     unguarded,
 )
-from cellc.compiler.deploy.gate_states import calm_states, modes, self_resuming, stopping_devices
+from cellc.compiler.deploy.gate_states import ready_states, modes, self_resuming, stopping_devices
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
@@ -340,7 +340,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "idle_joint_states": (("topic",), _idle_joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), stopping_devices),
-    "calm_states": (("device", "states"), calm_states),
+    "ready_states": (("device", "states"), ready_states),
     "modes": (("device", "modes"), modes),
     "self_resuming": (("device", "state"), self_resuming),
     "loaded_device": (_PAYLOAD, _loaded_devices),

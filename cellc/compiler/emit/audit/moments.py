@@ -13,6 +13,11 @@ from cellc.compiler.formats.markdown_table import TableCell, table
 from cellc.contract.vocabulary import CommandAuthority, LeftBy, ManagerLock, Moment
 
 _NOT_STATED = "not stated"
+_AUTHORITY = {
+    CommandAuthority.TAKEN: "takes command of the device",
+    CommandAuthority.GIVEN_BACK: "returns command of the device",
+    CommandAuthority.UNKNOWN: "command of the device: unknown",
+}
 
 
 def moments_section(cell: Cell) -> str:
@@ -37,7 +42,7 @@ def _moments(cell: Cell) -> Iterator[tuple[TableCell, ...]]:
 def _besides(effect: Effect) -> Iterator[str]:
     """Yield what a moment does besides motion."""
     if effect.authority is not CommandAuthority.UNCHANGED:
-        yield f"command: {_words(effect.authority)}"
+        yield _AUTHORITY[effect.authority]
     if effect.lock is not ManagerLock.NONE:
         yield f"blocks the controller manager: {_words(effect.lock)}"
     if effect.drops_part:
