@@ -27,7 +27,7 @@ from cellc.compiler.deploy.gate_motion import (
     stop_reasons,
     unguarded,
 )
-from cellc.compiler.deploy.gate_states import ready_states, modes, self_resuming, stopping_devices
+from cellc.compiler.deploy.gate_states import modes, ready_states, self_resuming, stopping_devices
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
