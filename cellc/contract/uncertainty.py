@@ -11,24 +11,28 @@ UNCERTAINTY_FILE = "config/uncertainty.json"
 """Beside the contract; a cell that says nothing of uncertainty has none."""
 
 
-Kind = Literal["calibration", "repeatability", "place", "region", "clock"]
-Axis = Literal["x", "y", "z", "rx", "ry", "rz", "offset"]
+Kind = Literal["calibration", "repeatability", "place", "region", "clock", "part", "compensation"]
+Axis = Literal["x", "y", "z", "rx", "ry", "rz", "offset", "mass", "share"]
+WHOLE: tuple[Axis, ...] = ("offset", "mass", "share")
+"""What is no axis: a thing has one of it."""
 
 
 class UncertainQuantity(ContractModel):
-    """One random number, drawn for each run: m for (x, y, z), rad for (rx, ry, rz), s for a clock.
+    """One random number, drawn for each run: m for (x, y, z), rad for (rx, ry, rz), s, kg, 1 for (offset, mass, share).
 
     ``calibration``: real offset of frame ``target`` along or about one of its own axes. ``place``: the same for an
     object that no camera observes. ``repeatability``: the same for the tip of an arm. Several of one frame add up.
     ``region``: offset of the object that frame ``target`` follows, along or about an axis of the parent of its
-    simulated pose. ``clock``: offset of the reading of clock ``target``.
+    simulated pose. ``clock``: offset of the reading of clock ``target``. ``part``: how much heavier the part
+    is that the tool of device ``target`` holds. ``compensation``: share of its weight by which device ``target``
+    compensates too much.
     """
 
     name: str = Field(description="Name in reports.")
     kind: Kind = Field(description="What it displaces.")
-    target: str = Field(description="Frame or clock.")
-    axis: Axis = Field(description="Axis, or the offset of a clock.")
-    unit: Literal["m", "rad", "s"] = Field(description="Unit of the spread.")
+    target: str = Field(description="Frame, clock or device.")
+    axis: Axis = Field(description="Axis; offset of a clock, mass of a part, or share of a weight.")
+    unit: Literal["m", "rad", "s", "kg", "1"] = Field(description="Unit of the spread.")
     distribution: Literal["normal", "isotropic", "uniform"] = Field(
         description="How it is drawn, about zero; isotropic is normal, and alike along three axes."
     )

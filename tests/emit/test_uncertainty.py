@@ -94,3 +94,17 @@ def test_the_checklist_of_the_mock_asks_for_the_sweep_of_each_rate_that_is_expec
     )
     assert asked in sections["ur5e_pick"].split("\n## ")[0]
     assert "--sweep" not in sections["minimal"].split("\n## ")[0]
+
+
+def test_loads_are_drawn_as_the_spec_says_and_change_what_the_arm_holds(tmp_path: Path) -> None:
+    text = spec_text("fr3_hand").replace("{part: 10 g}", "{part: 20 g, compensation: 2 %}")
+    found = _drawn(written(tmp_path, text))
+    loads = [(one.name, one.kind, one.target, one.axis, one.unit, one.spread) for one in found.quantities[-2:]]
+    assert loads == [
+        ("part of arm", "part", "arm", "mass", "kg", 0.02),
+        ("compensation of arm", "compensation", "arm", "share", "1", 0.02),
+    ]
+    masses = np.array([draw(found.quantities, 3, run)["part of arm"] for run in range(2000)])
+    assert float(masses.std()) == pytest.approx(0.02, rel=0.05)
+    real = reality_of(found.quantities, draw(found.quantities, 3, 0), 3, 0)
+    assert (real.part_more_kg, set(real.compensation)) == ({"arm": float(masses[0])}, {"arm"})

@@ -55,7 +55,7 @@ def test_an_adapter_may_say_its_states_and_take_its_goals_and_nothing_else_of_th
 
 
 def test_an_adapter_is_told_what_the_spec_says_of_it_in_si(texts: dict[str, str]) -> None:
-    told = safe_load(texts["config/arm.yaml"])["arm"]["ros__parameters"]
+    told = safe_load(texts["config/drivers.yaml"])["arm"]["ros__parameters"]
     assert told == {
         "address": "172.16.0.2",
         "joints": [f"fr3_joint{number}" for number in range(1, 8)],

@@ -24,10 +24,14 @@ class Uncertainty:
         rotations_rad: calibration → standard deviation about each axis.
         regions: frame → where what lies there may lie.
         repeatability_m: arm → pose repeatability as it was measured.
+        parts_kg: arm → standard deviation of the mass of the part that it holds.
+        compensations: arm → standard deviation of the share of its weight that its controller compensates.
         tolerances_m: goal → farthest that the tip may really be from it.
     """
 
     rotations_rad: Mapping[str, float]
     regions: Mapping[str, Region]
     repeatability_m: Mapping[str, float]
+    parts_kg: Mapping[str, float]
+    compensations: Mapping[str, float]
     tolerances_m: Mapping[str, float]

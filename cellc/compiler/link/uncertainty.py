@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Literal
 
 from cellc.compiler.cell.motion import PlanningGroup
 from cellc.compiler.cell.uncertainty import Region, Uncertainty
@@ -33,6 +34,8 @@ def link_uncertainty(
         rotations_rad={name: value for name, value in rotations.items() if value},
         regions={name: _region(region) for name, region in spec.regions.items()},
         repeatability_m={name: value.si for name, value in uncertainty.repeatability.items()},
+        parts_kg=_loads(uncertainty, "part"),
+        compensations=_loads(uncertainty, "compensation"),
         tolerances_m={name: value.si for name, value in uncertainty.tolerances.items()},
     )
     known = groups is not None and machine.placed
@@ -45,11 +48,18 @@ def _region(written: RegionSpec) -> Region:
     return Region(half_m=(x, y, z), half_yaw_rad=(si(written.yaw) or 0.0) / 2.0)
 
 
+def _loads(uncertainty: UncertaintySpec, key: Literal["part", "compensation"]) -> dict[str, float]:
+    """Return what is stated of loads by one key, SI, without what is zero."""
+    stated = {name: si(load.part if key == "part" else load.compensation) for name, load in uncertainty.loads.items()}
+    return {name: value for name, value in stated.items() if value}
+
+
 def _unknown(spec: CellSpec, written: UncertaintySpec, document: SourceDocument) -> Iterator[Diagnostic]:
     places = [name for name, frame in spec.frames.items() if frame.simulated_pose is not None or not frame.dynamic]
     for names, known, code, kind, path in (
         (written.calibrations, tuple(spec.calibrations), "unknown-calibration", "calibration", "calibrations"),
         (written.repeatability, tuple(spec.devices), "unknown-device", "device", "repeatability"),
+        (written.loads, tuple(spec.devices), "unknown-device", "device", "loads"),
         (written.tolerances, tuple(spec.motion.goals), "unknown-goal", "goal", "tolerances"),
     ):
         for name in names:

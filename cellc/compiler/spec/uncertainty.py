@@ -2,7 +2,7 @@
 
 from pydantic import Field
 
-from cellc.compiler.spec.quantity import Allowance, Edges, FieldAngle, Length
+from cellc.compiler.spec.quantity import Allowance, Edges, FieldAngle, Length, Mass, Share
 from cellc.contract.stated import Name, StatedModel
 
 
@@ -31,6 +31,19 @@ class RegionSpec(StatedModel):
     )
 
 
+class LoadUncertaintySpec(StatedModel):
+    """How far an arm behind springs holds another load than its control law is given."""
+
+    part: Mass | None = Field(
+        None, description="Standard deviation of the part's mass; none is drawn if absent.", examples=["20 g"]
+    )
+    compensation: Share | None = Field(
+        None,
+        description="Standard deviation of the share of its own weight that a controller compensates; none if absent.",
+        examples=["2 %"],
+    )
+
+
 class UncertaintySpec(StatedModel):
     """What a sweep draws and judges; `{}` draws what the cell states elsewhere."""
 
@@ -43,6 +56,11 @@ class UncertaintySpec(StatedModel):
         default_factory=dict,
         description="Arms that a group moves, with repeatability (ISO 9283) as measured; else the catalog's is drawn.",
         examples=[{"arm": "0.05 mm"}],
+    )
+    loads: dict[Name, LoadUncertaintySpec] = Field(
+        default_factory=dict,
+        description="Arms whose real joints follow like springs, with how well their loads are known.",
+        examples=[{"arm": {"part": "20 g", "compensation": "2 %"}}],
     )
     tolerances: dict[Name, Allowance] = Field(
         default_factory=dict,

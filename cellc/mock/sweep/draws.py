@@ -81,6 +81,8 @@ def reality_of(quantities: Sequence[UncertainQuantity], values: Mapping[str, flo
             for target, axes in _of("region", parts)
         },
         offsets_s={target: axes["offset"] for target, axes in _of("clock", parts)},
+        part_more_kg={target: axes["mass"] for target, axes in _of("part", parts)},
+        compensation={target: axes["share"] for target, axes in _of("compensation", parts)},
         noise=_Bits(seed, run).of(_NOISE) >> 32,
     )
 

@@ -11,7 +11,7 @@ import numpy as np
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.diagnostics.wording import aligned
-from cellc.contract.uncertainty import Uncertainty
+from cellc.contract.uncertainty import WHOLE, Uncertainty
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
 from cellc.mock.sweep.margins import Margin, margins
@@ -28,6 +28,7 @@ _SHOWN_UNITS: Mapping[str, tuple[str, float]] = {
     "m": ("mm", 1e3),
     "rad": ("deg", 180.0 / np.pi),
     "s": ("ms", 1e3),
+    "kg": ("g", 1e3),
     "1": ("%", 100.0),
     "": ("", 1.0),
 }
@@ -116,7 +117,7 @@ def drawn_table(sweep: Sweep) -> Table:
     alike: dict[tuple[str, str, str], list[str]] = {}
     for quantity in sweep.uncertainty.quantities:
         thing, _, axis = quantity.name.rpartition(" ")
-        thing, axis = (quantity.name, "") if quantity.axis == "offset" else (thing, axis)
+        thing, axis = (quantity.name, "") if quantity.axis in WHOLE else (thing, axis)
         drawn = f"{_WORDS[quantity.distribution]} {_shown(quantity.spread, quantity.unit)}"
         alike.setdefault((thing, drawn, quantity.source), []).append(axis)
     rows = [(f"{thing} {', '.join(axes)}".strip(), drawn, source) for (thing, drawn, source), axes in alike.items()]

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import inf
 
 from cellc.contract.compute.work import ExecutorFactory, Work, stream
+from cellc.contract.contract import Contract
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.uncertainty import UNCERTAINTY_FILE, ExpectedSuccess, Uncertainty
 from cellc.mock.campaign.campaign import Assignment
@@ -103,6 +104,7 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
         **dict.fromkeys(LINKS, ("frame of the description", [joint.child for joint in cell.folder.description.joints])),
         "region": ("dynamic frame", [name for name, frame in contract.frames.items() if frame.simulated_parent]),
         "clock": ("clock", list(contract.clocks)),
+        **dict.fromkeys(("part", "compensation"), ("device behind springs", _behind_springs(contract))),
     }
     named = [(quantity.target, *known[quantity.kind]) for quantity in uncertainty.quantities]
     named += [(name, "goal", list(contract.goals)) for name in uncertainty.tolerances]
@@ -113,6 +115,11 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
     if len({quantity.name for quantity in uncertainty.quantities}) < len(uncertainty.quantities):
         raise MockError(UNCERTAINTY_FILE, "names two quantities alike")
     return uncertainty
+
+
+def _behind_springs(contract: Contract) -> list[str]:
+    laws = {name: device.law for name, device in contract.devices.items()}
+    return [name for name, law in laws.items() if law is not None and law.joints]
 
 
 def reality(uncertainty: Uncertainty, seed: int, number: int) -> Reality:

@@ -168,12 +168,6 @@ ROWS: Sequence[Row] = (
         Graded(_A.REHEARSALS, "required confidence", Rule.FEWER),
     ),
     Row(
-        f"{_MOVE_GROUP} robot_description_planning ...",
-        Graded(_A.LIMITS, "Cartesian limit", Rule.MORE, why=FURTHER),
-    ),
-    Row(f"{_MOVE_GROUP} trajectory_execution ...", Graded(_A.MOTION, "execution")),
-    Row(f"{_MOVE_GROUP} ...", Graded(_A.MOTION, "planning", why=PLANNED)),
-    Row(
         "file {_} {_} ros__parameters moveit_simple_controller_manager {controller} {what}",
         Graded(_A.CONTROL, "parameter in MoveIt's controller list:"),
     ),

@@ -5,8 +5,7 @@ square of the distance by which a frame is elsewhere, the same along each axis: 
 bound of a clock says no more than that: every offset within it is as likely. Pose repeatability is the mean distance
 from the middle of all arrivals and three standard deviations of it (ISO 9283:1998, 7.2.2); of errors that are normal
 and alike along three axes that is 3.616 of their deviation. Left out: what is below a nanometer, nanoradian or
-nanosecond, and what spec and catalog give no figure of, such as the error of tracking, and how a payload differs, on
-which nothing of the mock rests.
+nanosecond, and what spec and catalog give no figure of, such as the error of tracking.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from cellc.compiler.cell.uncertainty import Uncertainty as Stated
 from cellc.compiler.formats.numbers import rounded
 from cellc.contract.contract import ContractClock
 from cellc.contract.quantities import SMALLEST
-from cellc.contract.uncertainty import Axis, ExpectedSuccess, Kind, UncertainQuantity, Uncertainty
+from cellc.contract.uncertainty import WHOLE, Axis, ExpectedSuccess, Kind, UncertainQuantity, Uncertainty
 
 _AXES: tuple[Axis, ...] = ("x", "y", "z")
 _REPEATABILITY = math.sqrt(8.0 / math.pi) + 3.0 * math.sqrt(3.0 - 8.0 / math.pi)
@@ -39,7 +38,13 @@ class _Drawn:
 
 def uncertainty(cell: Cell, stated: Stated, clocks: dict[str, ContractClock]) -> Uncertainty:
     """Return what sweeps of a cell draw and judge."""
-    drawn = (*_calibrations(cell, stated), *_arms(cell, stated), *_regions(cell, stated), *_clocks(cell, clocks))
+    drawn = (
+        *_calibrations(cell, stated),
+        *_arms(cell, stated),
+        *_regions(cell, stated),
+        *_loads(stated),
+        *_clocks(cell, clocks),
+    )
     return Uncertainty(
         format=1,
         quantities=tuple(_uniquely_named([item for item in drawn if item.quantity.spread >= SMALLEST])),
@@ -58,7 +63,7 @@ def _uniquely_named(drawn: Iterable[_Drawn]) -> Iterator[UncertainQuantity]:
     known = Counter(item.quantity.name for item in drawn)
     alike = {item.full_name for item in drawn if known[item.quantity.name] > 1}
     for item in drawn:
-        axis = "" if item.quantity.kind == "clock" else f" {item.quantity.axis}"
+        axis = "" if item.quantity.axis in WHOLE else f" {item.quantity.axis}"
         name = f"{item.full_name}{axis}" if item.full_name in alike else item.quantity.name
         yield item.quantity.model_copy(update={"name": name})
 
@@ -98,6 +103,27 @@ def _regions(cell: Cell, stated: Stated) -> Iterator[_Drawn]:
         yield from _three(kind, names, name, region.half_m, f"regions.{name}.box")
         yaw = (0.0, 0.0, region.half_yaw_rad)
         yield from _three(kind, names, name, yaw, f"regions.{name}.yaw", turns=True)
+
+
+def _loads(stated: Stated) -> Iterator[_Drawn]:
+    for name, spread in stated.parts_kg.items():
+        yield _load("part", f"part of {name}", name, "mass", spread)
+    for name, spread in stated.compensations.items():
+        yield _load("compensation", f"compensation of {name}", name, "share", spread)
+
+
+def _load(kind: Kind, name: str, device: str, axis: Axis, spread: float) -> _Drawn:
+    quantity = UncertainQuantity.model_construct(
+        name=name,
+        kind=kind,
+        target=device,
+        axis=axis,
+        unit="kg" if axis == "mass" else "1",
+        distribution="normal",
+        spread=rounded(spread),
+        source=f"uncertainty.loads.{device}.{kind}",
+    )
+    return _Drawn(quantity, f"load: {name}")
 
 
 def _three(

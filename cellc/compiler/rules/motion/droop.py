@@ -12,7 +12,7 @@ from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain, named
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.compiler.rules.tolerances import stated
 from cellc.contract.control_law import ControlLaw
-from cellc.contract.vocabulary import TRAJECTORIES, Held, Loop
+from cellc.contract.vocabulary import TRAJECTORIES, Gravity, Held, Loop
 
 _WEIGHED = (*KNOWN_GOALS, "negative-mass", "payload-above-limit", "refused-impedance", "unit-of-another-joint")
 
@@ -148,3 +148,21 @@ def _resting(graph: CellGraph) -> Mapping[str, list[str]]:
         for joint in groups[goal.group].joints if goal.name in judged and goal.group in groups else ():
             found.setdefault(joint, []).append(f"the tolerance of goal `{goal.name}`")
     return found
+
+
+@rule(Severity.ERROR, assumes=("unknown-device",))
+def load_of_nothing(graph: CellGraph) -> Findings:
+    """Yield loads to draw that move no joint: of an arm without springs, without a part, or that compensates nothing."""
+    laws, stated = control_laws(graph.cell), graph.cell.uncertainty
+    for key, loads in () if stated is None else (("part", stated.parts_kg), ("compensation", stated.compensations)):
+        for name in loads:
+            law = laws.get(name)
+            if law is None or not law.joints:
+                why = "a device whose joints follow like springs on the real target"
+            elif key == "part" and law.part is None:
+                why = "a device whose `payload` states more than its tool weighs"
+            elif key == "compensation" and law.gravity is not Gravity.COMPENSATED:
+                why = "a device whose controller compensates gravity"
+            else:
+                continue
+            yield found(graph, ("uncertainty", "loads", name, key), f"`{name}` must be {why}; nothing is drawn of it")
