@@ -21,6 +21,8 @@ from pydantic_core import PydanticCustomError, core_schema
 # Two digits of exponent: nothing in a cell is 1e100, and no factor then takes a value past the range of a double.
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,2})?"
 _SPACE = r" \t\r\n"
+_NOT_NEGATIVE = r"(?:\+?(?:[0-9]+\.?[0-9]*|\.[0-9]+)|-(?:0+\.?0*|\.0+))(?:[eE][-+]?[0-9]{1,2})?"
+"""The same where a figure cannot be below zero."""
 _NUMBERS = rf"{_NUMBER}(?:[{_SPACE},]+{_NUMBER})*"
 _NUMBERS_THEN_UNIT = re.compile(rf"[{_SPACE}]*({_NUMBERS})[{_SPACE}]*([^{_SPACE}0-9].*?)?[{_SPACE}]*", re.ASCII)
 _ONE_OF_SEVERAL = re.compile(
@@ -136,7 +138,8 @@ class QuantityType:
         """Return the pattern of numbers with one unit of some dimensions."""
         more = {0: "*", 1: "{0}"}.get(self.size, f"{{{self.size - 1}}}")
         units = "|".join(re.escape(unit).replace("\\ ", " ") for dimension in dimensions for unit, _ in dimension.units)
-        return rf"{_NUMBER}(?:[{_SPACE},]+{_NUMBER}){more}[{_SPACE}]*(?:{units})"
+        number = _NUMBER if self.least is None or self.least < 0.0 else _NOT_NEGATIVE
+        return rf"{number}(?:[{_SPACE},]+{number}){more}[{_SPACE}]*(?:{units})"
 
     def units(self) -> tuple[str, ...]:
         """List the units that fit, in the order of the dimensions."""

@@ -150,9 +150,9 @@ def _resting(graph: CellGraph) -> Mapping[str, list[str]]:
     return found
 
 
-@rule(Severity.ERROR, assumes=("unknown-device",))
+@rule(Severity.ERROR)
 def load_of_nothing(graph: CellGraph) -> Findings:
-    """Yield loads to draw that move no joint: of an arm without springs, without a part, or that compensates nothing."""
+    """Yield loads to draw that move no joint: the arm has no springs, holds no part, or compensates nothing."""
     laws, stated = control_laws(graph.cell), graph.cell.uncertainty
     for key, loads in () if stated is None else (("part", stated.parts_kg), ("compensation", stated.compensations)):
         for name in loads:
