@@ -16,8 +16,8 @@ _CODES = {
     """,
     "spec": """
         bad-name empty-value fault-kind-missing interface-kind-missing missing-key missing-unit not-a-choice
-        not-a-quantity out-of-range step-kind-missing unknown-key unsupported-format wrong-count wrong-type
-        wrong-unit
+        not-a-quantity out-of-range solid-kind-missing step-kind-missing unknown-key unsupported-format wrong-count
+        wrong-type wrong-unit
     """,
     "catalog": """
         catalog-entry-invalid urdf-bad-geometry urdf-bad-number urdf-missing-attribute urdf-missing-element
@@ -29,10 +29,10 @@ _CODES = {
     "link": """
         ambiguous-node confidence-of-nothing controller-not-in-distro controller-without-device event-never-comes
         hand-eye-differs hand-eye-of-other-frames invalid-hand-eye invalid-kinematics not-a-chain not-an-executable
-        planner-not-in-distro rehearsal-cycle repeatability-of-nothing unknown-calibration unknown-clock
-        unknown-controller unknown-controller-kind unknown-device unknown-distro unknown-frame unknown-goal
-        unknown-group unknown-host unknown-interface unknown-joint unknown-model unknown-nic unknown-node
-        unknown-planner unknown-rehearsal unknown-signal unknown-state
+        planner-not-in-distro rehearsal-cycle repeatability-of-nothing touched-points-apart unknown-calibration
+        unknown-clock unknown-controller unknown-controller-kind unknown-device unknown-distro unknown-frame
+        unknown-goal unknown-group unknown-host unknown-interface unknown-joint unknown-model unknown-nic
+        unknown-node unknown-planner unknown-rehearsal unknown-signal unknown-state
     """,
     "ignores": "ignore-refused ignore-without-reason unknown-ignored-code unused-ignore",
     "fleet": "shared-domain-id",

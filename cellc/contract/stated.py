@@ -171,3 +171,55 @@ class HardwareStatement(StatedModel):
     def is_signed(self) -> bool:
         """Whether somebody says, with a date, that it touches no hardware."""
         return self.touches_no_hardware and day_of(self.date) is not None and self.by.strip() not in ("", UNKNOWN)
+
+
+class OpenUntil(StatedModel):
+    """Who finds something out, and by when."""
+
+    person: Text = Field(..., description="Person or role.", examples=["integration"])
+    date: Pin = Field(..., description="Day by which it is known, YYYY-MM-DD.", examples=["2026-12-01"])
+
+    @property
+    def is_named(self) -> bool:
+        """Whether it names somebody and a day."""
+        return day_of(self.date) is not None and self.person.strip() not in ("", UNKNOWN)
+
+
+class Surrounding(StatedModel):
+    """What is known of one part of the surroundings; with `open` the rest is a question."""
+
+    shapes: tuple[Name, ...] = Field((), description="Things of `scene` that are it.", examples=[["table"]])
+    none: Text | None = Field(
+        None, description="Why there is nothing of it within reach.", examples=["the nearest is 4 m away"]
+    )
+    open: OpenUntil | None = Field(
+        None,
+        description="Who finds it out, by when.",
+        examples=[{"person": "integration", "date": "2026-12-01"}],
+    )
+
+    @property
+    def is_stated(self) -> bool:
+        """Whether it says something: shapes, why there are none, or who finds it out."""
+        return bool(self.shapes or self.none or (self.open is not None and self.open.is_named))
+
+
+class Surroundings(StatedModel):
+    """What is around the arms within their reach; what is not stated blocks the real target."""
+
+    support: Surrounding = Field(
+        default_factory=Surrounding,
+        description="What carries each arm; something of it ends at its mount.",
+        examples=[{"shapes": ["table"]}],
+    )
+    floor: Surrounding = Field(default_factory=Surrounding, description="The floor.", examples=[{"shapes": ["floor"]}])
+    walls: Surrounding = Field(
+        default_factory=Surrounding,
+        description="Walls, fences and the ceiling.",
+        examples=[{"none": "the nearest is 4 m away"}],
+    )
+    fittings: Surrounding = Field(
+        default_factory=Surrounding,
+        description="Brackets and cables, on the arms and beside them.",
+        examples=[{"open": {"person": "integration", "date": "2026-12-01"}}],
+    )

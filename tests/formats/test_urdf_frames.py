@@ -6,7 +6,7 @@ import pytest
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.entity import Places
-from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SceneBox
+from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Solid
 from cellc.compiler.formats.urdf.robot import described_frames
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.contract.diagnostics import Span
@@ -38,7 +38,7 @@ def _described(frames: dict[str, str], boxes: dict[str, str]) -> set[str]:
         versions=Versions(ros="jazzy"),
         frames=tuple(_frame(name, parent) for name, parent in frames.items()),
         scene=tuple(
-            SceneBox(
+            Solid(
                 name=name,
                 path=("scene", name),
                 span=_PLACE,

@@ -9,7 +9,7 @@ from functools import cached_property
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager
 from cellc.compiler.cell.device import Device, Stamp
 from cellc.compiler.cell.entity import Places
-from cellc.compiler.cell.frame import Frame, SceneBox, SharedArea
+from cellc.compiler.cell.frame import Frame, SharedArea, Solid
 from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface, Node, NodeSource
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
 from cellc.compiler.cell.site import TARGET_DEFAULTS, Bringup, Calibration, Host, Recording, Safety, Target
@@ -17,7 +17,7 @@ from cellc.compiler.cell.uncertainty import Uncertainty
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
-from cellc.contract.stated import HardwareStatement, Network, Owners, Versions
+from cellc.contract.stated import HardwareStatement, Network, Owners, Surroundings, Versions
 from cellc.contract.vocabulary import TRAJECTORIES, Behavior, Distro, InterfaceKind
 from cellc.robot.description.model import Inertial
 
@@ -75,7 +75,8 @@ class Cell:
     hardware_packages: frozenset[str] = frozenset()
     devices: tuple[Device, ...] = ()
     frames: tuple[Frame, ...] = ()
-    scene: tuple[SceneBox, ...] = ()
+    scene: tuple[Solid, ...] = ()
+    surroundings: Surroundings = field(default_factory=Surroundings)
     areas: tuple[SharedArea, ...] = ()
     nodes: tuple[Node, ...] = ()
     interfaces: tuple[Interface, ...] = ()

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Annotated
 
 from cellc.compiler.cell.entity import Entity
 from cellc.contract.grading import Graded, Rule
-from cellc.contract.transforms import Pose, Vector3
+from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.contract.vocabulary import ReviewArea
+from cellc.robot.description.model import Box, Cylinder, Geometry, Mesh, Sphere
 
 WORLD = "world"
 """Root of every cell's frame tree."""
@@ -83,10 +85,51 @@ class SharedArea(Entity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SceneBox(Entity):
-    """A box that planning avoids: full edge lengths in m, center pose in ``parent``."""
+class TouchedFit:
+    """What a shape was fitted to: how many touched points, and their distances from its surface, m."""
+
+    points: int
+    root_mean_square_m: float
+    largest_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solid(Entity):
+    """A thing that planning avoids.
+
+    Args:
+        transform_to_parent: its frame in ``parent``.
+        size: full edge lengths of the box around it, m; zero where a mesh alone knows them.
+        shape: what it is where it is no box.
+        center: middle of its shape in its frame.
+        touched: what its figures were fitted to, where they were measured by touch.
+    """
 
     parent: str
     transform_to_parent: Pose
     size: Vector3
     kind: str
+    shape: Cylinder | Sphere | Mesh | None = None
+    center: Pose = field(default_factory=identity)
+    touched: TouchedFit | None = None
+
+    @property
+    def geometry(self) -> Geometry:
+        """Its shape, about its center."""
+        return self.shape or Box(self.size)
+
+    def depth_m(self, point: Vector3) -> float | None:
+        """Return how deep a point of ``parent`` is within it, m, negative outside; None of a mesh."""
+        x, y, z = (self.transform_to_parent @ self.center).inverse().apply(point)
+        if isinstance(self.shape, Mesh):
+            return None
+        if isinstance(self.shape, Sphere):
+            return self.shape.radius - math.hypot(x, y, z)
+        if isinstance(self.shape, Cylinder):
+            return min(self.shape.radius - math.hypot(x, y), self.shape.length / 2.0 - abs(z))
+        return min(size / 2.0 - abs(along) for size, along in zip(self.size, (x, y, z), strict=True))
+
+    @property
+    def is_plane(self) -> bool:
+        """Whether it stands for all that is behind its surface."""
+        return self.center != identity()

@@ -154,7 +154,13 @@ class OpenQuestion:
 
 def open_questions(graph: CellGraph) -> tuple[OpenQuestion, ...]:
     """Return the questions that block the real target, versions first."""
-    return (*_versions(graph.cell), *_owners(graph), *_safety(graph.cell), *_effects(graph.cell))
+    return (
+        *_versions(graph.cell),
+        *_owners(graph),
+        *_safety(graph.cell),
+        *_effects(graph.cell),
+        *_surroundings(graph.cell),
+    )
 
 
 def _versions(cell: Cell) -> Iterator[OpenQuestion]:
@@ -186,6 +192,13 @@ def _effects(cell: Cell) -> Iterator[OpenQuestion]:
     for device in cell.devices:
         if device.control.unknown_effects:
             yield OpenQuestion(f"motion of {device.name} at its start", (*device.path, "model"))
+
+
+def _surroundings(cell: Cell) -> Iterator[OpenQuestion]:
+    if any(device.kind == "arm" for device in cell.devices):
+        for part, known in cell.surroundings:
+            if known.open is not None or not known.is_stated:
+                yield OpenQuestion(f"{part} around the arms", ("surroundings", part))
 
 
 def header_of(cell: Cell) -> Header:

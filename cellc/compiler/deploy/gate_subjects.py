@@ -103,6 +103,14 @@ def _mock_statements(graph: CellGraph) -> Iterator[Values]:
     return ((device.name, name, said.by, said.date) for device, name, said in graph.cell.signed_for_mock())
 
 
+def _surroundings(graph: CellGraph) -> Iterator[Values]:
+    for part, known in graph.cell.surroundings:
+        if known.shapes:
+            yield part, f"is as in {', '.join(known.shapes)}, and nothing else of it is within reach"
+        if known.none is not None:
+            yield part, f"is not within reach: {known.none}"
+
+
 def _managers(graph: CellGraph) -> Iterator[Values]:
     return ((f"{manager.namespace}/controller_manager",) for manager in graph.cell.managers)
 
@@ -329,6 +337,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "nominal_device": (("device", "state", "file", "command"), _nominal_devices),
     "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
     "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
+    "surrounding": (("part", "is_as"), _surroundings),
     "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
     "success": (("rehearsal", "share", "confidence"), _success),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),

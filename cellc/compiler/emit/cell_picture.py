@@ -2,7 +2,7 @@
 
 SVG 1.1 without scripts, styles or fonts from elsewhere. Devices with their links, what is solid, and the frames of the
 cell; the joints stand as in the first named pose, else where the mock begins. Left out: frames within a device other
-than its mount, which `config/frames.yaml` has, and meshes.
+than its mount, which `config/frames.yaml` has, meshes, and planes, beside which all else would be small.
 """
 
 from __future__ import annotations
@@ -13,12 +13,11 @@ from dataclasses import dataclass
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SceneBox
+from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Solid
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.formats.views import Part, two_views
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.transforms import Pose, identity
-from cellc.robot.description.model import Box
 from cellc.robot.description.posture import posture
 
 FILE = "graph/cell.svg"
@@ -57,7 +56,7 @@ class _Standing:
 
     def _part(self, device: str, name: str) -> Part:
         carried = [item for item in self._cell.devices if self._place(item.mount.parent_frame).device == device]
-        solids = [box for box in self._cell.scene if self._place(box.parent).device == device]
+        solids = [box for box in self._cell.scene if not box.is_plane and self._place(box.parent).device == device]
         parts = (
             *(self._solid(solid) for solid in solids),
             *(self._part(device.name, device.name) for device in carried),
@@ -83,9 +82,10 @@ class _Standing:
             parts,
         )
 
-    def _solid(self, box: SceneBox) -> Part:
+    def _solid(self, box: Solid) -> Part:
         pose = self._place(box.parent).pose @ box.transform_to_parent
-        return Part(box.name, pose.position, ((pose, Box(box.size)),), frames=((box.name, pose),), solid=True)
+        body = (pose @ box.center, box.geometry)
+        return Part(box.name, pose.position, (body,), frames=((box.name, pose),), solid=True)
 
     def _named(self, device: str) -> Iterator[tuple[str, Pose]]:
         """Yield the mount of a device, and the frames of the cell that it carries."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.frame import Solid
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.frame_tree import ModelLink
 from cellc.contract.diagnostics import Span, YamlPath
@@ -81,8 +82,9 @@ def _faults(graph: CellGraph) -> tuple[MeshFault, ...]:
     )
 
 
-def _meshes(graph: CellGraph) -> list[tuple[Mesh, ModelLink]]:
-    return [(mesh, part) for part in graph.model.links() for mesh in part.link.collision_meshes()]
+def _meshes(graph: CellGraph) -> list[tuple[Mesh, ModelLink | Solid]]:
+    of_links = [(mesh, part) for part in graph.model.links() for mesh in part.link.collision_meshes()]
+    return [*of_links, *((thing.shape, thing) for thing in graph.cell.scene if isinstance(thing.shape, Mesh))]
 
 
 def _facts(file: MeshFile, files: tuple[MeshFile, ...], spec: Path) -> MeshFacts:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SceneBox, SharedArea, SimulatedPose
+from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SharedArea, SimulatedPose
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import pose, si, vector
@@ -72,29 +72,6 @@ def link_frames(
     return Outcome(tuple(frames), tuple(problems))
 
 
-def link_scene(spec: CellSpec, document: SourceDocument, names: FrameNames) -> Outcome[tuple[SceneBox, ...]]:
-    """Bind the solid things of the cell."""
-    boxes: list[SceneBox] = []
-    problems: list[Diagnostic] = []
-    for name, box in until_hopeless(spec.scene.items(), problems):
-        path = ("scene", name)
-        parent = names.bind(box.parent, (*path, "parent"))
-        problems += parent.diagnostics
-        if parent.value is not None:
-            boxes.append(
-                SceneBox(
-                    name=name,
-                    path=path,
-                    span=document.locate(path),
-                    parent=parent.value,
-                    transform_to_parent=pose(box.xyz, box.rpy),
-                    size=vector(box.box),
-                    kind=box.kind,
-                )
-            )
-    return Outcome(tuple(boxes), tuple(problems))
-
-
 def link_areas(spec: CellSpec, document: SourceDocument, names: FrameNames) -> Outcome[tuple[SharedArea, ...]]:
     """Bind the volumes that several arms share."""
     areas: list[SharedArea] = []
@@ -116,23 +93,6 @@ def link_areas(spec: CellSpec, document: SourceDocument, names: FrameNames) -> O
             )
             areas.append(area)
     return Outcome(tuple(areas), tuple(problems))
-
-
-def scene_frames(boxes: Iterable[SceneBox]) -> tuple[Frame, ...]:
-    """Return the frame of each box, at its center."""
-    return tuple(
-        Frame(
-            name=box.name,
-            path=box.path,
-            span=box.span,
-            kind=FrameKind.SCENE,
-            parent=box.parent,
-            transform_to_parent=box.transform_to_parent,
-            authority=ROBOT_STATE_PUBLISHER,
-            designed=True,
-        )
-        for box in boxes
-    )
 
 
 def _world(document: SourceDocument) -> Frame:

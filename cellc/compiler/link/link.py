@@ -13,14 +13,14 @@ from cellc.compiler.cell.body import Body
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.entity import Places
-from cellc.compiler.cell.frame import Frame, SceneBox, SharedArea
+from cellc.compiler.cell.frame import Frame, SharedArea, Solid
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Servo
 from cellc.compiler.link.control import as_driven, bind_adapters, link_managers
 from cellc.compiler.link.controller import ControlContext
 from cellc.compiler.link.derived import Derivation, derive_interfaces
 from cellc.compiler.link.devices import BoundDevice, link_devices
 from cellc.compiler.link.endpoints import QosResolver, name_endpoints
-from cellc.compiler.link.frames import FrameNames, link_areas, link_frames, link_scene, name_frames, scene_frames
+from cellc.compiler.link.frames import FrameNames, link_areas, link_frames, name_frames
 from cellc.compiler.link.hand_eye import Measured, link_hand_eye, with_mounts
 from cellc.compiler.link.hopeless import to_first_hopeless
 from cellc.compiler.link.interfaces import link_interfaces
@@ -31,6 +31,7 @@ from cellc.compiler.link.planners import link_pipelines
 from cellc.compiler.link.programs import implied_endpoints, with_programs
 from cellc.compiler.link.rehearsals import link_rehearsals
 from cellc.compiler.link.robot import link_centers
+from cellc.compiler.link.scene import link_scene, scene_frames
 from cellc.compiler.link.site import (
     bind_bringup,
     bind_calibrations,
@@ -103,7 +104,7 @@ class _Placement:
     bound: tuple[BoundDevice, ...]
     names: FrameNames
     frames: tuple[Frame, ...]
-    scene: tuple[SceneBox, ...]
+    scene: tuple[Solid, ...]
     areas: tuple[SharedArea, ...]
     measured: Measured
 
@@ -220,6 +221,7 @@ def _surroundings(
         network=spec.network,
         calibrations=bind_calibrations(spec, places, measured.files),
         owners=spec.owners,
+        surroundings=spec.surroundings,
         safety=bind_safety(spec, devices),
         bringup=bind_bringup(spec, places),
         kpis=bind_kpis(spec),

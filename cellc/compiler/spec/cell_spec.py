@@ -7,13 +7,23 @@ from pydantic import Field, StringConstraints
 from cellc.compiler.spec.base import PackageName
 from cellc.compiler.spec.control import ManagerSpec, MotionSpec
 from cellc.compiler.spec.devices import DeviceSpec
-from cellc.compiler.spec.frames import AreaSpec, BoxSpec, CalibrationSpec, FrameSpec
+from cellc.compiler.spec.frames import AreaSpec, CalibrationSpec, FrameSpec
 from cellc.compiler.spec.hosts import HostSpec
 from cellc.compiler.spec.interfaces import InterfaceSpec, NodeSpec
 from cellc.compiler.spec.rehearsals import KpisSpec, RecordingSpec, RehearsalSpec, TargetSpec
 from cellc.compiler.spec.safety import BringupSpec, SafetySpec
+from cellc.compiler.spec.scene import SolidSpec
 from cellc.compiler.spec.uncertainty import RegionSpec, UncertaintySpec
-from cellc.contract.stated import HardwareStatement, Name, Network, Owners, StatedModel, Text, Versions
+from cellc.contract.stated import (
+    HardwareStatement,
+    Name,
+    Network,
+    Owners,
+    StatedModel,
+    Surroundings,
+    Text,
+    Versions,
+)
 
 PackageFolder = Annotated[str, StringConstraints(min_length=1, max_length=255)]
 TopicName = Annotated[str, StringConstraints(min_length=1, max_length=255)]
@@ -57,10 +67,15 @@ class CellSpec(StatedModel):
         description="Frames by name.",
         examples=[{"tcp": {"parent": "gripper/base", "xyz": "0 0 162 mm"}}],
     )
-    scene: dict[Name, BoxSpec] = Field(
+    scene: dict[Name, SolidSpec] = Field(
         default_factory=dict,
         description="Solid things that planning avoids, by name.",
         examples=[{"table": {"parent": "world", "box": "1200 800 40 mm", "xyz": "0 0 780 mm"}}],
+    )
+    surroundings: Surroundings = Field(
+        default_factory=Surroundings,
+        description="What is around the arms within their reach.",
+        examples=[{"support": {"shapes": ["table"]}, "walls": {"none": "the nearest is 4 m away"}}],
     )
     areas: dict[Name, AreaSpec] = Field(
         default_factory=dict,

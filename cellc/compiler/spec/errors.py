@@ -241,4 +241,5 @@ _WRITERS: Mapping[str, _Writer] = {
     "interface-kind-missing": _kind_missing,
     "step-kind-missing": _kind_missing,
     "fault-kind-missing": _kind_missing,
+    "solid-kind-missing": _kind_missing,
 }

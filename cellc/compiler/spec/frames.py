@@ -1,6 +1,4 @@
-"""Frames, their calibrations, and the solid things of the cell."""
-
-from typing import Literal
+"""Frames, their calibrations, and the volumes that arms share."""
 
 from pydantic import Field
 
@@ -67,20 +65,6 @@ class FrameSpec(StatedModel):
         None,
         description="Where the mock puts the thing that a dynamic frame follows.",
         examples=[{"parent": "world", "xyz": "300 -200 820 mm", "rpy": "180 0 0 deg"}],
-    )
-
-
-class BoxSpec(StatedModel):
-    """A box that planning must avoid; it becomes a link of the URDF."""
-
-    parent: FrameReference = Field(..., description="Frame that the box is fixed to.", examples=["world"])
-    xyz: Position | None = Field(None, description="Center of the box in the parent.", examples=["0 0 780 mm"])
-    rpy: RollPitchYaw | None = Field(
-        None, description="Fixed-axis roll, pitch, yaw in the parent.", examples=["0 0 0 deg"]
-    )
-    box: Position = Field(..., description="Full edge lengths along x, y, z.", examples=["1200 800 40 mm"])
-    kind: Literal["fixture", "obstacle"] = Field(
-        "fixture", description="A fixture belongs to the process, an obstacle is in the way.", examples=["fixture"]
     )
 
 

@@ -78,7 +78,17 @@ def resolved_tree(cell: Cell) -> dict[str, Tree]:
         **{key: _section(cell, part, ("motion", key)) for key in ("octomap", "servo") if (part := getattr(cell, key))},
     }
     tree["rehearsals"] = _entities(cell, cell.rehearsals)
-    sections = ("owners", "safety", "bringup", "kpis", "recording", "targets", "mock_plugins", "mock_programs")
+    sections = (
+        "surroundings",
+        "owners",
+        "safety",
+        "bringup",
+        "kpis",
+        "recording",
+        "targets",
+        "mock_plugins",
+        "mock_programs",
+    )
     for section in sections:
         tree[section] = _section(cell, getattr(cell, section), (section,))
     return tree

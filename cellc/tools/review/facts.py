@@ -327,6 +327,7 @@ def _xml(files: Mapping[str, str], path: str) -> XmlElement:
 def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
     """Yield what a spec says and no other file of the package holds as data."""
     yield from flatten(as_json(cell.safety), ("spec", "safety"))
+    yield from flatten(as_json(cell.surroundings), ("spec", "surroundings"))
     yield ("spec", "bringup", "gates"), cell.bringup.gates
     for first in cell.bringup.first_motions:
         yield from flatten(_without_place(as_json(first)), ("spec", "bringup", "first_motion", first.name))

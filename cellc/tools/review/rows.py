@@ -66,6 +66,8 @@ ROWS: Sequence[Row] = (
     Row("check tool_impedance {device}", Graded(_A.SAFETY, "impedance at the tool", Rule.DANGEROUS)),
     Row("check tool_voltage {device} {what}", Graded(_A.SAFETY, "tool connector", Rule.DANGEROUS, why=_BURNS)),
     Row("spec payload {device} ...", Graded(_A.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag")),
+    Row("spec surroundings {part} none", Graded(_A.SAFETY, "reason why there is nothing", Rule.DANGEROUS)),
+    Row("spec surroundings {part} ...", Graded(_A.SAFETY, "what is stated around the arms", Rule.LOST, ordered=False)),
     # Frames and what measured them.
     Row("placement {frame}", Graded(_A.FRAMES, "pose in its parent", Rule.PLACED)),
     Row(

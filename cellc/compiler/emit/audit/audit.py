@@ -24,6 +24,7 @@ from cellc.compiler.emit.audit.tables import (
     nodes_section,
     owners_section,
     record_section,
+    scene_section,
     shapes_section,
     signals_section,
     tf_section,
@@ -57,6 +58,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Open questions": _questions_section(graph, plan),
         "Version tuple": _version_section(cell),
         "Shapes": shapes_section(cell),
+        **({"Scene": scene_section(cell)} if cell.scene else {}),
         "Command owners": owners_section(graph),
         "Command paths": command_section(graph),
         **({"Digital signals": signals_section(cell)} if any(device.switched for device in cell.devices) else {}),
@@ -202,9 +204,26 @@ def _asked(cell: Cell, question: OpenQuestion) -> tuple[str, str]:
         if "rollback" in question.path:
             return _person(approvals.data), f"Which {part} does the cell roll back to when a new one fails?"
         return _person(approvals.graph), f"What is the {question.subject} of the machine that runs the cell?"
+    if section == "surroundings":
+        return _asked_of_surroundings(cell, part)
     if section == "safety":
         return _person(approvals.safety), f"What is the {question.subject}?"
     return _SPEC_AUTHOR, f"Who is the {question.subject}?"
+
+
+_AROUND = {
+    "support": "What carries each arm?",
+    "floor": "Where is the floor?",
+    "walls": "Which walls, fences and ceiling are within reach?",
+    "fittings": "Which brackets and cables are on the arms and beside them?",
+}
+
+
+def _asked_of_surroundings(cell: Cell, part: str) -> tuple[str, str]:
+    left_open = dict(cell.surroundings)[part].open
+    if left_open is None:
+        return _SPEC_AUTHOR, _AROUND[part]
+    return left_open.person, f"{_AROUND[part]} Known by {left_open.date}."
 
 
 def _asked_of_device(cell: Cell, device: Device, part: str) -> tuple[str, str]:

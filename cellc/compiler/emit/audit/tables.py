@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.frame import Solid
 from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.compiler.deploy.files import controllers_file, is_planner, node_file, parameter_files, plans
@@ -87,6 +89,26 @@ def _shapes(device: Device) -> tuple[str, str]:
     if vendor.refused:
         return "boxes and cylinders", f"the description in {code(vendor.package)} cannot be read"
     return "boxes and cylinders", f"{code(vendor.package)} is neither beside the spec nor on the package path"
+
+
+def scene_section(cell: Cell) -> str:
+    """Write each thing that planning avoids, what of the surroundings it is, and what its figures rest on."""
+    return table(("thing", "shape", "is", "from"), map(partial(_solid, cell), cell.scene))
+
+
+def _solid(cell: Cell, solid: Solid) -> tuple[str, ...]:
+    parts = [part for part, known in cell.surroundings if solid.name in known.shapes]
+    shape = "plane" if solid.is_plane else type(solid.geometry).__name__.lower()
+    touched = solid.touched
+    if touched is None:
+        return solid.name, shape, ", ".join(parts) or solid.kind, "figures of the spec"
+    method = "least squares" if solid.is_plane else "smallest box"
+    rest = f"root mean square {_mm(touched.root_mean_square_m)}, largest {_mm(touched.largest_m)}"
+    return solid.name, shape, ", ".join(parts) or solid.kind, f"{touched.points} touched points, {method}: {rest}"
+
+
+def _mm(length_m: float) -> str:
+    return f"{shortest(round(length_m * 1e3, 3))} mm"
 
 
 def signals_section(cell: Cell) -> str:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.cell.device import Device, DeviceJoint
-from cellc.compiler.cell.frame import SceneBox
+from cellc.compiler.cell.frame import Solid
 from cellc.compiler.formats.numbers import rounded, shortest
 from cellc.compiler.formats.xml_text import element
-from cellc.contract.transforms import Pose, identity
+from cellc.contract.transforms import Pose
 from cellc.robot.description.model import (
     Box,
     Collision,
@@ -134,11 +134,10 @@ def device_link(link: Link, palette: Palette) -> Element:
     return element("link", {"name": link.name}, [*body, *shapes])
 
 
-def scene_link(box: SceneBox) -> Element:
+def scene_link(box: Solid) -> Element:
     """Return the link of a solid thing; it has no inertia, because it does not move."""
-    shape = Box(box.size)
-    seen = Visual(name=None, pose=identity(), geometry=shape, material=None, rgba=None)
-    solid = Collision(name=None, pose=identity(), geometry=shape)
+    seen = Visual(name=None, pose=box.center, geometry=box.geometry, material=None, rgba=None)
+    solid = Collision(name=None, pose=box.center, geometry=box.geometry)
     return element(
         "link",
         {"name": box.name},
@@ -146,7 +145,7 @@ def scene_link(box: SceneBox) -> Element:
     )
 
 
-def scene_materials(boxes: Iterable[SceneBox]) -> Iterator[Element]:
+def scene_materials(boxes: Iterable[Solid]) -> Iterator[Element]:
     """Yield the material of each kind of box that the scene has."""
     for kind in dict.fromkeys(box.kind for box in boxes):
         color = element("color", {"rgba": numbers(_SCENE_COLORS[kind])})

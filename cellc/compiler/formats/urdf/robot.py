@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, DeviceJoint
-from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SceneBox
+from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Solid
 from cellc.compiler.formats.urdf.elements import (
     device_joint,
     device_link,
@@ -55,7 +55,7 @@ def _fixed_frames(cell: Cell) -> Iterator[Frame]:
             yield frame
 
 
-def _standing(cell: Cell) -> Iterator[SceneBox]:
+def _standing(cell: Cell) -> Iterator[Solid]:
     apart = _off_the_tree(cell)
     return (box for box in cell.scene if box.parent not in apart)
 
@@ -97,7 +97,7 @@ def _device(device: Device) -> Iterator[Element]:
     )
 
 
-def _held(name: str, placed: Frame | SceneBox) -> Element:
+def _held(name: str, placed: Frame | Solid) -> Element:
     pose = placed.transform_to_parent
     assert pose is not None, "only a dynamic frame has no pose"
     return fixed_joint(f"{name}_mount", placed.parent, name, pose)

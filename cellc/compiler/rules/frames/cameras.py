@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 
 from cellc.compiler.cell.device import CameraStream, Device, FieldOfView
-from cellc.compiler.cell.frame import FrameKind, SceneBox
+from cellc.compiler.cell.frame import FrameKind, Solid
 from cellc.compiler.feasibility import ViewAnswer, motion_answer
 from cellc.compiler.rules.geometry import KNOWN_GOALS
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
@@ -64,12 +64,12 @@ def _places(graph: CellGraph, kinds: tuple[FrameKind, ...], but_of: str = "") ->
             yield place.position
 
 
-def _corners(graph: CellGraph, box: SceneBox) -> Iterator[Vector3]:
+def _corners(graph: CellGraph, box: Solid) -> Iterator[Vector3]:
     """Yield corners, middles of edges and sides, and the center of a box in the world."""
     parent = graph.frames.in_world(box.parent)
     if parent is None:
         return
-    center = parent @ box.transform_to_parent
+    center = parent @ box.transform_to_parent @ box.center
     for signs in itertools.product((-0.5, 0.0, 0.5), repeat=3):
         x, y, z = (sign * length for sign, length in zip(signs, box.size, strict=True))
         yield (center @ Pose((x, y, z), (0.0, 0.0, 0.0, 1.0))).position

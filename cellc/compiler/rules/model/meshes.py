@@ -31,6 +31,8 @@ def _unusable_meshes(graph: CellGraph, code: str) -> Findings:
 
 def _unseen(graph: CellGraph, faults: Sequence[MeshFault]) -> str:
     """Say which links of a device touch nothing for want of a shape: those that move may hit anything."""
+    if faults[0].path[0] == "scene":
+        return "; contact with it is not checked"
     missing = {fault.name for fault in faults}
     links = [
         part.link.name

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from cellc.compiler.cell.frame import SceneBox
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.motion import DEPTH_IMAGE, POINT_CLOUD, Octomap
 from cellc.compiler.feasibility import BodyContact, motion_answer
@@ -21,7 +20,6 @@ from cellc.compiler.rules.geometry import (
     within_robot,
 )
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
-from cellc.contract.transforms import Pose
 
 
 @rule(Severity.ERROR, assumes=KNOWN_GOALS)
@@ -48,18 +46,12 @@ def goal_inside_scene(graph: CellGraph) -> Findings:
             parent = graph.frames.in_world(box.parent)
             if place is None or parent is None or sorted(box.size)[1] < _WIDER_M:
                 continue
-            deep_m = _depth(box, parent, place @ goal.transform_tip_to_frame)
-            if deep_m > _SURFACE_M:
+            deep_m = box.depth_m((parent.inverse() @ place @ goal.transform_tip_to_frame).position)
+            if deep_m is not None and deep_m > _SURFACE_M:
                 message = f"goal `{goal.name}` must lie outside of `{box.name}`, got {deep_m * 1e3:.3g} mm within it"
                 related = (Related("the box", box.span), Related("its frame", graph.cell.locate("frames", goal.frame)))
                 yield found(graph, goal.path, message, related=related)
                 break
-
-
-def _depth(box: SceneBox, parent: Pose, tip: Pose) -> float:
-    """Return how deep the tip lies in a box, m; negative outside."""
-    local = (parent @ box.transform_to_parent).inverse().apply(tip.position)
-    return min(size / 2 - abs(along) for size, along in zip(box.size, local, strict=True))
 
 
 @rule(Severity.WARNING, assumes=KNOWN_POSES)
