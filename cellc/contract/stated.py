@@ -200,7 +200,7 @@ class Surrounding(StatedModel):
 
     @property
     def is_stated(self) -> bool:
-        """Whether it says something: shapes, why there are none, or who finds it out."""
+        """Whether it says something: shapes, why there is nothing, or who finds it out."""
         return bool(self.shapes or self.none or (self.open is not None and self.open.is_named))
 
 

@@ -48,3 +48,11 @@ def test_text_that_names_what_its_subject_lacks_is_refused() -> None:
         Line(of="device", text="{device} at {rate}")
     with pytest.raises(ValidationError, match=r"expected one of cell, .*, got `robot`"):
         Line(of="robot", text="it stands")
+
+
+def test_what_is_stated_around_the_arms_is_measured_in_g1() -> None:
+    (gate,) = (gate for gate in plan_deployment(built("ur5e_pick").graph).promotion if gate.code == GateCode.G1)
+    said = [check.text for check in gate.checks]
+    measured = "Measure around each arm. Compare its"
+    assert f"{measured} support with the spec: table, and nothing else within reach." in said
+    assert f"{measured} walls with the spec: nothing within reach; the nearest is 3 m away." in said

@@ -64,6 +64,26 @@ def test_what_stands_on_the_device_is_asked_of_its_owner() -> None:
     assert ["robot", "What is the serial of arm? See its nameplate or panel.", "`devices.arm.serial`"] in rows
 
 
+def test_surroundings_that_are_open_are_asked_of_their_person_and_unstated_ones_of_the_author(tmp_path: Path) -> None:
+    rows = section(artifacts_of("ur5e_pick")["audit.md"], "Open questions")
+    asked = "Which brackets and cables are on the arms and beside them?"
+    assert ["integration", f"{asked} Known by 2026-12-15.", "`surroundings.fittings`"] in rows
+    text = spec_text("ur5e_pick").replace("  floor: {shapes: [floor]}\n", "")
+    rows = section(emitted(tmp_path, text)["audit.md"], "Open questions")
+    assert ["author of the spec", "Where is the floor?", "`surroundings.floor`"] in rows
+
+
+def test_scene_says_what_a_touched_shape_rests_on(tmp_path: Path) -> None:
+    """Four corners of a square of 1 m and its middle 2.5 mm higher: the mean is 0.5 mm up."""
+    points = "[0 0 0 m, 1 0 0 m, 0 1 0 m, 1 1 0 m, 0.5 0.5 0.0025 m]"
+    touched = f"touched: {{shape: plane, points: {points}, within: 3 mm, free: 0 0 1 m}}"
+    text = spec_text("ur5e_pick").replace("plane: 4 m}", f"{touched}}}")
+    rows = section(emitted(tmp_path, text)["audit.md"], "Scene")
+    assert ["table", "box", "support", "figures of the spec"] in rows
+    fit = "5 touched points, least squares: root mean square 1 mm, largest 2 mm"
+    assert ["floor", "plane", "floor", fit] in rows
+
+
 def test_every_command_interface_has_its_owner() -> None:
     rows = section(artifacts_of("ur5e_pick")["audit.md"], "Command owners")
     moved = [row for row in rows if row[1] != "arm_io"]

@@ -131,5 +131,5 @@ class Solid(Entity):
 
     @property
     def is_plane(self) -> bool:
-        """Whether it stands for all that is behind its surface."""
+        """Whether it is the surface of all that is behind it."""
         return self.center != identity()

@@ -28,6 +28,7 @@ from cellc.compiler.deploy.gate_motion import (
     unguarded,
 )
 from cellc.compiler.deploy.gate_states import modes, ready_states, self_resuming, stopping_devices
+from cellc.compiler.deploy.labels import said_around
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
@@ -101,18 +102,6 @@ def _success(graph: CellGraph) -> Iterator[Values]:
 
 def _mock_statements(graph: CellGraph) -> Iterator[Values]:
     return ((device.name, name, said.by, said.date) for device, name, said in graph.cell.signed_for_mock())
-
-
-def _surroundings(graph: CellGraph) -> Iterator[Values]:
-    for part, known in graph.cell.surroundings:
-        if known.shapes:
-            yield part, f"is as in {', '.join(known.shapes)}, and nothing else of it is within reach"
-        if known.none is not None:
-            yield part, f"is not within reach: {known.none}"
-
-
-def _managers(graph: CellGraph) -> Iterator[Values]:
-    return ((f"{manager.namespace}/controller_manager",) for manager in graph.cell.managers)
 
 
 def _mock_actions(graph: CellGraph) -> Iterator[Values]:
@@ -337,11 +326,11 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "nominal_device": (("device", "state", "file", "command"), _nominal_devices),
     "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
     "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
-    "surrounding": (("part", "is_as"), _surroundings),
+    "surrounding": (("part", "what"), lambda graph: said_around(graph.cell)),
     "mock_statement": (("device", "loaded", "by", "date"), _mock_statements),
     "success": (("rehearsal", "share", "confidence"), _success),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
-    "manager": (("manager",), _managers),
+    "manager": (("manager",), lambda graph: ((manager.node,) for manager in graph.cell.managers)),
     "component": (("component", "state", "whose"), _components),
     "mock_action": (("action",), _mock_actions),
     "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),

@@ -222,3 +222,12 @@ def real_driver(device: Device) -> str:
     return (
         _NOTHING if device.control.driver is None else f"{device.control.driver.node} ({device.control.driver.program})"
     )
+
+
+def said_around(cell: Cell) -> Iterator[tuple[str, str]]:
+    """Yield each part of the surroundings that is stated, and what a person then finds there."""
+    for part, known in cell.surroundings:
+        if known.shapes:
+            yield part, f"{', '.join(known.shapes)}, and nothing else within reach"
+        if known.none is not None:
+            yield part, f"nothing within reach; {known.none}"

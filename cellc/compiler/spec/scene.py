@@ -62,7 +62,7 @@ class PlaneSpec(PlacedFields):
     """A flat side, such as a floor or a wall: z points to where arms move, and behind it all is solid."""
 
     plane: Edge = Field(
-        ..., description="Edge of the square that stands for it; at least as wide as arms reach.", examples=["4 m"]
+        ..., description="Edge of the square that is there for it; at least as wide as arms reach.", examples=["4 m"]
     )
 
 
@@ -108,7 +108,7 @@ class TouchedPoints(StatedModel):
         examples=["500 500 300 mm"],
     )
     edge: Edge | None = Field(
-        None, description="Edge of the square that stands for a plane; 4 m if absent.", examples=["4 m"]
+        None, description="Edge of the square that is there for a plane; 4 m if absent.", examples=["4 m"]
     )
 
 
