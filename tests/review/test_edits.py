@@ -104,16 +104,17 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             ),
         ),
         [
-            "dangerous safety | walls | reason why there is nothing | the nearest is 3 m away -> the nearest is 2 m away",
+            "dangerous safety | walls | reason why there is nothing | the nearest is 3 m away -> "
+            "the nearest is 2 m away",
             "dangerous safety | floor | what is stated around the arms shapes | floor -> ",
             "review safety | floor | what is stated around the arms open.date | None -> 2027-01-01",
             "review safety | floor | what is stated around the arms open.person | None -> safety",
             "review model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, length 40 mm",
-            "review gates | gates/promotion.md | 1 line (not classified) | - [ ] Measure around each arm. Compare its floor "
-            "with the spec: floor, and nothing else within reach. -> - [ ] Measure around each arm. Compare its walls with "
-            "the spec: nothing within reach; the nearest is 2 m away.",
-            "review documents | audit.md | 1 line (not classified) | | floor | plane | floor | figures of the spec | -> "
-            "| floor | plane | fixture | figures of the spec |",
+            "review gates | gates/promotion.md | 1 line (not classified) | - [ ] Measure around each arm. Compare its "
+            "floor with the spec: floor, and nothing else within reach. -> - [ ] Measure around each arm. Compare its walls "
+            "with the spec: nothing within reach; the nearest is 2 m away.",
+            "review documents | audit.md | 1 line (not classified) | | floor | plane | floor | figures of the spec | "
+            "-> | floor | plane | fixture | figures of the spec |",
             "safe documents | table | looks | pose position 0, 0, 0 quaternion 0, 0, 0, 1 geometry size 0.9, 1.2, 0.04 "
             "scene_fixture rgba 0.7, 0.7, 0.7, 1 -> pose position 0, 0, 0 quaternion 0, 0, 0, 1 geometry radius 0.7 "
             "length 0.04 scene_fixture rgba 0.7, 0.7, 0.7, 1",
