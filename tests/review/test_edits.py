@@ -111,8 +111,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review safety | floor | what is stated around the arms open.person | None -> safety",
             "review model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, length 40 mm",
             "review gates | gates/promotion.md | 1 line (not classified) | - [ ] Measure around each arm. Compare its "
-            "floor with the spec: floor, and nothing else within reach. -> - [ ] Measure around each arm. Compare its walls "
-            "with the spec: nothing within reach; the nearest is 2 m away.",
+            "floor with the spec: floor, and nothing else within reach. -> - [ ] Measure around each arm. Compare its "
+            "walls with the spec: nothing within reach; the nearest is 2 m away.",
             "review documents | audit.md | 1 line (not classified) | | floor | plane | floor | figures of the spec | "
             "-> | floor | plane | fixture | figures of the spec |",
             "safe documents | table | looks | pose position 0, 0, 0 quaternion 0, 0, 0, 1 geometry size 0.9, 1.2, 0.04 "

@@ -90,8 +90,8 @@ def test_who_approved_before_a_change_approves_it(repository: Repository, main: 
 
 
 def test_an_obstacle_that_planning_knows_no_more_is_dangerous(repository: Repository, main: Package) -> None:
-    lines = "scene:\n  table: {parent: world, xyz: 350 0 780 mm, box: 900 1200 40 mm}\n"
-    found = _changes(repository, main, (lines, ""))
+    table = "  table: {parent: world, xyz: 350 0 780 mm, box: 900 1200 40 mm}\n"
+    found = _changes(repository, main, (table, ""), ("{shapes: [table]}", "{shapes: [floor]}"))
     assert "dangerous model | table | collision shapes removed | present -> None" in found
 
 

@@ -212,7 +212,8 @@ def test_a_spec_with_mistakes_of_every_kind_is_drawn_as_far_as_it_can_be_linked(
     ran, found = _viewed(tmp_path, text)
     assert (ran.code, ran.err) == (1, "")
     scene = found.data["scene"]
-    assert {one["owner"] for one in scene["shapes"]} == {"arm", "camera"}
+    assert {one["owner"] for one in scene["shapes"]} == {"arm", "camera", ""}
+    assert [one["link"] for one in scene["shapes"] if not one["owner"]] == ["floor"]
     # By hand: the arm is mounted 0.8 m above the world, and the camera stands where it is drawn, on the flange.
     base = next(one for one in scene["frames"] if one["name"] == "arm_base_link")
     assert base["pose"][:3] == [0, 0, 0.8]

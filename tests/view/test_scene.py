@@ -70,7 +70,7 @@ def test_frames_of_a_named_pose_stand_where_pinocchio_has_them(subject: Subject,
 
 def test_every_body_of_the_description_is_drawn_for_its_device(scene: Scene) -> None:
     assert {one.owner for one in scene.shapes} == {"arm", "gripper", "camera", ""}
-    assert [one.link for one in scene.shapes if not one.owner] == ["table"]
+    assert [one.link for one in scene.shapes if not one.owner] == ["table", "floor"]
     assert scene.left_out == ()
 
 

@@ -8,6 +8,7 @@ from itertools import groupby
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.frame import TouchedFit
 from cellc.compiler.cell.hardware import DeviceDriver
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.formats.numbers import shortest
@@ -231,3 +232,10 @@ def said_around(cell: Cell) -> Iterator[tuple[str, str]]:
             yield part, f"{', '.join(known.shapes)}, and nothing else within reach"
         if known.none is not None:
             yield part, f"nothing within reach; {known.none}"
+
+
+def touched_label(fit: TouchedFit, is_plane: bool) -> str:
+    """Return what a touched shape rests on: its points, how it was fitted, and by how far they miss it."""
+    method = "least squares" if is_plane else "smallest box"
+    mean, most = (f"{round(miss * 1e3, 3):g} mm" for miss in (fit.root_mean_square_m, fit.largest_m))
+    return f"{fit.points} touched points, {method}: root mean square {mean}, largest {most}"

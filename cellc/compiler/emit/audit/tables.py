@@ -19,6 +19,7 @@ from cellc.compiler.deploy.labels import (
     frame_label,
     interface_facts,
     rate_label,
+    touched_label,
     units,
     watchdog,
     watched_stream,
@@ -102,13 +103,7 @@ def _solid(cell: Cell, solid: Solid) -> tuple[str, ...]:
     touched = solid.touched
     if touched is None:
         return solid.name, shape, ", ".join(parts) or solid.kind, "figures of the spec"
-    method = "least squares" if solid.is_plane else "smallest box"
-    rest = f"root mean square {_mm(touched.root_mean_square_m)}, largest {_mm(touched.largest_m)}"
-    return solid.name, shape, ", ".join(parts) or solid.kind, f"{touched.points} touched points, {method}: {rest}"
-
-
-def _mm(length_m: float) -> str:
-    return f"{shortest(round(length_m * 1e3, 3))} mm"
+    return solid.name, shape, ", ".join(parts) or solid.kind, touched_label(touched, solid.is_plane)
 
 
 def signals_section(cell: Cell) -> str:
