@@ -237,7 +237,8 @@ def _comparable(value: Any) -> Any:
 def test_every_package_that_the_catalog_names_and_that_a_cell_needs_is_known() -> None:
     table = there(load_packages().value)
     facts = [_device(name).model for name in device_names()]
-    named = {package for one in facts for package in one.packages.model_dump().values()}
+    parts = [part for one in facts for part in one.packages.model_dump().values()]
+    named = {part for part in parts if isinstance(part, str)} | set(_packages_of(parts))
     named |= {node.package for one in facts for node in one.nodes}
     named |= {package for kind in controller_kinds() for package in _packages_of(_kind(kind).model_dump())}
     for loaded in (load_distros(), load_message_types(), load_planners(), load_programs(), load_controller_manager()):
