@@ -36,7 +36,7 @@ from tests.cells import ROOT, catalog_facts, there
 
 PLACEHOLDERS = {
     *("device", "prefix", "bare_prefix", "prefix_namespace", "stem"),
-    *("address", "port", "host_address", "carrier_address"),
+    *("address", "port", "host_address", "carrier_address", "username", "password"),
     *("played_by", "thresholds", "carrier", "load", "joint_stiffness", "cartesian_stiffness"),
     *("tool_voltage", "tool_baud_rate", "tool_parity", "tool_stop_bits", "tool_port"),
     *("gripper_max_speed", "gripper_max_force", "gripper_closed"),

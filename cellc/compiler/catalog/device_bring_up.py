@@ -88,11 +88,13 @@ class StateTopicFacts(CatalogModel):
     Attributes:
         controller: Kind of controller of this device that publishes the topic.
         topic: Name of the topic below the node of the controller, such as ``safety_mode``.
+        field: Field of the message that says it; absent for the whole message.
         source: Document or line of code from which this was read.
     """
 
     controller: Token
     topic: Token
+    field: Token | None = None
     source: Text
 
 
@@ -195,12 +197,15 @@ class RecordFacts(CatalogModel):
 
 
 class JogFacts(CatalogModel):
-    """How people move one joint where the driver cannot run meanwhile, so that positions are read at the device.
+    """How people move one joint of the real device by hand, by its vendor's procedure.
 
     Attributes:
-        does: What people do, step by step, and where they read the position.
+        driver_runs: Whether the driver reads positions meanwhile; without it people read them at the device.
+        does: What people do, step by step, and where they read the position if the driver does not run. Where the
+            vendor has no such way, it says what is used in its place.
         source: Document with its version from which this was read.
     """
 
+    driver_runs: bool = False
     does: Text
     source: Text

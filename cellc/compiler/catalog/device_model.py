@@ -2,7 +2,8 @@
 
 Texts may carry placeholders that link fills in: ``{device}`` the name in the spec, ``{prefix}`` that of its ROS names,
 ``{bare_prefix}`` the prefix without its last underscore, ``{prefix_namespace}`` the same as a namespace, ``{stem}`` the
-same or, without one, the name, ``{address}`` and ``{port}`` of the connection, ``{host_address}`` of the host's
+same or, without one, the name, ``{address}``, ``{port}``,
+``{username}`` and ``{password}`` of the connection, ``{host_address}`` of the host's
 card, ``{carrier_address}`` that of the device on which this one is mounted, ``{controller_KIND}`` the full name of the
 cell's controller of that kind on this device, ``{share:PACKAGE}`` the share folder of an installed package,
 ``{played_by}`` who starts its program, ``{thresholds}`` those of collisions as a request, ``{load}`` what
@@ -226,7 +227,7 @@ class DeviceModel(CatalogModel):
         allowed_collisions: Pairs of links that may touch.
         excused: Codes of findings on the description that are accepted, each with the reason.
         kinematics: How a calibration of one very robot is read.
-        jog: How people move a joint while the driver does not run.
+        jog: How people move a joint by hand; every arm of the catalog states it.
         limits: Limits that the description lacks or has wrong, and payload, reach and repeatability.
         laws: How the joints of the real device follow what they are commanded, by the command interface.
         packages: Packages and libraries whose versions the spec pins.

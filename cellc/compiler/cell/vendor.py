@@ -43,13 +43,14 @@ class VendorSafety:
 
     Args:
         stop_authority: what stops the device, by its vendor; None where no source says.
-        topics: what says in which state the device is, where the cell has the controller that publishes it.
+        topics: what says in which state the device is, where the cell has the controller that publishes it, each with
+            the field that says it; the whole message where that is empty.
         ending, ended: what people do at the device once nothing is claimed, before and after its driver ends.
     """
 
     stop_authority: str | None = None
     states: tuple[SafetyState, ...] = ()
-    topics: tuple[str, ...] = ()
+    topics: tuple[tuple[str, str], ...] = ()
     ending: tuple[str, ...] = ()
     ended: tuple[str, ...] = ()
     modes: tuple[str, ...] = ()
@@ -106,11 +107,13 @@ class Procedures(Part):
 
     Args:
         record: where the record of an attempt has fields from that the real one alone can tell.
-        jog: how people move one joint where the driver cannot run meanwhile; None where it can.
+        jog: how people move one joint by hand; None where no source says.
+        driver_runs: the driver reads positions meanwhile.
         commissioning: steps in the vendor's order.
     """
 
     safety: Annotated[VendorSafety, ELSEWHERE] = field(default_factory=VendorSafety)
     record: Annotated[tuple[RecordSource, ...], ELSEWHERE] = ()
     jog: str | None = None
+    driver_runs: bool = True
     commissioning: Annotated[tuple[CommissioningStep, ...], ELSEWHERE] = ()

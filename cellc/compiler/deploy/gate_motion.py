@@ -26,7 +26,7 @@ def first_motion(graph: CellGraph) -> Iterator[Values]:
 def jogged(graph: CellGraph) -> Iterator[Values]:
     """Yield the first motions of robots whose driver reads on while a person moves them."""
     firsts = graph.cell.bringup.first_motions
-    return (_first_motion(graph, first) for first in firsts if graph.cell.device(first.device).procedures.jog is None)
+    return (_first_motion(graph, first) for first in firsts if graph.cell.device(first.device).procedures.driver_runs)
 
 
 def jogging(graph: CellGraph) -> Iterator[Values]:
@@ -38,8 +38,23 @@ def guided(graph: CellGraph) -> Iterator[Values]:
     """Yield the first motions of robots whose driver cannot run meanwhile, with how their vendors have people move
     them."""
     for first in graph.cell.bringup.first_motions:
-        if jog := graph.cell.device(first.device).procedures.jog:
-            yield *_first_motion(graph, first), jog
+        procedures = graph.cell.device(first.device).procedures
+        if procedures.jog is not None and not procedures.driver_runs:
+            yield *_first_motion(graph, first), procedures.jog
+
+
+def stated_jogs(graph: CellGraph) -> Iterator[Values]:
+    """Yield how the vendors have people jog the robots whose driver reads on."""
+    for first in graph.cell.bringup.first_motions:
+        procedures = graph.cell.device(first.device).procedures
+        if procedures.jog is not None and procedures.driver_runs:
+            yield first.device, procedures.jog
+
+
+def unstated_jogs(graph: CellGraph) -> Iterator[Values]:
+    """Yield the robots of first motions of which no source says how people jog them."""
+    firsts = graph.cell.bringup.first_motions
+    return ((first.device,) for first in firsts if graph.cell.device(first.device).procedures.jog is None)
 
 
 def _first_motion(graph: CellGraph, first: FirstMotion) -> Values:

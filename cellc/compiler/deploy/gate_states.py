@@ -1,4 +1,4 @@
-"""Lines of the gates about the states of devices: which of them stop, in which they may be moved, and their modes."""
+"""Lines of the gates about the states of devices: which of them stop, in which they may be moved, how one logs in."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.deploy.gate_motion import Values
 from cellc.compiler.formats.escape import shell_word
+from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.vocabulary import GateCode, LeftBy
 
@@ -17,7 +18,10 @@ def stopping_devices(graph: CellGraph) -> Iterator[Values]:
         for gate in GateCode:
             stops = [state for state in safety.states if state.stops and state.gate is gate]
             if stops:
-                echoes = (f"timeout 10 ros2 topic echo --once {shell_word(topic)}" for topic in safety.topics)
+                echoes = (
+                    f"timeout 10 ros2 topic echo --once {field and f'--field {field} '}{shell_word(topic)}"
+                    for topic, field in safety.topics
+                )
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
                 yield device.name, states, "\n".join(echoes), gate
 
@@ -36,7 +40,34 @@ def modes(graph: CellGraph) -> Iterator[Values]:
     return ((name, listed) for name, listed in named if listed)
 
 
+def variables(graph: CellGraph) -> Iterator[Values]:
+    """Yield the environment variables with which a driver logs in at its device, the user name first."""
+    for device in graph.cell.devices:
+        if names := credentials(device)[0]:
+            yield device.name, " and ".join(names), f"printenv {names[0]}"
+
+
+def secret_files(graph: CellGraph) -> Iterator[Values]:
+    """Yield the files from which a driver has its user name and password."""
+    for device in graph.cell.devices:
+        yield from ((device.name, path, f"stat -c '%a %U' {path}") for path in credentials(device)[1])
+
+
 def self_resuming(graph: CellGraph) -> Iterator[Values]:
     """Yield the stops that end without a person."""
     states = ((device.name, state) for device in graph.cell.devices for state in device.procedures.safety.states)
     return ((name, state.name) for name, state in states if state.stops and state.left_by is LeftBy.ITSELF)
+
+
+def identities(graph: CellGraph) -> Iterator[Values]:
+    """Yield what identifies each device, as the spec states it."""
+    for device in graph.cell.devices:
+        safety = " and its safety state" if device.procedures.safety.states else ""
+        yield device.name, device.software.versions.serial, device.software.versions.firmware, safety
+
+
+def bounded_clocks(graph: CellGraph) -> Iterator[Values]:
+    """Yield the computers whose clock must be within a bound."""
+    for host in graph.cell.hosts.values():
+        if host.clock.max_offset_s is not None:
+            yield host.name, graph.cell.text(*host.path, "clock", "max_offset")

@@ -10,6 +10,7 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.configuration import version_tuple
+from cellc.compiler.deploy.drills import claimed, drills, interlocks, pulled
 from cellc.compiler.deploy.ends import ends_on_real, is_late, silent
 from cellc.compiler.deploy.files import is_servo
 from cellc.compiler.deploy.gate_motion import (
@@ -24,10 +25,21 @@ from cellc.compiler.deploy.gate_motion import (
     real_actions,
     released,
     small_goal,
+    stated_jogs,
     stop_reasons,
     unguarded,
+    unstated_jogs,
 )
-from cellc.compiler.deploy.gate_states import modes, ready_states, self_resuming, stopping_devices
+from cellc.compiler.deploy.gate_states import (
+    bounded_clocks,
+    identities,
+    modes,
+    ready_states,
+    secret_files,
+    self_resuming,
+    stopping_devices,
+    variables,
+)
 from cellc.compiler.deploy.labels import said_around
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
@@ -264,12 +276,6 @@ def _reached_devices(graph: CellGraph) -> Iterator[Values]:
             yield device.host, device.device, device.nic or "not stated", device.text
 
 
-def _devices(graph: CellGraph) -> Iterator[Values]:
-    for device in graph.cell.devices:
-        safety = " and its safety state" if device.procedures.safety.states else ""
-        yield device.name, device.software.versions.serial, device.software.versions.firmware, safety
-
-
 def _interfaces(graph: CellGraph) -> Iterator[Values]:
     for interface in _on_real(graph):
         starts, ends = ends_on_real(graph, interface)
@@ -298,12 +304,6 @@ def _groups(graph: CellGraph, *, late: bool) -> Iterator[Values]:
     for group in graph.cell.groups:
         if is_shown_late(graph.cell, group.base_link, group.tip_frame) is late:
             yield group.tip_frame, group.base_link
-
-
-def _bounded_clocks(graph: CellGraph) -> Iterator[Values]:
-    for host in graph.cell.hosts.values():
-        if host.clock.max_offset_s is not None:
-            yield host.name, graph.cell.text(*host.path, "clock", "max_offset")
 
 
 def _on_real(graph: CellGraph) -> Iterator[Interface]:
@@ -339,6 +339,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), stopping_devices),
     "ready_states": (("device", "states"), ready_states),
+    "variables": (("device", "names", "command"), variables),
+    "secret_file": (("device", "file", "command"), secret_files),
     "modes": (("device", "modes"), modes),
     "self_resuming": (("device", "state"), self_resuming),
     "loaded_device": (_PAYLOAD, _loaded_devices),
@@ -349,6 +351,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "first_motion": (_FIRST_MOTION, first_motion),
     "small_goal": ((*_FIRST_MOTION, "command", "cancel"), small_goal),
     "jogging": ((), jogging),
+    "stated_jog": (("device", "does"), stated_jogs),
+    "unstated_jog": (("device",), unstated_jogs),
     "jogged": (_FIRST_MOTION, jogged),
     "guided": ((*_FIRST_MOTION, "does"), guided),
     "missing_first_motion": ((), missing_first_motion),
@@ -361,15 +365,19 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "real_motion": (("where", "command"), lambda graph: move_real(graph.cell)),
     "real_action": (("action",), real_actions),
     "cancel": (("action", "seconds", "service"), cancels),
+    "pulled": (("device", "does"), pulled),
+    "claimed": (("device", "does"), claimed),
+    "drill": (("device", "act", "follows", "gate"), drills),
+    "interlock": (("area", "granted_by"), interlocks),
     "unguarded": (("device", "name", "type", "does", "command"), unguarded),
     "card": (("card", "address", "carries"), _cards),
     "reached_device": (("host", "device", "card", "address"), _reached_devices),
-    "device": (("device", "serial", "firmware", "safety"), _devices),
+    "device": (("device", "serial", "firmware", "safety"), identities),
     "interface": (("interface", "starts", "ends", "command"), _interfaces),
     "stream": (("topic", "rate", "age"), lambda graph: _streams(graph, late=False)),
     "late_stream": (("topic", "rate", "age"), lambda graph: _streams(graph, late=True)),
     "late_reader": (("controller",), _late_readers),
-    "bounded_clock": (("host", "offset"), _bounded_clocks),
+    "bounded_clock": (("host", "offset"), bounded_clocks),
     "group": (("tip", "base"), lambda graph: _groups(graph, late=False)),
     "late_group": (("tip", "base"), lambda graph: _groups(graph, late=True)),
     "described_node": (("node",), lambda graph: _each(description_nodes(graph.cell))),

@@ -113,6 +113,7 @@ def vendor_procedures(
         safety=_vendor_safety(facts, known, holding),
         record=tuple(_record(facts)),
         jog=None if facts.jog is None else facts.jog.does,
+        driver_runs=facts.jog is None or facts.jog.driver_runs,
         commissioning=tuple(
             _step(step, known)
             for step in facts.commissioning
@@ -365,7 +366,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
             for state in safety.states
         ),
         topics=tuple(
-            f"{known.values[kind]}/{facts.topic}"
+            (f"{known.values[kind]}/{facts.topic}", facts.field or "")
             for facts in safety.reported_by
             if (kind := f"controller_{facts.controller}") in known.values
         ),

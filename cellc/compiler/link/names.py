@@ -96,12 +96,22 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec, po
             "address": (connection.address if connection is not None else None) or UNKNOWN,
             "port": port_of(written, spec) or UNKNOWN,
             "host_address": host_address,
+            **_credentials(name, written),
             "carrier_address": _carrier_address(written, spec),
             "prefix_namespace": "/" + prefix.removesuffix("_") if prefix.removesuffix("_") else "",
             **{f"controller_{kind}": name for kind, name in _controllers(name, spec)},
         },
         port_shift=port_shift,
     )
+
+
+def _credentials(name: str, written: DeviceSpec) -> dict[str, str]:
+    """Return what xacro replaces by user name and password as the driver starts: no file of the package has either."""
+    stated = None if written.connection is None else written.connection.credentials
+    if stated is not None and stated.startswith("/"):
+        return {key: f"{{yaml:{stated}:{key}}}" for key in ("username", "password")}
+    variable = stated or name.upper()
+    return {key: f"{{env:{variable}_{key.upper()}}}" for key in ("username", "password")}
 
 
 def _controllers(device: str, spec: CellSpec) -> Iterator[tuple[str, str]]:

@@ -1,8 +1,8 @@
 """Robots, grippers and sensors of the cell."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from cellc.compiler.spec.base import Day, FrameReference
 from cellc.compiler.spec.quantity import (
@@ -51,6 +51,12 @@ class MountSpec(PlacementSpec):
     )
 
 
+Credentials = Annotated[
+    str, StringConstraints(pattern=r"^([A-Z][A-Z0-9_]*|(/[A-Za-z0-9_][A-Za-z0-9_.-]*)+)$", max_length=200)
+]
+"""Prefix of two environment variables, or a file: where user name and password are, never what they are."""
+
+
 class ConnectionSpec(StatedModel):
     """How the real device is reached; never used by a mock or simulated target."""
 
@@ -64,6 +70,14 @@ class ConnectionSpec(StatedModel):
         None,
         description=("Robot from whose tool connector it has its power; its serial port too, where `port` is absent."),
         examples=["arm"],
+    )
+    credentials: Credentials | None = Field(
+        None,
+        description=(
+            "Where its user name and password are as it is launched: `ARM` for the environment variables "
+            "`ARM_USERNAME` and `ARM_PASSWORD`, or a YAML file with `username` and `password`; by its name if absent."
+        ),
+        examples=["ARM"],
     )
     first_port: int | None = Field(
         None,

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.effects import EffectFacts
 from cellc.compiler.catalog.load import CatalogDevice
 from cellc.compiler.formats.escape import code, markdown
 from cellc.compiler.formats.markdown_table import TableCell, table
 from cellc.compiler.formats.views import Part, two_views
 from cellc.contract.transforms import Pose
+from cellc.contract.vocabulary import Loop, Moment, Need
 from cellc.robot.description.model import Joint
 from cellc.robot.description.posture import farthest, posture
 from cellc.tools.browse.controllers import FILE, controllers_page
@@ -49,6 +51,7 @@ def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
         "Frames": table(("name in a spec", "link", ""), _frames(model)),
         "States": table(("state", "outputs that set it", "sensors that report it", ""), _states(model)),
         "Packages": table(("part", "ROS 2", "versions", "source"), _versions(model)),
+        "What the real robot does": table(BEHAVIOR, behavior(model) if model.kind == "arm" else ()),
         "What it does": table(("moment", "what moves", "what happens", "source"), _effects(model)),
         "Stops": table(("state", "component", "a claim lacks", "reported by", "ends by", "shown"), _stops(model)),
         "Its own controllers": table(("kind", "plugin"), _controllers(model)),
@@ -150,6 +153,64 @@ def _effects(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
             yield f"start of {node.executable}", node.effect.motion.value, node.effect.does, node.effect.source
 
 
+BEHAVIOR = ("when", "moves", "component", "reported by", "what happens", "source")
+_NOT_STATED = "not stated"
+_MOMENTS = {
+    "pause": Moment.PROGRAM_PAUSE,
+    "resume": Moment.PROGRAM_RESUME,
+    "lost link": Moment.LINK_LOST,
+    "reconnect": Moment.RECONNECT,
+    "hold of a claim": Moment.CLAIM,
+}
+
+
+def behavior(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+    """Yield what an arm does in a stop, a pause, a lost link, a claim and a jog, and how its joints follow commands."""
+    effects = _real_effects(model)
+    for state in () if model.safety is None else model.safety.states:
+        if state.stops:
+            moves, left, by, does, source = _played(model, effects.get(state.moment), state.ends)
+            yield state.name, moves, left, by, f"{does}; ends by {state.left_by.value}", source
+    for name, moment in _MOMENTS.items():
+        if moment in effects:
+            yield name, *_played(model, effects[moment], ())
+        elif moment in (Moment.PROGRAM_PAUSE, Moment.PROGRAM_RESUME):
+            yield name, "", "", "", "set points pass through no program of the robot", ""
+        else:
+            yield name, _NOT_STATED, "", "", "", ""
+    if model.jog is not None:
+        runs = "its driver reads on" if model.jog.driver_runs else "its driver is stopped"
+        yield "jog", "", "", runs, model.jog.does, model.jog.source
+    for law in model.laws:
+        held = f"a canceled or aborted goal holds what is {law.held.value}"
+        gravity = f"gravity: {law.gravity.value}" if law.loop is Loop.SPRING else ""
+        said = "; ".join(filter(None, (f"{law.loop.value} loop", gravity, held, law.because or "")))
+        yield f"law of {', '.join(law.commands) or 'other'} commands", "", "", "", said, law.source
+
+
+def _real_effects(model: DeviceModel) -> Mapping[Moment, EffectFacts]:
+    real = None if model.control is None else model.control.hardware.real
+    return {} if real is None else real.effects
+
+
+def _played(model: DeviceModel, effect: EffectFacts | None, more: tuple[Need, ...]) -> tuple[TableCell, ...]:
+    """Return what moves, the state of the component, who says so, what happens, and where this was read."""
+    if effect is None:
+        return _NOT_STATED, "", "", "", ""
+    left = effect.leaves or ""
+    told = _reported(model, (*effect.ends, *more)) if left == "active" else "its component"
+    by = told if left else ""
+    return effect.motion.value, left, by, effect.does, effect.source
+
+
+def _reported(model: DeviceModel, lost: tuple[Need, ...]) -> TableCell:
+    real = None if model.control is None else model.control.hardware.real
+    reports = {} if real is None else real.reported_by
+    known = (reports[need] for need in lost if need in reports)
+    topics = tuple(dict.fromkeys(f"{report.topic} of {report.controller}" for report in known))
+    return topics or "no topic"
+
+
 def _stops(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
     """Yield the states that stop the device as the mock plays them: what they leave, who says so, what ends them."""
     real = None if model.control is None else model.control.hardware.real
@@ -157,14 +218,8 @@ def _stops(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
         if state.stops:
             effect = None if real is None else real.effects.get(state.moment)
             lost = (*(() if effect is None else effect.ends), *state.ends)
-            reports = {} if real is None else real.reported_by
-            topics = tuple(
-                dict.fromkeys(
-                    f"{reports[need].topic} of {reports[need].controller}" for need in lost if need in reports
-                )
-            )
             left = "not stated" if effect is None or effect.leaves is None else effect.leaves
-            by = "its component, the controller manager" if left != "active" else topics or "no topic"
+            by = "its component, the controller manager" if left != "active" else _reported(model, lost)
             yield state.name, left, tuple(need.value for need in lost), by, state.left_by.value, state.reported or ""
 
 

@@ -18,6 +18,9 @@ from cellc.compiler.formats.xml_text import element
 from cellc.contract.entities import Target
 
 # Only an installed workspace knows the folder; xacro puts it in when the launch file reads the description.
+# Credentials are no part of the package: xacro reads them from the environment, or a file, of who launches.
+_VARIABLE = re.compile(r"\{env:([A-Z][A-Z0-9_]*)\}")
+_ENTRY = re.compile(r"\{yaml:((?:/[A-Za-z0-9_][A-Za-z0-9_.-]*)+):([a-z]+)\}")
 _SHARE = re.compile(r"\{share:([A-Za-z_][A-Za-z0-9_]*)\}")
 
 
@@ -53,12 +56,25 @@ def share_folders(device: Device) -> tuple[str, ...]:
 
 
 def for_xacro(root: Element) -> Element:
-    """Return a description whose texts xacro leaves as they are, but for share folders, which it puts in."""
+    """Return a description whose texts xacro leaves as they are, but for share folders and credentials."""
     for node in root.iter():
         node.attrib.update({name: xacro_text(value) for name, value in node.attrib.items() if "$" in value})
         text = xacro_text(node.text or "") or None
-        node.text = _SHARE.sub(r"$(find \1)", text) if text and node.tag == "param" else text
+        node.text = _found_at_launch(text) if text and node.tag == "param" else text
     return root
+
+
+def _found_at_launch(text: str) -> str:
+    text = _VARIABLE.sub(r"$(env \1)", _SHARE.sub(r"$(find \1)", text))
+    return _ENTRY.sub(r"${xacro.load_yaml('\1')['\2']}", text)
+
+
+def credentials(device: Device) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the environment variables, and the files, from which the real hardware has its user name and password."""
+    hardware = device.control.hardware
+    values = () if hardware is None else tuple(hardware.parameters.get("real", {}).values())
+    files = dict.fromkeys(path for value in values for path, _ in _ENTRY.findall(value))
+    return tuple(name for value in values for name in _VARIABLE.findall(value)), tuple(files)
 
 
 def _hardware(hardware: HardwareComponent, target: Target) -> Element:
