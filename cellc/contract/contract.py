@@ -14,7 +14,7 @@ from cellc.contract.devices import ContractAdapter, ContractDevice, ContractSimu
 from cellc.contract.entities import TARGETS, ContractInterface, Kpis, Target
 from cellc.contract.file_names import BesidePath, CellName, InnerPath
 from cellc.contract.gates import Gates
-from cellc.contract.grading import FURTHER, PLANNED, SECOND_CLIENT, STALE, Graded, Rule
+from cellc.contract.grading import FURTHER, GRIPPED, PLANNED, SECOND_CLIENT, STALE, Graded, Rule
 from cellc.contract.quantities import (
     Coordinate,
     Count,
@@ -72,6 +72,23 @@ class ContractClock(ContractModel):
     )
 
 
+class ContractBand(ContractModel):
+    """Where the joint of a gripper comes to rest that holds a right part, rad or m; elsewhere it holds none."""
+
+    joint: str = Field(description="Joint to look at when the fingers have closed, and as long as the part is held.")
+    lower: Coordinate = Field(description="Least position.")
+    upper: Coordinate = Field(description="Largest position.")
+
+
+class ContractGrasp(ContractModel):
+    """A part as fingers meet it."""
+
+    width_m: Magnitude | None = Field(None, description="How far apart the fingers are that hold it.")
+    tolerance_m: Magnitude | None = Field(None, description="How much a right part is wider or narrower.")
+    mass_kg: Magnitude | None = Field(None, description="Its mass.")
+    bands: dict[str, ContractBand] = Field({}, description="What the task checks, by gripper.")
+
+
 class ContractFrame(ContractModel):
     """One TF frame; a pose in the robot description is not repeated here."""
 
@@ -98,6 +115,9 @@ class ContractFrame(ContractModel):
     )
     simulated_pose: Annotated[ContractPose | None, Graded(ReviewArea.REHEARSALS, "pose on the mock")] = Field(
         None, description="Pose there."
+    )
+    grasp: Annotated[ContractGrasp | None, Graded(ReviewArea.MOTION, "part to grip", Rule.DANGEROUS, why=GRIPPED)] = (
+        Field(None, description="The part that lies there, or that the frame follows; null where none is stated.")
     )
 
 

@@ -1,5 +1,6 @@
 """Devices of ``contract.json``: what the mock needs of each, adapters with bounds, joints that lag or have noise."""
 
+import math
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -35,6 +36,24 @@ class ContractGripper(ContractModel):
     max_velocity: PositiveMagnitude | None = Field(
         None, description="Speed of the joint as the jaws move, rad/s or m/s; null where it is not stated."
     )
+    goal_tolerance: Magnitude = Field(0.0, description="How far the joint may end from its goal, rad or m.")
+    stroke_m: Magnitude = Field(0.0, description="How far its jaws are apart when open.")
+    swing: Coordinate | None = Field(
+        None, description="Angle between the cranks of its jaws and its fingers when closed; null where jaws slide."
+    )
+
+    def position(self, width_m: float) -> float:
+        """Return the position of its joint with the jaws so far apart, rad or m.
+
+        Jaws that slide go in proportion to the joint. Those on cranks, an angle u from closed, are apart in proportion
+        to sin(u + swing) - sin(swing).
+        """
+        way = self.open - self.closed
+        share = min(1.0, max(0.0, width_m / self.stroke_m)) if self.stroke_m > 0.0 else 0.0
+        if self.swing is None:
+            return self.closed + way * share
+        least, most = math.sin(self.swing), math.sin(self.swing + abs(way))
+        return self.closed + math.copysign(math.asin(least + (most - least) * share) - self.swing, way)
 
 
 class ContractCamera(ContractModel):

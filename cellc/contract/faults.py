@@ -48,6 +48,7 @@ class FaultTarget(Enum):
     PAUSING = Reference.DEVICE, "device whose program pauses"
     BRAKED = Reference.DEVICE, "device with brakes that a claim needs open"
     SENSED = Reference.DEVICE, "device with sensors that are wired"
+    GRIPPER = Reference.DEVICE, "gripper in a cell that states the width and tolerance of a part"
     JOINT = Reference.JOINT, "joint"
     PROGRAMMED_JOINT = Reference.JOINT, "joint with a program that set points pass through"
     CONTROLLER = Reference.CONTROLLER, "controller"
@@ -56,6 +57,7 @@ class FaultTarget(Enum):
     SERVER = Reference.NODE, "server"
     INTERFACE = Reference.INTERFACE, "interface"
     FRAME = Reference.FRAME, "frame"
+    PART = Reference.FRAME, "frame of a part whose width and tolerance are stated"
     CLOCK = Reference.CLOCK, "clock"
     GOAL = Reference.GOAL, "goal"
     STEP = Reference.STEP, "kind of step"
@@ -72,6 +74,7 @@ class Amount(Enum):
     DELAY = "by", "delay_s"
     JUMP = "by", "jump_s"
     DISPLACEMENT = "by", "displacement"
+    SIZE = "by", "size_m"
     VELOCITY = "to", "velocity"
     FACTOR = "to", "factor"
 
@@ -138,8 +141,11 @@ _BY_VENDOR = (
     AttemptOutcome.TOLERANCE_VIOLATION,
     AttemptOutcome.TIMEOUT,
     AttemptOutcome.UNCOMMANDED_MOTION,
+    AttemptOutcome.GRIP_FAILURE,
 )
-"""Where a driver calls a stop a fault, or reports none, and where the device goes on by itself."""
+"""Where a driver calls a stop a fault, or reports none, also of fingers, and where the device goes on by itself."""
+_OFF_TRACK = (AttemptOutcome.TOLERANCE_VIOLATION, AttemptOutcome.GRIP_FAILURE)
+"""The latter of fingers, which hold no part where they are."""
 _CLAIM_OR_MOTION = (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.UNCOMMANDED_MOTION)
 
 
@@ -243,19 +249,19 @@ class FaultKind(Term):
         Hits(FaultTarget.SWITCH, "Declared switch, or controller that is restarted.", "to_effort"),
         (AttemptOutcome.WRONG_OWNER, AttemptOutcome.GOAL_REJECTION),
     )
-    STICK = Declared("stick", "A joint no longer follows its command.", _JOINT, (AttemptOutcome.TOLERANCE_VIOLATION,))
+    STICK = Declared("stick", "A joint no longer follows its command.", _JOINT, _OFF_TRACK)
     SLOW = Declared(
         "slow",
         "A joint follows its command no faster than it can.",
         _JOINT,
-        (AttemptOutcome.TOLERANCE_VIOLATION, AttemptOutcome.TIMEOUT),
+        (*_OFF_TRACK, AttemptOutcome.TIMEOUT),
         By(Amount.VELOCITY, "Its speed.", "2 deg/s"),
     )
     DISPLACE = Declared(
         "displace",
         "A joint is offset from its command, as after a push or a slipped gear.",
         _JOINT,
-        (AttemptOutcome.TOLERANCE_VIOLATION,),
+        _OFF_TRACK,
         By(Amount.DISPLACEMENT, "How far.", "0.3 rad"),
     )
     SCALE_SPEED = Declared(
@@ -344,6 +350,32 @@ class FaultKind(Term):
         "The brakes of a device are closed; ``lasting`` until a person opens them.",
         Hits(FaultTarget.BRAKED, "Device whose claim needs open brakes.", "arm"),
         (AttemptOutcome.CLAIM_FAILURE, AttemptOutcome.PROTECTIVE_STOP),
+    )
+    MISSING_PART = Declared(
+        "missing_part",
+        "A part is seen, or believed, where none is: fingers close on nothing.",
+        Hits(FaultTarget.PART, "Frame of a part.", "object"),
+        (AttemptOutcome.GRIP_FAILURE,),
+    )
+    WRONG_PART = Declared(
+        "wrong_part",
+        "Another part lies where the right one is to be: wider, or narrower with a negative length.",
+        Hits(FaultTarget.PART, "Frame of a part.", "object"),
+        (AttemptOutcome.GRIP_FAILURE,),
+        By(Amount.SIZE, "How much wider.", "-6 mm"),
+    )
+    LOSE_PART = Declared(
+        "lose_part",
+        "The fingers of a gripper lose their force: what they hold, now or later, falls.",
+        Hits(FaultTarget.GRIPPER, "Gripper.", "gripper"),
+        (AttemptOutcome.GRIP_FAILURE,),
+    )
+    SLIP = Declared(
+        "slip",
+        "What a gripper holds slides between its fingers, which stay as far apart.",
+        Hits(FaultTarget.GRIPPER, "Gripper.", "gripper"),
+        (AttemptOutcome.GRIP_FAILURE,),
+        By(Amount.SIZE, "How far.", "5 mm"),
     )
     SILENT_SENSOR = Declared(
         "silent_sensor",

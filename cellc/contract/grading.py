@@ -53,6 +53,7 @@ class Graded(NamedTuple):
     each: str = ""
 
 
+GRIPPED = "another part may be taken for the right one"
 STALE = "older data may be used, or a failure goes unseen for longer"
 FURTHER = "the joint may move further or faster than people at the cell expect"
 PLANNED = "planned motion changes"

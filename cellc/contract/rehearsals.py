@@ -22,6 +22,7 @@ class StepEntry(ContractModel):
     command: Literal["open", "close", "together"] | None = Field(
         None, description="What the gripper does; `together` where the groups of a pose move simultaneously."
     )
+    part: str | None = Field(None, description="Frame of the part that is to be between the fingers that close.")
     state: str | None = Field(None, description="State that a switched device is set to, or that its sensors tell.")
     duration_s: Seconds | None = Field(None, description="How long a wait lasts.")
 
@@ -58,6 +59,7 @@ class FaultEntry(ContractModel):
     displacement: Coordinate | None = Field(
         None, description="Offset of a joint from its command, or how far it is jogged, rad or m."
     )
+    size_m: Coordinate | None = Field(None, description="How much wider a part is, or how far it slips.")
     velocity: PositiveMagnitude | None = Field(None, description="Speed that a joint does not exceed, rad/s or m/s.")
     factor: Share | None = Field(None, description="Speed scaling, 0 to 1.")
 

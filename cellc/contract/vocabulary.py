@@ -131,6 +131,8 @@ class AttemptOutcome(Term):
     PLANNING_FAILURE = "planning_failure"
     GOAL_REJECTION = "goal_rejection"
     TOLERANCE_VIOLATION = "tolerance_violation"
+    GRIP_FAILURE = "grip_failure"
+    """Nothing, or the wrong part, is between the fingers that closed; the part is lost, or let go of in the air."""
     MISSED_CYCLE = "missed_cycle"
     PROTECTIVE_STOP = "protective_stop"
     EMERGENCY_STOP = "emergency_stop"

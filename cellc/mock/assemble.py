@@ -47,6 +47,7 @@ from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.watching import ClaimWatches
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
+from cellc.mock.world.parts import Parts
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
 
@@ -126,20 +127,19 @@ def assemble(
     Raises:
         ManagerAbortedError: a controller manager ended while it started.
     """
-    contract = folder.contract
+    contract, noise = folder.contract, seed if reality.noise is None else reality.noise
     horizon_s = _horizon_s(contract)
-    noise = seed if reality.noise is None else reality.noise
     control = standing or ControlStack(_managers(folder, noise), contract.managers, horizon_s, _adapters(contract))
     simulation = Simulation(control)
     clocks = build_clocks(_read(contract.clocks, reality.offsets_s), contract.clock_of, lambda: simulation.now_ns)
     network = Network(contract.interfaces, simulation, noise, middleware_of(contract))
-    task = _task_node(contract, control, network)
+    task, devices = _task_node(contract, control, network), DeviceView(contract, control)
     feeds = joint_state_feeds(contract, control, network, ROBOT_STATE_PUBLISHER)
     tf_edge = stream_edge(contract, network, TF, ROBOT_STATE_PUBLISHER, task.name)
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
     stops, watches = Stops(control), ClaimWatches(contract, folder.watches, control, simulation)
-    devices = DeviceView(contract, control)
     effects = Effects(devices, stops, watches, simulation)
+    world = World(memory.model.links.displaced(reality.links), control.histories.values())
     plant = Plant(
         contract=contract,
         bring_up=folder.bring_up if bring_up == "mock" else played(folder.real_bring_up, folder.bring_up, contract),
@@ -152,7 +152,8 @@ def assemble(
         effects=effects,
         start=RealStart(devices, effects, simulation),
         loads=Loads(contract, control, memory.model.robot, memory.model.links),
-        world=World(memory.model.links.displaced(reality.links), control.histories.values()),
+        world=world,
+        parts=Parts(contract, control, world),
         switches=Switches(contract),
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
@@ -173,6 +174,8 @@ def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality
     for name, frame in plant.contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
             _add_object(plant, name, frame, images, tf, reality.objects.get(name))
+        elif frame.kind == "fixed" and frame.grasp is not None:
+            plant.world.place(name, name, identity(), 0)
 
 
 def _turned(pose: Pose, turn: Pose) -> Pose:

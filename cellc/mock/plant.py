@@ -25,6 +25,7 @@ from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import TransformBuffer
 from cellc.mock.watching import ClaimWatches
+from cellc.mock.world.parts import Parts
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
 
@@ -64,6 +65,7 @@ class Plant:
         start: what devices and people do as the real target is brought up.
         loads: what joints behind springs hold.
         world: where links and objects really are.
+        parts: what grippers hold, and how it differs from what is stated.
         switches: devices that digital outputs switch.
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
@@ -82,6 +84,7 @@ class Plant:
     start: RealStart
     loads: Loads
     world: World
+    parts: Parts
     switches: Switches
     robot_state_publisher: RobotStatePublisher
     planner: MotionPlanner

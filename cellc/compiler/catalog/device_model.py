@@ -126,6 +126,8 @@ class GripperFacts(CatalogModel):
         open: Position of the joint when the gripper is open.
         closed: Position of the joint when the gripper is closed.
         stroke: How far one jaw moves relative to the other between closed and open.
+        swing: Where each jaw swings on a crank: the angle between crank and fingers when closed, towards open; none of
+            jaws that slide, in proportion to the joint.
         max_force: Largest grip force.
         min_force: Smallest grip force that can be set.
         max_speed: Largest speed of one jaw relative to the other.
@@ -137,6 +139,7 @@ class GripperFacts(CatalogModel):
     open: JointPosition
     closed: JointPosition
     stroke: Length
+    swing: JointPosition | None = None
     max_force: Force
     min_force: Force | None = None
     max_speed: Velocity

@@ -113,6 +113,9 @@ class SimulatedJoint(Entity):
 class Gripper:
     """A gripper as its joint moves it: positions and their tolerance in rad or m, the largest force in N.
 
+    Its jaws are ``stroke_m`` apart when open; ``swing`` is the angle between their cranks and the fingers when
+    closed, None of jaws that slide.
+
     ``max_velocity`` is that of the joint as the jaws close at the device's own speed, in rad/s or m/s; None of none.
     """
 
@@ -122,6 +125,8 @@ class Gripper:
     max_force: float
     max_velocity: float | None
     goal_tolerance: float
+    stroke_m: float
+    swing: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

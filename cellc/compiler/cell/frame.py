@@ -40,6 +40,15 @@ class SimulatedPose:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Grasp:
+    """A part as fingers meet it, m and kg; None of what is not stated."""
+
+    width_m: float | None
+    tolerance_m: float | None
+    mass_kg: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Frame(Entity):
     """One TF frame and its edge to the parent.
 
@@ -50,6 +59,7 @@ class Frame(Entity):
         calibration: id of the calibration that measured the edge.
         designed: the edge is by design, no calibration is needed.
         moving: the edge moves with a joint.
+        grasp: the part that lies there, or that the frame follows.
     """
 
     kind: FrameKind
@@ -64,6 +74,7 @@ class Frame(Entity):
     buffer_s: float | None = None
     reference_points: Annotated[int, Graded(ReviewArea.CALIBRATION, rule=Rule.FEWER)] = 0
     simulated_pose: SimulatedPose | None = None
+    grasp: Grasp | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,7 +6,7 @@ out: ``use``; a rehearsal that takes another's steps carries its own copy.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.motion import Fault, Rehearsal, Step
@@ -14,21 +14,24 @@ from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import REHEARSALS
 from cellc.compiler.formats.json_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.grips import gripped_parts
+from cellc.contract.diagnostics import YamlPath
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, Rehearsals, StepEntry
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the rehearsals."""
-    entries = tuple(map(_rehearsal, graph.cell.rehearsals))
+    parts = gripped_parts(graph.cell, graph.frames)
+    entries = tuple(_rehearsal(rehearsal, parts) for rehearsal in graph.cell.rehearsals)
     model = Rehearsals(format=2, rehearsals=entries)
     yield Artifact(REHEARSALS, render(model))
 
 
-def _rehearsal(rehearsal: Rehearsal) -> RehearsalEntry:
+def _rehearsal(rehearsal: Rehearsal, parts: Mapping[YamlPath, str]) -> RehearsalEntry:
     return RehearsalEntry.model_validate(
         {
             "name": rehearsal.name,
-            "steps": tuple(map(_step, rehearsal.steps)),
+            "steps": tuple(_step(step, parts) for step in rehearsal.steps),
             "faults": tuple(map(_fault, rehearsal.faults)),
             "expect": rehearsal.expect,
             "within_s": rehearsal.within_s,
@@ -38,12 +41,13 @@ def _rehearsal(rehearsal: Rehearsal) -> RehearsalEntry:
     )
 
 
-def _step(step: Step) -> StepEntry:
+def _step(step: Step, parts: Mapping[YamlPath, str]) -> StepEntry:
     return StepEntry.model_validate(
         {
             "kind": step.kind,
             "target": step.name,
             "command": step.command,
+            "part": parts.get(step.path),
             "state": step.state,
             "duration_s": step.duration_s,
         }

@@ -257,6 +257,8 @@ def gripper_of(facts: DeviceModel, prefix: str) -> Gripper | None:
         max_force=gripper.max_force.si,
         max_velocity=_joint_speed(gripper),
         goal_tolerance=float(gripper.goal_tolerance.si),
+        stroke_m=gripper.stroke.si,
+        swing=si(gripper.swing),
     )
 
 

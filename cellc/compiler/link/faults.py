@@ -117,11 +117,20 @@ def fault_targets(
     return {
         **_of_devices(devices),
         **_of_graph(managers, interfaces),
+        **_of_parts(spec, devices),
         FaultTarget.FRAME: frames.by_reference,
         FaultTarget.CLOCK: _clocks(spec),
         FaultTarget.GOAL: _same(spec.motion.goals),
         FaultTarget.STEP: _same(SENDS_GOALS),
     }
+
+
+def _of_parts(spec: CellSpec, devices: tuple[Device, ...]) -> dict[FaultTarget, Names]:
+    """Return the parts that fingers tell from others, and the grippers that may take one."""
+    grasps = {name: frame.grasp for name, frame in spec.frames.items() if frame.grasp is not None}
+    parts = [name for name, grasp in grasps.items() if grasp.width is not None and grasp.tolerance is not None]
+    grippers = [device for device in devices if device.gripper is not None] if parts else []
+    return {FaultTarget.PART: _same(parts), FaultTarget.GRIPPER: _named(grippers)}
 
 
 def _of_devices(devices: tuple[Device, ...]) -> dict[FaultTarget, Names]:

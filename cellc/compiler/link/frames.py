@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, SharedArea, SimulatedPose
+from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Grasp, SharedArea, SimulatedPose
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import pose, si, vector
@@ -162,6 +162,9 @@ def _spec_frame(
         buffer_s=si(written.buffer),
         reference_points=written.reference_points,
         simulated_pose=simulated.value,
+        grasp=None
+        if (grasp := written.grasp) is None
+        else Grasp(width_m=si(grasp.width), tolerance_m=si(grasp.tolerance), mass_kg=si(grasp.mass)),
     )
     return Outcome(frame, problems)
 

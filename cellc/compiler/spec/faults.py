@@ -7,7 +7,7 @@ from pydantic import Discriminator, Field, Tag, create_model
 
 from cellc.compiler.spec.base import MOST, FrameReference, shape_of
 from cellc.compiler.spec.kinds import Kinds, first_key
-from cellc.compiler.spec.quantity import Duration, JointPosition, JointSpeed, Quantity, Share, TimeShift
+from cellc.compiler.spec.quantity import Duration, JointPosition, JointSpeed, Quantity, Share, TimeShift, Way
 from cellc.contract.faults import MOST_CYCLES, Amount, FaultKind, GoalStep, Reference
 from cellc.contract.stated import Name, StatedModel, Text
 
@@ -82,6 +82,7 @@ _AMOUNTS: dict[Amount, object] = {
     Amount.DELAY: Duration,
     Amount.JUMP: TimeShift,
     Amount.DISPLACEMENT: JointPosition,
+    Amount.SIZE: Way,
     Amount.VELOCITY: JointSpeed,
     Amount.FACTOR: Share,
 }

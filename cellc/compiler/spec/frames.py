@@ -4,7 +4,7 @@ from pydantic import Field
 
 from cellc.compiler.spec.base import MOST, FrameReference
 from cellc.compiler.spec.devices import PlacementSpec
-from cellc.compiler.spec.quantity import Duration, Frequency, Length, Position, RollPitchYaw
+from cellc.compiler.spec.quantity import Duration, Frequency, Length, Mass, Position, RollPitchYaw
 from cellc.contract.stated import Name, Pin, StatedModel, Text
 from cellc.contract.vocabulary import UNKNOWN
 
@@ -30,6 +30,20 @@ class CalibrationSpec(StatedModel):
     child: FrameReference | None = Field(
         None, description="Frame whose pose it has, where it names another.", examples=["camera/color_optical"]
     )
+
+
+class GraspSpec(StatedModel):
+    """The part that lies at a frame, as fingers meet it; the task checks where they come to rest."""
+
+    width: Length | None = Field(
+        None,
+        description="How far apart the fingers are that hold it; asked for where it is gripped.",
+        examples=["77 mm"],
+    )
+    tolerance: Length | None = Field(
+        None, description="How much a right part may be wider or narrower; asked for too.", examples=["2 mm"]
+    )
+    mass: Mass | None = Field(None, description="Its mass; asked for too.", examples=["0.2 kg"])
 
 
 class FrameSpec(StatedModel):
@@ -65,6 +79,11 @@ class FrameSpec(StatedModel):
         None,
         description="Where the mock puts the thing that a dynamic frame follows.",
         examples=[{"parent": "world", "xyz": "300 -200 820 mm", "rpy": "180 0 0 deg"}],
+    )
+    grasp: GraspSpec | None = Field(
+        None,
+        description="The part that a dynamic frame follows, or that lies at a fixed one.",
+        examples=[{"width": "77 mm", "tolerance": "2 mm", "mass": "0.2 kg"}],
     )
 
 

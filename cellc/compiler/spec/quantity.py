@@ -251,6 +251,7 @@ LONGEST_S = 1e6  # eleven days: no budget, timeout or step of a cell is longer
 SLOWEST_HZ = 1e-4  # once in three hours; the mock plays nothing slower
 
 Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm", least=0.0)]
+Way = Annotated[Quantity, QuantityType((LENGTH,), "-6 mm")]
 # What is divided by, or stepped in: a map of cells without an edge, a loop without a period, has no end.
 Edge = Annotated[Quantity, QuantityType((LENGTH,), "25 mm", least=1e-3)]
 # Of a tip: zero is exceeded by the last bit of a sum, and no arm is distinguished finer than this.

@@ -108,8 +108,8 @@ def stateless(bounds: Bounds) -> StepEnding:
 def off_track(bounds: Bounds, controller: str, *more: AttemptOutcome) -> StepEnding:
     """Return how steps end when a joint of ``controller`` is off its track.
 
-    A step that leaves the joint where it is bears it. Without a goal time, as of a gripper, the controller may wait for
-    ever, and the client ends the goal.
+    A step that leaves the joint where it is bears it, unless it grips. Without a goal time, as of a gripper, the
+    controller may wait for ever, and the client ends the goal.
 
     Args:
         more: outcomes that this fault may have besides.
@@ -117,17 +117,23 @@ def off_track(bounds: Bounds, controller: str, *more: AttemptOutcome) -> StepEnd
     patience = () if _goal_time_s(bounds.contract, controller) else ("timeout",)
 
     def ending(step: CellStep) -> Ending:
-        if controller not in step.controllers:
-            return BORNE
+        if controller not in step.controllers:  # the fingers of an arm that is elsewhere meet nothing
+            return ends_in(AttemptOutcome.SUCCEEDED, *gripped(step), within_s=bounds.execution_s(step))
         return ends_in(
             AttemptOutcome.TOLERANCE_VIOLATION,
             AttemptOutcome.SUCCEEDED,
+            *gripped(step),
             *patience,
             *more,
             within_s=bounds.execution_s(step),
         )
 
     return ending
+
+
+def gripped(step: CellStep) -> tuple[AttemptOutcome, ...]:
+    """Return what a step besides ends in that closes a gripper whose fingers do not come to the part."""
+    return (AttemptOutcome.GRIP_FAILURE,) if step.kind == "grip" else ()
 
 
 def _goal_time_s(contract: Contract, controller: str) -> float | None:
@@ -163,7 +169,7 @@ def unfollowed(bounds: Bounds, device: str, *more: AttemptOutcome) -> StepEnding
         if not any(device_of(bounds.contract, name) == device for name in step.controllers):
             return ends_in(*more, AttemptOutcome.SUCCEEDED, within_s=None) if more else BORNE
         outcomes = (AttemptOutcome.TOLERANCE_VIOLATION, AttemptOutcome.TIMEOUT, AttemptOutcome.SUCCEEDED, *more)
-        return ends_in(*outcomes, within_s=bounds.execution_s(step))
+        return ends_in(*outcomes, *gripped(step), within_s=bounds.execution_s(step))
 
     return ending
 

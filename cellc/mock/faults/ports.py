@@ -22,6 +22,7 @@ from cellc.mock.task_status import ActionStatus, ForeignGoal, Milestones, TaskRe
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import NEVER_NS, JointStateHistory
+from cellc.mock.world.parts import Parts
 from cellc.mock.world.switches import Switches
 
 
@@ -220,6 +221,7 @@ class FaultPorts:
     effects: Effects
     start: RealStart
     switches: Switches
+    parts: Parts
 
 
 def fault_ports(plant: Plant) -> FaultPorts:
@@ -239,4 +241,5 @@ def fault_ports(plant: Plant) -> FaultPorts:
         plant.effects,
         plant.start,
         plant.switches,
+        plant.parts,
     )

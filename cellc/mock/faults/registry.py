@@ -10,7 +10,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.errors import FaultMissedError, MockError
-from cellc.mock.faults import frames, goals, joints, network, programs, samples, sensors, stops
+from cellc.mock.faults import frames, goals, joints, network, parts, programs, samples, sensors, stops
 from cellc.mock.faults.cases import FaultCase
 from cellc.mock.faults.ports import FaultPorts
 
@@ -108,7 +108,7 @@ def any_started(injections: Iterable[Injection]) -> bool:
     return any(injection.touched for injection in injections)
 
 
-_MODULES = (samples, frames, network, goals, joints, stops, programs, sensors)
+_MODULES = (samples, frames, network, goals, joints, stops, programs, sensors, parts)
 FAULTS: Mapping[FaultKind, FaultType] = {
     played.kind: played
     for module in _MODULES

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from cellc.contract.contract import Contract
+from cellc.contract.contract import Contract, ContractBand
 from cellc.contract.errors import CellcError
 from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import AttemptOutcome
@@ -173,7 +173,7 @@ class TaskContext:
         may_oversleep: no fault can begin, and a run whose task slept too long is made again.
         observed: stamp of the kept observation, by dynamic frame.
         retreats: pose of the tip link in the base from which a group's goal was approached, while it is there.
-        held: object in each gripper.
+        bands: where the joint of each gripper must stay that holds a part.
         acting_on: dynamic frame whose observation the present motion rests on; it must keep arriving.
         ended: results that have arrived, by controller and goal.
         deactivated_ns: when each controller was deactivated last.
@@ -186,7 +186,7 @@ class TaskContext:
     may_oversleep: bool = False
     observed: dict[str, int] = field(default_factory=dict)
     retreats: dict[str, Pose] = field(default_factory=dict)
-    held: dict[str, str] = field(default_factory=dict)
+    bands: dict[str, ContractBand] = field(default_factory=dict)
     acting_on: str | None = None
     ended: dict[tuple[str, int], GoalEnded] = field(default_factory=dict)
     deactivated_ns: dict[str, int] = field(default_factory=dict)
@@ -272,6 +272,7 @@ class TaskContext:
         self._check_cycles()
         self._check_states()
         self._check_observation()
+        self._check_parts()
         self._check_time()
 
     def _check_effects(self) -> None:
@@ -300,6 +301,18 @@ class TaskContext:
         """Raise AttemptError where a goal executes without current joint states."""
         if self.node.actions.is_executing():
             current_state(self.plant)
+
+    def _check_parts(self) -> None:
+        """Raise AttemptError where fingers that held a part are reported elsewhere: it was lost on the way."""
+        for device, band in self.bands.items():
+            for feed in self.node.feeds:
+                newest = feed.newest(self.now_ns) if band.joint in feed.history.names else None
+                if newest is not None:
+                    position = float(feed.history.positions[newest, feed.history.names.index(band.joint)])
+                    if not band.lower <= position <= band.upper:
+                        text = f"lost: joint {band.joint} of {device} is at {position:.4g}, with a part it is from"
+                        text += f" {band.lower:.4g} to {band.upper:.4g}"
+                        raise AttemptError(AttemptOutcome.GRIP_FAILURE, text)
 
     def _check_time(self) -> None:
         if self.now_ns >= self.deadline_ns:

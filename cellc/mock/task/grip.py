@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from cellc.contract.contract import ContractBand
 from cellc.contract.devices import ContractGripper
 from cellc.contract.vocabulary import AttemptOutcome, Behavior
 from cellc.mock.control import GripperGoal
@@ -15,29 +16,56 @@ from cellc.mock.task.move import state_since
 
 ARRIVAL_SHARE = 0.05
 """Share of its stroke by which a gripper may miss the position where it should come to rest."""
-GRASP_TOLERANCE_M = 0.03
-"""Largest distance of the tip from an object's frame at which closing fingers take it."""
+_ROUNDING = 1e-6
+"""rad or m, of positions in the contract."""
 
 
-def grip(context: TaskContext, attempt: Attempt, device: str, command: str) -> Waiting[None]:
-    """Open or close a gripper; raise AttemptError where it does not get there."""
+def grip(context: TaskContext, attempt: Attempt, device: str, command: str, part: str | None) -> Waiting[None]:
+    """Open or close a gripper; raise AttemptError where it does not get there, or holds what it should not.
+
+    Args:
+        part: what is to be between the fingers that close; None of nothing.
+    """
     named = context.contract.devices.get(device)
     facts = None if named is None else named.gripper
     if facts is None or facts.controller is None:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller drives gripper {device}")
-    between = object_between(context, device) if command == "close" else None
-    target = facts.closed if command == "close" else facts.open
+    closes, parts = command == "close", context.plant.parts
+    between = parts.between(device, tip_link(context, device), context.now_ns) if closes else None
+    if between is not None:
+        parts.stop_fingers(device, between)
+    if not closes:
+        context.bands.pop(device, None)
+    target = facts.closed if closes else facts.open
     goal = _goal(context, facts, target)
     timeout_s = grip_timeout_s(context.contract, facts.controller)
     ended = yield from execute(context, attempt, "grip", facts.controller, goal, timeout_s)
     require_success(ended, context)
     state = yield from state_since(context, ended.decided_ns)
-    _require_arrival(state, facts, target)
-    context.plant.loads.hold(device, holds=command == "close")
+    context.plant.loads.hold(device, holds=closes)
     if between is not None:
         take(context, device, between)
-    elif command == "open":
+    grasp, band = parts.grasp(part), parts.band(part, device)
+    if closes and band is not None:
+        _require_part(state, facts, band)
+        context.bands[device] = band
+    elif not closes or grasp is None or grasp.width_m is None:
+        _require_arrival(state, facts, target)
+    if not closes:
         release(context, device)
+
+
+def _require_part(state: CurrentState, facts: ContractGripper, band: ContractBand) -> None:
+    """Raise AttemptError where closed fingers are elsewhere than with a right part between them."""
+    position = state.positions.get(band.joint, math.nan)
+    if band.lower <= position <= band.upper:
+        return
+    found = f"joint {band.joint} is at {position:.4g}, with a part it is from {band.lower:.4g} to {band.upper:.4g}"
+    within = max(facts.goal_tolerance, _ROUNDING)
+    if not abs(position - facts.open) > within:  # an unknown position is no arrival either
+        raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, f"not closed: {found}")
+    reason = "empty" if abs(position - facts.closed) <= within else "wrong part"
+    raise AttemptError(AttemptOutcome.GRIP_FAILURE, f"{reason}: {found}")
 
 
 def _require_arrival(state: CurrentState, facts: ContractGripper, expected: float) -> None:
@@ -58,22 +86,7 @@ def _goal(context: TaskContext, facts: ContractGripper, position: float) -> Grip
     return GripperGoal(position=(position,), joint_names=(facts.joint,))
 
 
-def object_between(context: TaskContext, device: str) -> str | None:
-    """Return the object whose frame is nearest to the tip behind the gripper, if it is within the tolerance."""
-    plant = context.plant
-    tip = _tip_link(context, device)
-    if tip is None or device in context.held:
-        return None
-    position = plant.world.link_pose(tip, plant.now_ns).position
-    distances = [
-        (math.dist(position, plant.world.object_pose(name, plant.now_ns).position), name)
-        for name in plant.world.objects()
-    ]
-    near = [entry for entry in distances if entry[0] <= GRASP_TOLERANCE_M]
-    return min(near)[1] if near else None
-
-
-def _tip_link(context: TaskContext, device: str) -> str | None:
+def tip_link(context: TaskContext, device: str) -> str | None:
     """Return the tip frame of the group whose chain goes through the gripper."""
     contract = context.contract
     root = _body(context, device)
@@ -100,14 +113,33 @@ def take(context: TaskContext, device: str, name: str) -> None:
     plant = context.plant
     link = _body(context, device)
     pose_in_link = plant.world.move(name, link, plant.now_ns)
-    plant.planner.attach(name, link, pose_in_link, plant.world.joint_positions(plant.now_ns))
-    context.held[device] = name
+    plant.planner.attach(_shape(context, name), link, pose_in_link, plant.world.joint_positions(plant.now_ns))
+    plant.parts.take(device, name, plant.now_ns)
     context.acting_on = None
 
 
+def _shape(context: TaskContext, name: str) -> str:
+    """Return what planning calls a part: one that lies at a fixed frame is not the link that the frame is."""
+    frame = context.contract.frames.get(name)
+    return name if frame is None or frame.kind == "dynamic" else f"part at {name}"
+
+
 def release(context: TaskContext, device: str) -> None:
-    """Let go of what a device holds; it stays where it is."""
-    name = context.held.pop(device, None)
-    if name is not None:
-        context.plant.world.move(name, context.contract.root_frame, context.plant.now_ns)
-        context.plant.planner.detach(name)
+    """Let go of what a device holds: it stays where it is, if something is below it.
+
+    Raises:
+        AttemptError: grip_failure, where it falls, or has slipped and is not where it should be.
+    """
+    plant = context.plant
+    name = plant.parts.let_go(device)
+    if name is None:
+        return
+    plant.world.move(name, context.contract.root_frame, plant.now_ns)
+    plant.planner.detach(_shape(context, name))
+    grasp, slipped_m = plant.parts.grasp(name), plant.parts.slipped_m.get(name, 0.0)
+    if not plant.parts.lies(name, tip_link(context, device), plant.now_ns):
+        plant.parts.fall(name, plant.now_ns)
+        raise AttemptError(AttemptOutcome.GRIP_FAILURE, f"dropped: {name} was let go of where no goal puts it")
+    if grasp is not None and abs(slipped_m) > (grasp.tolerance_m or 0.0):
+        text = f"slipped: {name} lies {abs(slipped_m) * 1e3:.3g} mm from where {device} took it between its fingers"
+        raise AttemptError(AttemptOutcome.GRIP_FAILURE, text)

@@ -8,7 +8,7 @@ from cellc.contract.devices import ContractSwitched
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.context import AttemptError, TaskContext
-from cellc.mock.task.grip import object_between, release, take
+from cellc.mock.task.grip import release, take, tip_link
 
 _LOOK_NS = 10_000_000
 """The client looks at the inputs a hundred times a second."""
@@ -18,7 +18,8 @@ def switch(context: TaskContext, device: str, state: str) -> None:
     """Set the outputs of a device; what it holds is taken when it is there, and let go as soon as it leaves.
 
     Raises:
-        AttemptError: goal_rejection, where nothing switches the device to such a state.
+        AttemptError: goal_rejection, where nothing switches the device to such a state; grip_failure, where what it
+            holds falls.
     """
     facts = _facts(context, device, state)
     plant = context.plant
@@ -36,7 +37,7 @@ def _close(context: TaskContext, device: str, state: str) -> None:
     if context.plant.switches.state(device, context.now_ns) != state:
         return
     context.plant.loads.hold(device, holds=True)
-    between = object_between(context, device)
+    between = context.plant.parts.between(device, tip_link(context, device), context.now_ns)
     if between is not None:
         take(context, device, between)
 

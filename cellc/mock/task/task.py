@@ -171,7 +171,7 @@ class Task:
         elif step.kind == "detect":
             yield from detect(self._context, attempt, step.target)
         elif step.kind == "grip":
-            yield from grip(self._context, attempt, step.target, step.command or "close")
+            yield from grip(self._context, attempt, step.target, step.command or "close", step.part)
         elif step.kind == "set":
             switch(self._context, step.target, step.state or "")
         elif step.kind == "sense":

@@ -52,7 +52,7 @@ def test_displaced_joint_stands_beside_its_command(run: Rehearse) -> None:
 
 
 def test_finger_that_is_slow_is_given_up_at_the_bound_of_the_grip(run: Rehearse) -> None:
-    done = run(during(4, FaultKind.SLOW, FINGER, velocity=0.01, when="started", after_s=0.0))
+    done = run(during(4, FaultKind.SLOW, FINGER, velocity=0.005, when="started", after_s=0.0))
     assert done.failed.outcome == "timeout"
     assert done.result.response_s is not None
     assert done.result.response_s == pytest.approx(10.0, abs=0.3)

@@ -46,7 +46,7 @@ def _device(cell: Cell, device: Device, law: ControlLaw | None) -> ContractDevic
         "hardware_component": None if hardware is None else hardware.name,
         "driver": None if driver is None else shared(driver, ContractDriver),
         "speed_scaling_interface": None if _adapted(cell, device) else device.control.speed_scaling,
-        "gripper": _gripper(cell, device),
+        "gripper": contract_gripper(cell, device),
         "camera": _camera(cell, device),
         "switched": None if switched is None else _switched(switched),
         "law": law,
@@ -103,7 +103,8 @@ def _adapted(cell: Cell, device: Device) -> bool:
     return any(adapted.device == device.name for adapted in cell.adapters)
 
 
-def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
+def contract_gripper(cell: Cell, device: Device) -> ContractGripper | None:
+    """Return what a gripper adds; None of another device."""
     gripper = device.gripper
     if gripper is None:
         return None
@@ -115,6 +116,9 @@ def _gripper(cell: Cell, device: Device) -> ContractGripper | None:
         closed=gripper.closed,
         max_effort=gripper.max_force,
         max_velocity=None if gripper.max_velocity is None else rounded(gripper.max_velocity),
+        goal_tolerance=gripper.goal_tolerance,
+        stroke_m=gripper.stroke_m,
+        swing=gripper.swing,
     )
 
 

@@ -2,27 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
-from cellc.compiler.cell.frame import Frame
+from cellc.compiler.cell.frame import Frame, Grasp
 from cellc.compiler.cell.members import shared
 from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup
+from cellc.compiler.emit.contract.devices import contract_gripper
 from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.formats.urdf.robot import described_frames
 from cellc.compiler.graph.claims import adapter_of_group
 from cellc.compiler.graph.control_laws import start_outside
 from cellc.contract.base import ContractPose
 from cellc.contract.contract import (
+    ContractBand,
     ContractCalibration,
     ContractController,
     ContractFrame,
     ContractGoal,
+    ContractGrasp,
     ContractGroup,
     ContractJointLimits,
     ContractManager,
     ContractPoseTarget,
     ContractSwitch,
 )
+from cellc.contract.devices import ContractGripper
 from cellc.contract.quantities import LARGEST
 from cellc.contract.transforms import Pose
 
@@ -38,10 +44,22 @@ def calibrations(cell: Cell) -> dict[str, ContractCalibration]:
 def frames(cell: Cell) -> dict[str, ContractFrame]:
     """Return every frame by name; the pose of one in the robot description is left to that."""
     described = described_frames(cell)
-    return {frame.name: _frame(frame, frame.name in described) for frame in cell.frames}
+    grippers = {
+        name: facts for device in cell.devices if (facts := contract_gripper(cell, device)) for name in [device.name]
+    }
+    return {frame.name: _frame(frame, frame.name in described, grippers) for frame in cell.frames}
 
 
-def _frame(frame: Frame, described: bool) -> ContractFrame:
+def _grasp(grasp: Grasp, grippers: Mapping[str, ContractGripper]) -> ContractGrasp:
+    bands: dict[str, ContractBand] = {}
+    if grasp.width_m is not None and grasp.tolerance_m is not None:
+        for name, gripper in grippers.items():
+            ends = [gripper.position(grasp.width_m + more) for more in (-grasp.tolerance_m, grasp.tolerance_m)]
+            bands[name] = ContractBand(joint=gripper.joint, lower=rounded(min(ends)), upper=rounded(max(ends)))
+    return ContractGrasp(width_m=grasp.width_m, tolerance_m=grasp.tolerance_m, mass_kg=grasp.mass_kg, bands=bands)
+
+
+def _frame(frame: Frame, described: bool, grippers: Mapping[str, ContractGripper]) -> ContractFrame:
     pose = None if described else frame.transform_to_parent
     simulated = frame.simulated_pose
     special = {
@@ -50,6 +68,7 @@ def _frame(frame: Frame, described: bool) -> ContractFrame:
         "pose": None if pose is None else _contract_pose(pose),
         "simulated_parent": None if simulated is None else simulated.parent,
         "simulated_pose": None if simulated is None else _contract_pose(simulated.pose),
+        "grasp": None if frame.grasp is None else _grasp(frame.grasp, grippers),
     }
     return ContractFrame.model_validate({**shared(frame, ContractFrame), **special})
 

@@ -22,7 +22,7 @@ class JointFault:
         time_constant_s: of a first-order lag behind the command; 0 for none.
         offset: rad or m added to the position.
         lower: the joint is blocked below this position.
-        upper: the joint is blocked above this position, as a gripper is by the object.
+        upper: the joint is blocked above this position.
     """
 
     stuck: bool = False
@@ -108,6 +108,7 @@ class Disturbances:
         self._rest = rest
         self._joints: dict[str, JointFault] = {}
         self._nature: dict[str, JointFault] = {}
+        self._met: dict[str, tuple[float, float]] = {}
         self._noise: dict[str, Noise] = {}
         self._deaf: set[str] = set()
         self._failing_read: set[str] = set()
@@ -119,11 +120,15 @@ class Disturbances:
     @property
     def disturbs_joints(self) -> bool:
         """Whether any joint differs from one that follows its command immediately."""
-        return bool(self._joints or self._nature)
+        return bool(self._joints or self._nature or self._met)
 
     def fault_of(self, joint: str) -> JointFault | None:
         """How a joint differs from one that follows its command immediately, None where it does not."""
-        return self._joints.get(joint) or self._nature.get(joint)
+        fault = self._joints.get(joint) or self._nature.get(joint)
+        if joint not in self._met:
+            return fault
+        (lower, upper), alone = self._met[joint], fault or JointFault()
+        return replace(alone, lower=max(lower, alone.lower), upper=min(upper, alone.upper))
 
     def noise_of(self, joint: str) -> Noise | None:
         """The noise of a joint's measured position, or None."""
@@ -166,7 +171,7 @@ class Disturbances:
         return bool(self._failing_read or self._failing_write)
 
     def _present(self, joint: str) -> JointFault:
-        return self.fault_of(joint) or JointFault()
+        return self._joints.get(joint) or self._nature.get(joint) or JointFault()
 
     def _change(self, joint: str, fault: JointFault) -> None:
         self._changed()
@@ -191,6 +196,13 @@ class Disturbances:
     def block(self, joint: str, lower: float = -math.inf, upper: float = math.inf) -> None:
         """Block a joint's way, as an object between the fingers does."""
         self._change(joint, replace(self._present(joint), lower=lower, upper=upper))
+
+    def meet(self, joint: str, lower: float, upper: float) -> None:
+        """Let fingers meet a part that they cannot pass, whatever faults come and go; infinite bounds are of none."""
+        self._changed()
+        self._met.pop(joint, None)
+        if math.isfinite(lower) or math.isfinite(upper):
+            self._met[joint] = (lower, upper)
 
     def clear(self, joint: str) -> None:
         """Let a joint be healthy again."""

@@ -1,0 +1,78 @@
+"""Rules on parts that grippers take: what must be known of them, and what fingers can hold and tell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.cell.device import Gripper
+from cellc.compiler.cell.frame import Frame, Grasp
+from cellc.compiler.graph.grips import gripped_parts
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.diagnostics import Span
+
+
+def _gripped(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Span]]:
+    """Yield each gripper with each part that it closes on, once, and the first step that does so."""
+    parts, seen = gripped_parts(graph.cell, graph.frames), set[tuple[str, str]]()
+    for step in (step for rehearsal in graph.cell.rehearsals for step in rehearsal.steps):
+        part = parts.get(step.path)
+        gripper, frame = graph.cell.device(step.name).gripper if part else None, graph.frames.get(part or "")
+        if gripper is not None and frame is not None and (step.name, frame.name) not in seen:
+            seen.add((step.name, frame.name))
+            yield step.name, gripper, frame, step.span
+
+
+def _stated(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Grasp, float, Span]]:
+    for name, gripper, frame, span in _gripped(graph):
+        if frame.grasp is not None and frame.grasp.width_m is not None:
+            yield name, gripper, frame, frame.grasp, frame.grasp.width_m, span
+
+
+@rule(Severity.BLOCKER)
+def unknown_grasp(graph: CellGraph) -> Findings:
+    """Yield parts that a rehearsal grips and whose width, tolerance or mass is not stated."""
+    reported = set[str]()
+    for name, _, frame, span in _gripped(graph):
+        grasp = frame.grasp
+        stated = (
+            {} if grasp is None else {"width": grasp.width_m, "tolerance": grasp.tolerance_m, "mass": grasp.mass_kg}
+        )
+        missing = [key for key in ("width", "tolerance", "mass") if stated.get(key) is None]
+        if missing and frame.name not in reported:
+            reported.add(frame.name)
+            listed = ", ".join(f"`{key}`" for key in missing)
+            message = (
+                f"`{name}` closes on `{frame.name}`, of which no {listed} {'is' if len(missing) == 1 else 'are'} stated"
+            )
+            path = (*frame.path, "grasp") if grasp is not None else frame.path
+            yield found(graph, path, message, related=(Related("it closes here", span),))
+
+
+@rule(Severity.ERROR)
+def part_beyond_stroke(graph: CellGraph) -> Findings:
+    """Yield parts that the open fingers of a gripper cannot reach round."""
+    for name, gripper, frame, grasp, width_m, span in _stated(graph):
+        widest_m = width_m + (grasp.tolerance_m or 0.0)
+        if widest_m >= gripper.stroke_m:
+            path = (*frame.path, "grasp", "width")
+            more = (
+                "" if grasp.tolerance_m is None else f" and a tolerance of {graph.cell.text(*path[:-1], 'tolerance')}"
+            )
+            message = f"the part at `{frame.name}` must be narrower than the {gripper.stroke_m * 1e3:.4g} mm that the"
+            message = f"{message} fingers of `{name}` open, got {graph.cell.text(*path)}{more}"
+            yield found(graph, path, message, related=(Related("it closes here", span),))
+
+
+@rule(Severity.ERROR, assumes=("part-beyond-stroke",))
+def part_like_nothing(graph: CellGraph) -> Findings:
+    """Yield tolerances with which fingers that hold a part are where they are without one."""
+    for name, gripper, frame, grasp, width_m, span in _stated(graph):
+        way = abs(gripper.open - gripper.closed)
+        told_m = gripper.stroke_m * gripper.goal_tolerance / way if way > 0.0 else 0.0
+        if grasp.tolerance_m is not None and width_m - grasp.tolerance_m <= told_m:
+            path = (*frame.path, "grasp", "tolerance")
+            message = (
+                f"a right part at `{frame.name}` must be wider than the {told_m * 1e3:.3g} mm within which `{name}`"
+            )
+            message = f"{message} counts as closed, got {graph.cell.text(*path[:-1], 'width')} with a tolerance of"
+            yield found(graph, path, f"{message} {graph.cell.text(*path)}", related=(Related("it closes here", span),))

@@ -1,0 +1,141 @@
+"""The parts that grippers take: which is between the fingers, how wide it is, who holds it, and when it falls."""
+
+from __future__ import annotations
+
+import math
+
+from cellc.contract.contract import Contract, ContractBand, ContractGrasp
+from cellc.contract.devices import ContractGripper
+from cellc.contract.transforms import Pose, Vector3
+from cellc.mock.engine.control_stack import ControlStack
+from cellc.mock.world.world import World
+
+GRASP_TOLERANCE_M = 0.03
+"""Largest distance of the tip from a part's frame at which closing fingers take it, and from a place where it lies."""
+
+
+class Parts:
+    """What grippers hold, and how parts differ from what is stated of them.
+
+    Attributes:
+        held: part by gripper.
+        slipped_m: how far a held part has slipped between the fingers, by part.
+    """
+
+    def __init__(self, contract: Contract, control: ControlStack, world: World) -> None:
+        self.held: dict[str, str] = {}
+        self.slipped_m: dict[str, float] = {}
+        self._contract = contract
+        self._control = control
+        self._world = world
+        self._wider_m: dict[str, float] = {}
+        self._missing: set[str] = set()
+        self._weak: set[str] = set()
+        self._taken_from: dict[str, Vector3] = {}
+
+    def grasp(self, name: str | None) -> ContractGrasp | None:
+        """Return what is stated of a part."""
+        frame = None if name is None else self._contract.frames.get(name)
+        return None if frame is None else frame.grasp
+
+    def band(self, name: str | None, device: str) -> ContractBand | None:
+        """Return where the fingers of a gripper are that hold a part; None where that is not stated."""
+        grasp = self.grasp(name)
+        return None if grasp is None else grasp.bands.get(device)
+
+    def between(self, device: str, tip: str | None, now_ns: int) -> str | None:
+        """Return the part nearest to the tip behind a tool, if it is near and the open fingers are astride it."""
+        if tip is None or device in self.held:
+            return None
+        position = self._world.link_pose(tip, now_ns).position
+        present = [name for name in self._world.objects() if name not in self._missing]
+        distances = [(math.dist(position, self._world.object_pose(name, now_ns).position), name) for name in present]
+        near = min((entry for entry in distances if entry[0] <= GRASP_TOLERANCE_M), default=None)
+        gripper = self._contract.devices[device].gripper
+        if near is None or gripper is None or (width_m := self._width_m(near[1])) is None:
+            return None if near is None else near[1]
+        finger_at = self._world.joint_positions(now_ns).get(gripper.joint, gripper.open)
+        blocked_by = gripper.position(width_m)
+        fits = width_m < gripper.stroke_m and abs(finger_at - gripper.closed) >= abs(blocked_by - gripper.closed)
+        return near[1] if fits else None
+
+    def _width_m(self, name: str) -> float | None:
+        grasp = self.grasp(name)
+        stated = None if grasp is None else grasp.width_m
+        return None if stated is None else max(0.0, stated + self._wider_m.get(name, 0.0))
+
+    def stop_fingers(self, device: str, name: str) -> None:
+        """Let closing fingers come no farther than a part lets them; its width is not stated of every part."""
+        gripper, width_m = self._contract.devices[device].gripper, self._width_m(name)
+        if gripper is not None and width_m is not None:
+            self._block(gripper, gripper.position(width_m))
+
+    def take(self, device: str, name: str, now_ns: int) -> None:
+        """Let a gripper hold a part, unless its fingers have no force."""
+        self._taken_from[name] = self._world.object_pose(name, now_ns).position
+        self.held[device] = name
+        self.slipped_m.pop(name, None)
+        if device in self._weak:
+            self.lose(device, now_ns)
+
+    def let_go(self, device: str) -> str | None:
+        """Let a gripper hold nothing; return what it held."""
+        gripper = self._contract.devices[device].gripper
+        if gripper is not None:
+            self._block(gripper, None)
+        return self.held.pop(device, None)
+
+    def lies(self, name: str, tip: str | None, now_ns: int) -> bool:
+        """Tell whether a part that is let go of lies on something: where it was taken from, or where a goal puts it.
+
+        A goal in a frame that is fixed says that something is there; of a part without a grasp nothing is known.
+        """
+        if self.grasp(name) is None or tip is None:
+            return True
+        here, world = self._world.link_pose(tip, now_ns).position, self._world
+        frames = self._contract.frames
+        places = [
+            (world.link_pose(goal.frame, now_ns) @ goal.pose.pose).position
+            for goal in self._contract.goals.values()
+            if frames[goal.frame].kind != "dynamic" and self._contract.groups[goal.group].tip_frame == tip
+        ]
+        back = math.dist(world.object_pose(name, now_ns).position, self._taken_from.get(name, here))
+        return min((back, *(math.dist(here, place) for place in places))) <= GRASP_TOLERANCE_M
+
+    def fall(self, name: str, now_ns: int) -> None:
+        """Let a part fall to the ground; how it comes to rest is not played."""
+        x, y, z = self._world.object_pose(name, now_ns).position
+        self._world.place(name, self._contract.root_frame, Pose((x, y, min(z, 0.0)), (0.0, 0.0, 0.0, 1.0)), now_ns)
+
+    # -- what goes wrong ---------------------------------------------------------------------------------------------
+
+    def miss(self, name: str, *, missing: bool) -> None:
+        """Let a part be seen where none is, or be there again."""
+        (self._missing.add if missing else self._missing.discard)(name)
+
+    def widen(self, name: str, by_m: float) -> None:
+        """Let a part be wider than stated, or narrower."""
+        self._wider_m[name] = by_m
+
+    def weaken(self, device: str, *, weak: bool, now_ns: int) -> None:
+        """Let the fingers of a gripper have no force: what they hold, now or later, falls."""
+        (self._weak.add if weak else self._weak.discard)(device)
+        if weak and device in self.held:
+            self.lose(device, now_ns)
+
+    def lose(self, device: str, now_ns: int) -> None:
+        """Let what a gripper holds fall out of its fingers, which go on closing."""
+        name = self.let_go(device)
+        if name is not None:
+            self.fall(name, now_ns)
+
+    def slip(self, device: str, by_m: float) -> None:
+        """Let what a gripper holds slide between its fingers."""
+        if device in self.held:
+            self.slipped_m[self.held[device]] = by_m
+
+    def _block(self, gripper: ContractGripper, at: float | None) -> None:
+        lower = at if at is not None and gripper.open > gripper.closed else -math.inf
+        upper = at if at is not None and gripper.open <= gripper.closed else math.inf
+        for manager in self._control.managers.values():
+            manager.disturbances.meet(gripper.joint, lower, upper)
