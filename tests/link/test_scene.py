@@ -77,6 +77,21 @@ def test_a_plane_is_solid_behind_its_surface_in_the_description(tmp_path: Path) 
     assert origin.attrib["xyz"] == f"0 0 {-depth / 2:g}"
 
 
+@pytest.mark.parametrize(
+    ("thing", "tag", "attributes"),
+    [
+        ("post", "cylinder", {"radius": "0.05", "length": "0.8"}),
+        ("ball", "sphere", {"radius": "0.15"}),
+        ("jig", "mesh", {"filename": "package://bench/jig.stl", "scale": "0.001 0.001 0.001"}),
+    ],
+)
+def test_a_shape_is_seen_and_avoided_as_it_is(tmp_path: Path, thing: str, tag: str, attributes: dict[str, str]) -> None:
+    link = scene_link(_solids(tmp_path, _SHAPES)[thing])
+    for part in ("visual", "collision"):
+        (shape,) = link.iterfind(f"{part}/geometry/*")
+        assert (shape.tag, dict(shape.attrib)) == (tag, attributes)
+
+
 def test_touched_points_give_the_plane_of_least_squares(tmp_path: Path) -> None:
     """The mean of the heights, because the fifth is in the middle: 0.5 mm up, 2 mm below the peak."""
     bench = _solids(tmp_path, _touched("plane"))["bench"]
