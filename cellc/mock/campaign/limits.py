@@ -10,7 +10,8 @@ place, 2^-53 |x| each. A difference of order n over steps of h seconds turns an 
 A hold sets the command to the measured position immediately, in the mock as in the real controller, so the command
 steps; so does every other interruption that the controller records. At these points only the position is compared with
 its limit, and the size of the step is reported. A hold requests no motion: where the measured position itself lies
-outside the limits, as that of a displaced joint may, the hold does not count as an excess.
+outside the limits, as that of a displaced joint may, the hold does not count as an excess. Nor does a trajectory that
+starts from such a position, up to its first point.
 
 Controllers that send positions instead of trajectories, those of grippers, leave speed to their device: only their
 positions are checked.
@@ -80,7 +81,7 @@ class LimitsReport:
         peaks: by quantity, position left out.
         excesses: the worst of each controller and quantity of each run.
         steps: at interruptions, that of the joint which stepped farthest.
-        held_outside: holds of a position that was itself measured outside the limits, as a displaced joint's is.
+        held_outside: holds and starts of a position that was measured outside the limits, as a displaced joint's is.
         unchecked: interfaces or quantities of joints that commands say nothing of.
     """
 
@@ -235,18 +236,20 @@ def _outside(commands: _Commands) -> Flags:
 
 
 def _held(commands: _Commands, interruptions: Sequence[Interruption]) -> Flags:
-    """Tell which commands are those of a hold, from its first update on for as long as they do not change."""
+    """Tell which commands are measured positions: those of a hold as long as it lasts, and those that leave one."""
     held = np.zeros(commands.positions.shape, dtype=np.bool_)
     for interruption in interruptions:
         begin = int(np.searchsorted(commands.stamps_ns, interruption.stamp_ns))
         if interruption.cause is Cause.HOLD and begin < len(held):
             same = commands.positions[begin:] == commands.positions[begin]
             held[begin:] |= np.logical_and.accumulate(same, axis=0)
+        elif interruption.cause is Cause.OFF_COMMAND:
+            held[begin : int(np.searchsorted(commands.stamps_ns, interruption.until_ns, side="right"))] = True
     return held
 
 
 def _held_outside(commands: _Commands, interruptions: Sequence[Interruption]) -> LimitExcess | None:
-    """Return the first hold of a position outside its limits."""
+    """Return the first hold, or start, of a position outside its limits."""
     rows, joints = np.nonzero(_outside(commands) & _held(commands, interruptions))
     if not len(rows):
         return None

@@ -139,3 +139,21 @@ def test_effort_commands_are_told_as_unchecked(contract: Contract) -> None:
     report = check_limits(contract, (samples,), ())
     assert report.held
     assert report.unchecked == (f"{ELBOW}/effort",)
+
+
+def test_start_beside_the_command_may_be_outside_and_rough_up_to_the_first_point_of_the_plan(
+    contract: Contract,
+) -> None:
+    first = 20 * PERIOD_NS
+    positions = np.full(100, np.pi + 1e-4)
+    positions[:20] = np.pi - 1e-3  # the joint sank over its limit from where it is commanded
+    positions[30:] = np.pi - 2e-3
+    rough = judged(contract, positions, Interruption(first, 30 * PERIOD_NS, ARM, Cause.OFF_COMMAND))
+    assert rough.held
+    assert [held.quantity for held in rough.held_outside] == ["position"]
+    # A plan that goes on outside, or is rough after its first point, is in excess.
+    positions[30:] = np.pi + 1e-4
+    assert exceeded(judged(contract, positions, Interruption(first, 25 * PERIOD_NS, ARM, Cause.OFF_COMMAND)))
+    positions[20:], positions[40:] = np.pi - 1e-3, np.pi - 0.1
+    late = judged(contract, positions, Interruption(first, 30 * PERIOD_NS, ARM, Cause.OFF_COMMAND))
+    assert {quantity for _, quantity in exceeded(late)} == {"velocity", "acceleration", "jerk"}

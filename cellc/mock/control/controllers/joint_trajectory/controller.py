@@ -165,8 +165,7 @@ class JointTrajectoryController(QuietController):
         now_ns = measured.time_ns
         cause = cause_of(pending, self._motion, measured.position, self._commands.present())
         if cause is not None:
-            stop_ns = pending.points[-1].time_from_start_ns if pending.interrupts else 0
-            self.context.table.journal.note(now_ns, self.context.name, cause, stop_ns)
+            self.context.table.journal.note(now_ns, self.context.name, cause, _lasting_ns(pending, cause))
         commanded = self._commanded if self._from_desired else None
         start = start_of(measured, commanded, pending, self.interfaces)
         spline = Spline(start, pending.points, pending.stamp_ns or now_ns, self._interpolate)
@@ -295,6 +294,17 @@ class JointTrajectoryController(QuietController):
         if not self.active or self._motion is None:
             return TrajectoryStateResponse(False)
         return self._motion.query(time_ns)
+
+
+def _lasting_ns(pending: PendingTrajectory, cause: Cause) -> int:
+    """Return for how long a command need not be smooth: to the end of a stop, or to the first point of a plan.
+
+    A joint that sank between plan and start is brought to that point in the time that the plan has for less.
+    """
+    times = [point.time_from_start_ns for point in pending.points]
+    if pending.interrupts:
+        return times[-1]
+    return next((time for time in times if time > 0), 0) if cause is Cause.OFF_COMMAND else 0
 
 
 _SAME = 1e-9
