@@ -110,7 +110,7 @@ def test_collision_thresholds_stand_in_the_gate_as_a_whole_request(distro: str, 
     # franka_msgs/srv/SetFullCollisionBehavior: four torques of 7 joints, four wrenches of 6; figures of the vendor's
     # examples, default_robot_behavior_utils.hpp:25.
     text = spec_text("fr3_hand").replace("ros: humble", f"ros: {distro}")
-    gate = _gate(emitted(tmp_path, text.replace("    tcp: hand/hand_tcp\n", _THRESHOLDS))["gates/promotion.md"], "G5")
+    gate = _gate(emitted(tmp_path, text.replace("    tcp: hand/hand_tcp\n", _THRESHOLDS))["gates/promotion.md"], "G7")
     (call,) = re.findall(r"`ros2 service call (\S+) franka_msgs/srv/SetFullCollisionBehavior \"(\{.*?\})\"`", gate)
     assert call[0] == f"{service}/set_full_collision_behavior"
     torque, wrench = [25.0, 25.0, 22.0, 20.0, 19.0, 17.0, 14.0], [30.0, 30.0, 30.0, 25.0, 25.0, 25.0]
@@ -133,7 +133,7 @@ def test_load_and_impedance_stand_in_the_gate_as_whole_requests(tmp_path: Path) 
     )
     load = "load: {mass: 200 g, center_of_mass: 0 0 120 mm, inertia: 3 2 1 0.5 0.25 0.125 g m^2}"
     stated = "center_of_mass: -5 5 46 mm"
-    gate = _gate(emitted(tmp_path, text.replace(stated, f"{stated}, {load}"))["gates/promotion.md"], "G5")
+    gate = _gate(emitted(tmp_path, text.replace(stated, f"{stated}, {load}"))["gates/promotion.md"], "G7")
     calls = dict(re.findall(r"`ros2 service call /service_server/set_(\S+) franka_msgs/srv/\w+ \"(\{.*?\})\"`", gate))
     assert safe_load(calls["joint_stiffness"]) == {"joint_stiffness": [3000.0] * 3 + [2500.0] * 2 + [2000.0] * 2}
     assert safe_load(calls["cartesian_stiffness"]) == {"cartesian_stiffness": [2000, 2000, 1000, 200, 200, 100]}
