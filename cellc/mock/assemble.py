@@ -37,6 +37,7 @@ from cellc.mock.nodes.perception import (
 )
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
+from cellc.mock.parts import Parts
 from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.real_bring_up import played
 from cellc.mock.real_start import RealStart
@@ -47,7 +48,6 @@ from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.watching import ClaimWatches
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
-from cellc.mock.world.parts import Parts
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
 

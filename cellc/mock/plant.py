@@ -19,13 +19,13 @@ from cellc.mock.nodes.motion_planner import MotionPlanner
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.perception import Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed, RobotStatePublisher
+from cellc.mock.parts import Parts
 from cellc.mock.real_start import RealStart
 from cellc.mock.reality import Arrival
 from cellc.mock.stops import Stops
 from cellc.mock.task_status import ActionStatus, Milestones, TaskRequests
 from cellc.mock.tf.buffer import TransformBuffer
 from cellc.mock.watching import ClaimWatches
-from cellc.mock.world.parts import Parts
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
 

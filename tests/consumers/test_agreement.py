@@ -319,6 +319,7 @@ def test_clocks_and_draws_name_what_the_contract_has(cell: str, distro: str) -> 
     assert set(promised["clock_of"].values()) - set(promised["clocks"]) == set()
     drawn = json.loads(texts.get("config/uncertainty.json", '{"quantities": [], "tolerances": {}, "expected": {}}'))
     known = {"clock": promised["clocks"], **dict.fromkeys(("calibration", "place", "region"), promised["frames"])}
+    known |= {kind: set(promised["devices"]) for kind in ("part", "compensation")}
     known["repeatability"] = {one["tip_frame"] for one in promised["groups"].values()}
     for one in drawn["quantities"]:
         assert one["target"] in known[one["kind"]], one

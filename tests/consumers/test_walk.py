@@ -131,7 +131,7 @@ def test_commands_name_what_the_cell_has(cell: str, distro: str) -> None:
     typed = (one for text in sections(cell, distro).values() for one in commands(text))
     for command in (re.sub(r"^timeout \d+ ", "", one) for one in typed):
         words = command.split()
-        if (topic := re.search(r"ros2 topic \w+ (?:-v |--once )?(\S+)", command)) is not None:
+        if (topic := re.search(r"ros2 topic \w+ (?:-v |--once |--field \S+ )*(\S+)", command)) is not None:
             assert kinds[topic.group(1)] == "topic", command
         elif (action := re.search(r"ros2 action info (\S+)", command)) is not None:
             beside = f"no client in the cell → `{action.group(1)}` →" in artifacts["audit.md"]  # a driver's own

@@ -37,6 +37,10 @@ def test_built_cell_passes_its_rehearsals(pick: Path) -> None:
         ("stopped_and_resumed", "succeeded", True),
         ("gripper_activated", "succeeded", True),
         ("canceled", "canceled", True),
+        ("no_part", "grip_failure", True),
+        ("wrong_part", "grip_failure", True),
+        ("lost_part", "grip_failure", True),
+        ("slipped", "grip_failure", True),
     ]
 
 
@@ -100,7 +104,7 @@ FURTHER = tuple(cell for cell in EVERY_CELL if cell not in CELLS)
 
 @pytest.mark.parametrize("name", FURTHER)
 def test_a_further_cell_is_short_and_its_rehearsals_pass(name: str) -> None:
-    assert len(spec_text(name).splitlines()) <= 125
+    assert len(spec_text(name).splitlines()) <= 130
     cell = load(ROOT / "generated" / name)
     ended = {one: cell.run(one, seed=0) for one in cell.rehearsals}
     assert not [f"{one}: {result.outcome}" for one, result in ended.items() if not result.passed]

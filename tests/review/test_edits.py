@@ -274,6 +274,10 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             f"review network | /people | right to request | 7 entries -> {MANAGED}, "
             "/controller_manager/list_hardware_interfaces, /get_planning_scene, /robot_state_publisher/get_parameters "
             f"| lost {LOOKED_AT}",
+            # The goal is no longer at the part: what the fingers should close on is not known.
+            "review rehearsals | canceled, lost_part, no_part, pick_and_place, program_stopped, slipped, stale_camera, "
+            "wrong_part | rehearsal steps | 7 entries -> 7 entries | "
+            "lost grip gripper close object; new grip gripper close",
         ],
     ),
 }

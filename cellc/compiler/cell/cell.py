@@ -142,6 +142,15 @@ class Cell:
         return {name: tuple(nodes) for name, nodes in by_device.items()}
 
     @cached_property
+    def controllers_of(self) -> Mapping[str, Mapping[str, str]]:
+        """Full names of the controllers of each device that has some, by their kind."""
+        by_device: dict[str, dict[str, str]] = {}
+        for controller in self.controllers:
+            if controller.device is not None:
+                by_device.setdefault(controller.device, {})[controller.kind] = controller.full_name
+        return by_device
+
+    @cached_property
     def ends_of(self) -> Mapping[str, tuple[InterfaceEnd, ...]]:
         """Ends of interfaces at which a node is, by its full name."""
         by_interface: dict[str, list[InterfaceEnd]] = {}

@@ -19,7 +19,7 @@ from cellc.contract.vocabulary import Behavior, InterfaceKind, Need
 
 def heard(cell: Cell, device: Device) -> Mapping[Need, TopicProof]:
     """Return what a claim of a device needs, with what says in this cell that it has it; the rest is unheard."""
-    telling = {each.kind: each.full_name for each in cell.controllers if each.device == device.name}
+    telling = cell.controllers_of.get(device.name, {})
     reports = {} if device.control.hardware is None else device.control.hardware.heard_before_a_claim
     return {
         need: TopicProof(

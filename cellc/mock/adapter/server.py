@@ -160,7 +160,8 @@ class AdapterServer:
         refused = first_refusal(trajectory, model)
         if refused:
             return GoalResponse(False, log_reason=refused)
-        self._note_start(trajectory.positions(0.0))
+        times_ns = (point.time_from_start_ns for point in goal.points)
+        self._note_start(trajectory.positions(0.0), next((time for time in times_ns if time > 0), 0))
         self._goals += 1
         self._follower = TrajectoryFollower(
             self.adapter, trajectory, path_tolerance=self._path_tolerance, goal_time_s=self._goal_time_s
@@ -247,10 +248,15 @@ class AdapterServer:
             stamps = np.array([self.now_ns], dtype=np.int64)
             self.journal.add(self._device, range(len(command)), stamps, np.array([command]))
 
-    def _note_start(self, start: tuple[float, ...]) -> None:
-        """Note where a trajectory starts beside the last command: after a stop, or from a joint that did not follow."""
+    def _note_start(self, start: tuple[float, ...], first_ns: int) -> None:
+        """Note where a trajectory starts beside the last command: after a stop, or from a joint that did not follow.
+
+        Args:
+            first_ns: time to the first point of the plan, up to which the command need not be smooth.
+        """
         if any(abs(a - b) > _SAME for a, b in zip(start, self._commanded, strict=True)):
-            self.journal.note(self.now_ns + 1, self._device, Cause.OFF_COMMAND)
+            cycles_ns = round(2e9 * self.adapter.model.command_period_s)  # its loop takes the plan over in the next
+            self.journal.note(self.now_ns + 1, self._device, Cause.OFF_COMMAND, first_ns + cycles_ns)
 
     def _tell_phase(self, phase: Phase, fault: str) -> None:
         stopped = Phase.STOPPED in (phase, self._phase)

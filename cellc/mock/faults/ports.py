@@ -16,13 +16,13 @@ from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Action
 from cellc.mock.nodes.perception import Camera, Perception
 from cellc.mock.nodes.robot_state_publisher import RobotStatePublisher
+from cellc.mock.parts import Parts
 from cellc.mock.plant import Plant
 from cellc.mock.real_start import RealStart
 from cellc.mock.task_status import ActionStatus, ForeignGoal, Milestones, TaskRequests
 from cellc.mock.tf.buffer import DEFAULT_BUFFER_S, TransformBuffer
 from cellc.mock.tf.sources import SampledSource
 from cellc.mock.world.joint_states import NEVER_NS, JointStateHistory
-from cellc.mock.world.parts import Parts
 from cellc.mock.world.switches import Switches
 
 

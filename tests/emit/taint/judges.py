@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import ast
 import json
+import os
 import re
 import shlex
 from collections.abc import Callable, Iterator
 from typing import Any
+from unittest.mock import patch
 from xml.etree import ElementTree
 
 import xacro
@@ -23,6 +25,7 @@ from tests.consumers.launch_text import World, expand, unescaped
 from tests.emit.taint.shell import commands_of
 
 _FENCE = re.compile(r"^ *```sh\n(.*?)^ *```$", re.M | re.S)
+_ENVIRONMENT = re.compile(r"\$\(env (\w+)\)")
 _SHARE = re.compile(r"\$\(find (\w+)\)")
 _COMMONMARK = MarkdownIt("commonmark").enable(["table", "strikethrough"])
 _SPACE = re.compile(r"\s+")
@@ -59,7 +62,8 @@ def _element(node: ElementTree.Element) -> Iterator[Reading]:
 def processed(text: str) -> Reading:
     """Return what the real xacro makes of a description, as the launch files have it made."""
     document = xacro.parse(_SHARE.sub(r"/share/\1", text))
-    xacro.process_doc(document)
+    with patch.dict(os.environ, dict.fromkeys(_ENVIRONMENT.findall(text), "set as the cell is launched")):
+        xacro.process_doc(document)
     return xml(document.toxml())
 
 
