@@ -132,16 +132,16 @@ def _by_figures(
 def _by_controller(joints: Sequence[str], controller: Controller | None, distro: Distro) -> dict[str, JointLaw] | str:
     """Return springs that are gains of a controller, with the bounds of their integrals in the distribution."""
     found: dict[str, JointLaw] = {}
-    told = {} if controller is None else controller.parameters_on("real")
+    loaded = {} if controller is None else controller.parameters_on("real")
     kind = None if controller is None else controller.declared
     declared = {} if kind is None else kind.parameters_in(distro)
     bounds = [(key, one.default) for key in ("i_clamp", "i_clamp_max") if (one := declared.get(f"gains.<joint>.{key}"))]
     for joint in joints:
-        gain = {key: _number(told.get(f"gains.{joint}.{key}")) for key in ("p", "i", "d")}
+        gain = {key: _number(loaded.get(f"gains.{joint}.{key}")) for key in ("p", "i", "d")}
         if not gain["p"]:
             return f"no controller has a gain `gains.{joint}.p`"
         integral = gain["i"] or 0.0
-        most = [_number(told.get(f"gains.{joint}.{key}", default)) for key, default in bounds if integral]
+        most = [_number(loaded.get(f"gains.{joint}.{key}", default)) for key, default in bounds if integral]
         least = min((bound for bound in most if bound is not None and bound < math.inf), default=None)
         found[joint] = JointLaw(stiffness=gain["p"], damping=gain["d"] or 0.0, integral=integral, integral_most=least)
     return found

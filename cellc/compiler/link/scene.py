@@ -136,10 +136,10 @@ def _fitted(touched: TouchedPoints, document: SourceDocument, path: YamlPath) ->
         message = f"each touched point must lie within {touched.within.text} of the {touched.shape}, got {_mm(worst)}"
         return Outcome(None, (_apart(message, document, (*path, "points", number)),))
     mean = math.sqrt(math.fsum(each * each for each in fit.distances_m) / len(points))
-    told = TouchedFit(points=len(points), root_mean_square_m=mean, largest_m=worst)
+    residuals = TouchedFit(points=len(points), root_mean_square_m=mean, largest_m=worst)
     if is_plane:
-        return Outcome(_plane(fit.pose, _EDGE_M if touched.edge is None else touched.edge.si, told))
-    return Outcome(_Body(fit.pose, fit.size, touched=told))
+        return Outcome(_plane(fit.pose, _EDGE_M if touched.edge is None else touched.edge.si, residuals))
+    return Outcome(_Body(fit.pose, fit.size, touched=residuals))
 
 
 def _mm(length_m: float) -> str:

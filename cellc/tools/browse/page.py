@@ -198,8 +198,8 @@ def _played(model: DeviceModel, effect: EffectFacts | None, more: tuple[Need, ..
     if effect is None:
         return _NOT_STATED, "", "", "", ""
     left = effect.leaves or ""
-    told = _reported(model, (*effect.ends, *more)) if left == "active" else "its component"
-    by = told if left else ""
+    reporting = _reported(model, (*effect.ends, *more)) if left == "active" else "its component"
+    by = reporting if left else ""
     return effect.motion.value, left, by, effect.does, effect.source
 
 
