@@ -73,6 +73,10 @@ def _included(policy: str, common: str) -> str:
         file.write_text(policy, encoding="utf-8")
         file.with_name("common.xml").write_text(common, encoding="utf-8")
         tree = etree.parse(str(file))
+        for include in tree.iter("{http://www.w3.org/2001/XInclude}include"):
+            path = include.attrib["xpointer"].removeprefix("xpointer(").removesuffix(")")
+            # An expression that finds nothing includes nothing, without a word.
+            assert etree.fromstring(common.encode()).xpath(path), path
         tree.xinclude()
         return str(etree.tostring(tree, encoding="unicode"))
 

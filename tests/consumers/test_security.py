@@ -219,6 +219,35 @@ def test_people_may_neither_command_nor_switch_from_a_shell(cell: str, distro: s
             assert not may.allow("request", f"{namespace}/controller_manager/{service}")
 
 
+_CALLED_BY_BRING_UP = {
+    "controller": ("list_controllers",),
+    "hardware": ("list_hardware_components",),
+    "lifecycle": ("get_state",),
+}
+"""What a proof asks its manager or node, and below what a request calls: controller_manager 4.47, lifecycle_msgs."""
+_REQUESTED_BY_BRING_UP = {
+    "controllers": ("list_controllers", "switch_controller"),
+    "restart": ("list_controllers", "switch_controller"),
+    "hardware": ("set_hardware_component_state",),
+    "transition": ("change_state",),
+}
+
+
+@every_build
+def test_bring_up_may_call_what_its_steps_ask(cell: str, distro: str) -> None:
+    steps, asked = plan(cell, distro), set()
+    may = permissions(build(cell, distro).texts)[steps["enclave"]]
+    for step in (*steps["mock"], *steps["real"]):
+        proofs = (*step["proof"], *step.get("effect", ()))
+        ends = [(one, _CALLED_BY_BRING_UP.get(one["kind"], ())) for one in proofs]
+        if "request" in step:
+            ends.append((step["request"], _REQUESTED_BY_BRING_UP.get(step["request"]["kind"], ())))
+        for one, services in ends:
+            asked |= {f"{one['manager'] if 'manager' in one else one['node']}/{name}" for name in services}
+    assert asked
+    assert not [name for name in asked if not may.allow("request", name)]
+
+
 _ACTS = re.compile(r"ros2 service call (/\S+)|ros2 control (switch_controller|set_hardware_component_state)")
 
 

@@ -113,10 +113,15 @@ class Displace:
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
-        """Yield one joint of every controller that takes goals; a plan may start beyond a limit or in a collision."""
+        """Yield one joint of every controller that takes goals.
+
+        A plan may start beyond a limit or in a collision; an adapter refuses one that starts where the joint no longer is.
+        """
         for joint, controller in first_joints(contract).items():
             entry = FaultEntry(kind=cls.kind, target=joint, displacement=_displacement(contract, joint))
-            yield fault_case(entry, contract, off_track(Bounds(contract), controller, AttemptOutcome.PLANNING_FAILURE))
+            refused = (AttemptOutcome.GOAL_REJECTION,) if controller in contract.adapters else ()
+            more = (AttemptOutcome.PLANNING_FAILURE, *refused)
+            yield fault_case(entry, contract, off_track(Bounds(contract), controller, *more))
 
     def begin(self, ports: FaultPorts) -> None:
         """Displace."""
