@@ -26,8 +26,10 @@ from tests.consumers import (
     starting,
     test_agreement,
     test_bring_up,
+    test_claim_watch,
     test_drawings,
     test_environment,
+    test_first_goal,
     test_installed_versions,
     test_launch,
     test_moveit,
@@ -157,7 +159,13 @@ _RUNS: tuple[Callable[[StandIn, Path], None], ...] = (
     test_bring_up.test_lost_answer_of_a_request_that_was_done_is_no_failure,
     test_bring_up.test_exit_status_of_the_mover_is_passed_on,
 )
-_COMPARES_VERSIONS = "scripts/installed_versions"
+_RUNS_OF_PROGRAMS: dict[str, Callable[[Path], None]] = {
+    "scripts/installed_versions": test_installed_versions.test_person_accepts_each_part_by_name_and_the_record_has_both,
+    "scripts/first_goal": test_first_goal.test_evidence_holds_command_state_and_error_of_every_joint_and_a_plot,
+    "scripts/claim_watch": lambda _: test_claim_watch.test_a_topic_that_nobody_publishes_any_more_proves_nothing(
+        test_claim_watch.FakeRos()
+    ),
+}
 _CHECKS_OF_TARGETS: tuple[Callable[[str, str, str], None], ...] = (
     test_launch.test_spawners_follow_the_spec_and_activate_nothing,
     test_refusals.test_no_emitted_description_is_refused_or_dangerous,
@@ -182,8 +190,9 @@ def caught_by(built: Build) -> str:
     original = build(_CELL, _DISTRO).texts
     if any(built.texts.get(file) != original[file] for file in _BRING_UP) and _fails(partial(_brought_up, built)):
         return _brought_up.__name__
-    if built.texts.get(_COMPARES_VERSIONS) != original[_COMPARES_VERSIONS] and _fails(partial(_compared, built)):
-        return _compared.__name__
+    for file, run in _RUNS_OF_PROGRAMS.items():
+        if built.texts.get(file) != original[file] and _fails(partial(_ran, built, run)):
+            return file
     found = verify(built.artifacts, built.graph)
     return found[0].code if found else ""
 
@@ -201,10 +210,10 @@ def _brought_up(built: Build) -> None:
             check(test_bring_up.started(), Path(mkdtemp(dir=folder)))
 
 
-def _compared(built: Build) -> None:
-    """Compare versions, where the program that does it is not the one that was emitted."""
+def _ran(built: Build, run: Callable[[Path], None]) -> None:
+    """Run a program that is not the one that was emitted."""
     with TemporaryDirectory() as folder, in_place(built):
-        test_installed_versions.test_person_accepts_each_part_by_name_and_the_record_has_both(Path(folder))
+        run(Path(folder))
 
 
 def _fails(check: Callable[[], None]) -> bool:

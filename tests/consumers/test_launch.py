@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from fnmatch import fnmatch
 from xml.etree.ElementTree import fromstring
 
@@ -234,7 +235,10 @@ def test_what_is_launched_or_found_is_a_dependency_and_is_installed(cell: str, d
     launch |= {"ros2controlcli", "ros2cli_common_extensions", "tf2_ros"}
     launch -= {cell}
     found = {package for text in texts.values() for package in re.findall(r"\$\(find ([^)]+)\)", text)}
-    assert launch | found <= depends
+    programs = [text for text in texts.values() if text.startswith("#!/usr/bin/env python3")]
+    imports = r"^ *(?:from (\w+)[\w.]* import|import (\w+)$)"
+    imported = {"".join(names) for text in programs for names in re.findall(imports, text, re.MULTILINE)}
+    assert launch | found | (imported - sys.stdlib_module_names) <= depends
     installed = set(re.findall(r"^  ([a-z_.]+)$", texts["CMakeLists.txt"], re.MULTILINE))
     assert {path.split("/")[0] for path in texts if path.startswith(("launch", "config", "urdf"))} <= installed
 

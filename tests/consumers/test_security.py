@@ -219,13 +219,13 @@ def test_people_may_neither_command_nor_switch_from_a_shell(cell: str, distro: s
             assert not may.allow("request", f"{namespace}/controller_manager/{service}")
 
 
-_CALLED_BY_BRING_UP = {
+_CALLED_BY_BRING_UP: dict[str, tuple[str, ...]] = {
     "controller": ("list_controllers",),
     "hardware": ("list_hardware_components",),
     "lifecycle": ("get_state",),
 }
 """What a proof asks its manager or node, and below what a request calls: controller_manager 4.47, lifecycle_msgs."""
-_REQUESTED_BY_BRING_UP = {
+_REQUESTED_BY_BRING_UP: dict[str, tuple[str, ...]] = {
     "controllers": ("list_controllers", "switch_controller"),
     "restart": ("list_controllers", "switch_controller"),
     "hardware": ("set_hardware_component_state",),

@@ -115,7 +115,7 @@ class Displace:
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
         """Yield one joint of every controller that takes goals.
 
-        A plan may start beyond a limit or in a collision; an adapter refuses one that starts where the joint no longer is.
+        A plan may start beyond a limit or in a collision; an adapter refuses one that starts elsewhere.
         """
         for joint, controller in first_joints(contract).items():
             entry = FaultEntry(kind=cls.kind, target=joint, displacement=_displacement(contract, joint))
