@@ -36,6 +36,14 @@ def _bytecode_of_the_session(tmp_path_factory: pytest.TempPathFactory) -> Iterat
 
 
 @pytest.fixture(scope="session", autouse=True)
+def _disk_of_the_session() -> Iterator[None]:
+    """Wait for no disk: a process that is killed leaves what it wrote, and no test cuts the power."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "fsync", lambda _: None)
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
 def _signals_of_a_terminal() -> None:
     """Let signals reach the processes that tests start even where the session was begun in the background."""
     for number, handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):

@@ -1,10 +1,13 @@
 """What a person has after README's first command, and what a release would hold: made once for all who ask.
 
-The command is run to the letter, in a copy of the files of this repository, with the interpreter of the tests.
+The command is run to the letter, in a copy of the files of this repository, with the interpreter of the tests. The
+libraries that the wheel requires, and no other, are linked from there before: pip finds them, and fetches what lacks.
+`.ci/release` has pip fetch all of them.
 """
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import json
 import os
@@ -12,11 +15,15 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+import sysconfig
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
+from packaging.requirements import Requirement
 
 from tests.cells import ROOT
 from tests.cli.run import Ran
@@ -107,9 +114,35 @@ def _make(install: Install) -> tuple[int | None, str, str]:
     _copy(install.checkout)
     built = run([sys.executable, "-I", "-m", "hatchling", "build", "-d", str(install.dist)], install.checkout)
     assert built.code == 0, built.err
+    _link_libraries(install)
     # pip compiles every library otherwise, for longer than it installs them; Python does it where one is used.
     told = run(["bash", "-c", first_command()], install.checkout, extra={"PIP_NO_COMPILE": "1"})
     return None if "(from versions: none)" in told.err else told.code, told.out, told.err
+
+
+def _link_libraries(install: Install) -> None:
+    """Put what the wheel requires where the first command makes its environment, with what that requires in turn."""
+    (wheel,) = install.dist.glob("*.whl")
+    with ZipFile(wheel) as archive:
+        (name,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
+        lines = re.findall(r"^Requires-Dist: (.+)$", archive.read(name).decode(), re.MULTILINE)
+    asked, tops = _applying(lines, Requirement("cellc")), dict[str, Path]()
+    for requirement in asked:  # which grows
+        with contextlib.suppress(PackageNotFoundError):
+            library = distribution(requirement.name)
+            asked += [one for one in _applying(library.requires or (), requirement) if one not in asked]
+            tops |= {file.parts[0]: Path(str(library.locate_file(file.parts[0]))) for file in library.files or ()}
+    libraries = install.checkout / ".venv" / Path(sysconfig.get_path("purelib")).relative_to(sys.prefix)
+    libraries.mkdir(parents=True)
+    for top in tops.keys() - {"..", "__pycache__"}:
+        (libraries / top).symlink_to(tops[top])
+
+
+def _applying(lines: Iterable[str], wanted: Requirement) -> list[Requirement]:
+    """Return what a library that is wanted, with its extras, requires here."""
+    found = [Requirement(line) for line in lines]
+    extras = ("", *wanted.extras)
+    return [one for one in found if one.marker is None or any(one.marker.evaluate({"extra": it}) for it in extras)]
 
 
 def _copy(place: Path) -> None:
