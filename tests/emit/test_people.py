@@ -81,7 +81,7 @@ def test_gates_stand_in_order_with_evidence_and_stop(page: str, letter: str, num
 
 def test_inventory_asks_for_a_commit_where_the_source_lies_that_the_workspace_imports() -> None:
     page = artifacts_of("ur5e_pick")["gates/promotion.md"]
-    assert "gripper.driver is `robotiq_driver 3b6cf8f`. Run this in the build workspace" in page
+    assert "Check in the build workspace that gripper.driver is `robotiq_driver 3b6cf8f`" in page
     assert "git -C src/ros2_robotiq_gripper rev-parse HEAD" in page
     assert "  ros2_robotiq_gripper:\n" in artifacts_of("ur5e_pick")["sources.repos"]
     # Its number never moved: no package could agree with the pin.

@@ -15,6 +15,7 @@ from cellc.compiler.catalog.catalog_model import (
     Token,
 )
 from cellc.compiler.catalog.robot_facts import DrivenBy, HumanStep, StepCondition
+from cellc.compiler.spec.quantity import Share
 from cellc.contract.vocabulary import GateCode, LeftBy, Moment, RobotSetting
 
 
@@ -148,7 +149,8 @@ class CommissioningStep(CatalogModel):
         does: What the person does, in full sentences; placeholders such as ``{address}`` are filled.
         log: Texts to look for in the log of the driver; of the lines that hold one of them, the newest counts.
         run: Commands that only read; ``{address}`` in them becomes a word of the shell.
-        shows: Whether the step says what must be seen after the release of the gate.
+        after_release: Whether the step comes after the release of the gate: what must be seen then, or what is first
+            done with it.
         powers: Whether the drives have power after the step, so that the stop can be tried.
         sets: What the step sets in the robot; `cellc diff` compares it.
         only: Distributions on which the step is done; empty for all.
@@ -162,7 +164,7 @@ class CommissioningStep(CatalogModel):
     does: Text
     log: tuple[Text, ...] = ()
     run: tuple[Text, ...] = ()
-    shows: bool = False
+    after_release: bool = False
     powers: bool = False
     sets: RobotSetting | None = None
     only: tuple[DistroName, ...] = ()
@@ -203,9 +205,36 @@ class JogFacts(CatalogModel):
         driver_runs: Whether the driver reads positions meanwhile; without it people read them at the device.
         does: What people do, step by step, and where they read the position if the driver does not run. Where the
             vendor has no such way, it says what is used in its place.
+        then: What people do before they start the driver again, where it does not run meanwhile.
         source: Document with its version from which this was read.
     """
 
     driver_runs: bool = False
     does: Text
+    then: Text | None = None
     source: Text
+
+
+class SpeedControlFacts(CatalogModel):
+    """What of the real device slows every motion down, whoever sends it.
+
+    Attributes:
+        name: Name of it, such as ``speed slider``; absent where the device has none.
+        does: How people set it, where the device has one.
+        low: What the first motions are made with, where the device has one; goals take longer by it.
+        because: Why nothing slows motions down, where the device has none.
+        source: Document with its version from which this was read.
+    """
+
+    name: Text | None = None
+    does: Text | None = None
+    low: Share | None = None
+    because: Text | None = None
+    source: Text
+
+    @model_validator(mode="after")
+    def _one_or_none(self) -> "SpeedControlFacts":
+        parts = (self.name, self.does, self.low)
+        if any(part is None for part in parts) == (self.because is None) or (self.because and any(parts)):
+            raise ValueError("must have `name`, `does` and `low`, or `because` alone")
+        return self

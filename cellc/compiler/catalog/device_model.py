@@ -19,7 +19,14 @@ from typing import Literal, get_args
 from pydantic import Field
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Date, FileName, InnerPath, PartName, Text, Token
-from cellc.compiler.catalog.device_bring_up import CommissioningStep, JogFacts, NetworkFacts, RecordFacts, SafetyFacts
+from cellc.compiler.catalog.device_bring_up import (
+    CommissioningStep,
+    JogFacts,
+    NetworkFacts,
+    RecordFacts,
+    SafetyFacts,
+    SpeedControlFacts,
+)
 from cellc.compiler.catalog.device_controller import DeviceController
 from cellc.compiler.catalog.device_graph import ActionFacts, CameraFacts, NodeFacts, ServiceFacts, TopicFacts
 from cellc.compiler.catalog.device_interfaces import ControlFacts, DriverFacts, SpeedScalingFacts
@@ -238,6 +245,7 @@ class DeviceModel(CatalogModel):
         driver: Node that moves the device on the real target without ros2_control.
         controllers: Kinds of controllers that only this device has, by name.
         speed_scaling: How the device reports that it slows trajectories down.
+        speed_control: What of the device slows every motion down; every arm of the catalog states it.
         gripper: Figures of a gripper; absent for other devices.
         camera: Streams of a camera; absent for other devices.
         switched: States that outputs switch or sensors report; absent for other devices.
@@ -281,6 +289,7 @@ class DeviceModel(CatalogModel):
     driver: DriverFacts | None = None
     controllers: dict[Token, DeviceController] = Field(default_factory=dict)
     speed_scaling: SpeedScalingFacts | None = None
+    speed_control: SpeedControlFacts | None = None
     gripper: GripperFacts | None = None
     camera: CameraFacts | None = None
     switched: SwitchedFacts | None = None

@@ -213,6 +213,8 @@ class RobotControllerFacts(CatalogModel):
         program: Program on the robot that passes set points on.
         tcp: Topic that has the TCP as the robot knows it.
         payload_service: Which service sets the payload, and when it works.
+        payload_entry: How people enter the payload, by what ``set_by`` of the spec says.
+        rotation_vector: Whether the robot shows orientations as rotation vectors.
         thresholds: Which service sets the thresholds of collisions.
         load_service: Which service sets the load besides the tool that is installed.
         impedance: Stiffnesses that the robot's own controller takes.
@@ -222,6 +224,8 @@ class RobotControllerFacts(CatalogModel):
     program: ProgramFacts | None = None
     tcp: CenterFacts | None = None
     payload_service: Text | None = None
+    payload_entry: dict[Literal["installation", "service"], Text] = Field(default_factory=dict)
+    rotation_vector: bool = False
     thresholds: Text | None = None
     load_service: Text | None = None
     impedance: ImpedanceFacts | None = None

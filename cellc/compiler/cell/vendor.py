@@ -68,15 +68,15 @@ class VendorSafety:
 class CommissioningStep:
     """What a person does at the real device in a gate, by its vendor's procedure.
 
-    ``shows`` where it is what must be seen once the release of that gate has been made, ``powers`` where drives have
-    power by it, so that the stop can be tried. ``sets`` is what it sets in the robot. ``log`` where it is in the
+    ``after_release`` where it comes once the release of that gate has been made, ``powers`` where drives have power by
+    it, so that the stop can be tried. ``sets`` is what it sets in the robot. ``log`` where it is in the
     driver's log: what the lines hold of which the newest counts. ``run`` are commands that read; ``{address}`` in them
     is that of the device. ``by`` is the ``driver`` or the ``adapter`` where it belongs to one of both alone.
     """
 
     gate: GateCode
     does: str
-    shows: bool
+    after_release: bool
     powers: bool
     sets: RobotSetting | None
     log: tuple[str, ...]
@@ -102,18 +102,38 @@ class RecordSource:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SpeedControl:
+    """What slows every motion of a device down: its ``name``, how it is set, and the share for first motions.
+
+    Where the device has none, ``name`` is empty, ``low`` is 1, and ``does`` says why.
+    """
+
+    name: str
+    does: str
+    low: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Procedures(Part):
     """What people do and read at the real device, by its vendor.
 
     Args:
         record: where the record of an attempt has fields from that the real one alone can tell.
         jog: how people move one joint by hand; None where no source says.
+        jog_ends: what they do then, before the driver is started again.
         driver_runs: the driver reads positions meanwhile.
+        speed_control: None where no source says whether there is one.
+        payload_entry: how people enter the payload of the spec; empty where no source says.
+        rotation_vector: the robot shows orientations as rotation vectors.
         commissioning: steps in the vendor's order.
     """
 
     safety: Annotated[VendorSafety, ELSEWHERE] = field(default_factory=VendorSafety)
     record: Annotated[tuple[RecordSource, ...], ELSEWHERE] = ()
     jog: str | None = None
+    jog_ends: Annotated[str, ELSEWHERE] = ""
     driver_runs: bool = True
+    speed_control: Annotated[SpeedControl | None, ELSEWHERE] = None
+    payload_entry: Annotated[str, ELSEWHERE] = ""
+    rotation_vector: Annotated[bool, ELSEWHERE] = False
     commissioning: Annotated[tuple[CommissioningStep, ...], ELSEWHERE] = ()

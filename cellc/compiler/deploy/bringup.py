@@ -125,7 +125,7 @@ def _comparisons(cell: Cell, steps: tuple[BringUpStep, ...]) -> Iterator[BringUp
     for host, parts in compared_on(cell):
         if parts and (host in taking or not host):
             name = f"compare_versions{host and f'_on_{host}'}"
-            asked = Comparison(kind="versions", parts=parts)
+            asked = Comparison(kind="versions", parts=tuple(part.shown for part in parts))
             yield _step(BringUpPhase.START, name, host, [*_mocked(cell, "real")], asked, [])
 
 

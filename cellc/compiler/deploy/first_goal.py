@@ -39,7 +39,7 @@ class FirstGoal:
         moves: the joints that may move, by their names in the description: the stated one, then from tip to base.
         by: to either side of where the joint is, rad or m, half of what the spec allows; its sign is the first side.
         duration_s: of one motion; no joint is faster than the first motion of the spec.
-        timeout_s: within which a goal ends.
+        timeout_s: within which a goal ends, with the device as slow as people set it for first motions.
         absent: full names of motion clients, none of which may run.
     """
 
@@ -70,7 +70,7 @@ def _goals(cell: Cell, first: FirstMotion) -> Iterator[FirstGoal]:
     stated = next((joint.name for joint in device.joints if joint.local_name == first.local_joint), "")
     for action, names, topic in _takers(cell):
         if stated in names:
-            by = first.max_delta.value / 2.0
+            by, control = first.max_delta.value / 2.0, device.procedures.speed_control
             yield FirstGoal(
                 device=device.name,
                 release=device.name if len(cell.bringup.first_motions) > 1 else "",
@@ -80,7 +80,7 @@ def _goals(cell: Cell, first: FirstMotion) -> Iterator[FirstGoal]:
                 moves=(stated, *(name for name in _movable(device, first) if name in names and name != stated)),
                 by=-by if first.direction == "-" else by,
                 duration_s=max(_PEAK * by / first.velocity.value, first.timeout_s / 2.0),
-                timeout_s=first.timeout_s,
+                timeout_s=first.timeout_s / (1.0 if control is None else control.low),
                 absent=tuple(node.full_name for node in motion_clients(cell)),
             )
             return

@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.site import FirstMotion
+from cellc.compiler.cell.vendor import SpeedControl
 from cellc.compiler.deploy.bringup import bring_up, phases, releases
 from cellc.compiler.deploy.first_goal import first_goals
-from cellc.compiler.deploy.processes import past_controllers
-from cellc.compiler.deploy.releases import GOAL, Release, release_once
+from cellc.compiler.deploy.processes import motion_clients, past_controllers
+from cellc.compiler.deploy.releases import GOAL, Release, move_real, release_once
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.cell_graph import CellGraph
@@ -40,7 +41,8 @@ def guided(graph: CellGraph) -> Iterator[Values]:
     for first in graph.cell.bringup.first_motions:
         procedures = graph.cell.device(first.device).procedures
         if procedures.jog is not None and not procedures.driver_runs:
-            yield *_first_motion(graph, first), procedures.jog
+            again = "G4" if graph.cell.device(first.device).control.startup_state == "active" else "G4 and G5"
+            yield *_first_motion(graph, first), procedures.jog, procedures.jog_ends and f"{procedures.jog_ends} ", again
 
 
 def stated_jogs(graph: CellGraph) -> Iterator[Values]:
@@ -73,7 +75,30 @@ def small_goal(graph: CellGraph) -> Iterator[Values]:
         goal = goals.get(about[5])
         command = "" if goal is None else f'{release_once(graph.cell, GOAL, goal.release)} evidence:="$E"'
         sent = [] if goal is None else [f"{command} joint:={shell_word(joint)}" for joint in goal.moves]
-        yield *about, "\n".join(sent), "".join(f"{line} then:=cancel" for line in sent[:1])
+        control = graph.cell.device(first.device).procedures.speed_control
+        slow = f" and the {control.name} at {speed_of(control)}" if control is not None and control.name else ""
+        yield *about, slow, "\n".join(sent), "".join(f"{line} then:=cancel" for line in sent[:1])
+
+
+def speed_of(control: SpeedControl) -> str:
+    """Return what people set for the first motions."""
+    return f"{shortest(100.0 * control.low)} %"
+
+
+def authorized_motion(graph: CellGraph) -> Iterator[Values]:
+    """Yield the commands that start motion clients, and what slows the robots down meanwhile."""
+    controls = ((device.name, device.procedures.speed_control) for device in graph.cell.devices)
+    named = (f"the {one.name} of {name} at {speed_of(one)}" for name, one in controls if one is not None and one.name)
+    slow = " and ".join(named)
+    return ((where, command, slow and f", with {slow}") for where, command in move_real(graph.cell))
+
+
+def senders(graph: CellGraph) -> Iterator[Values]:
+    """Yield who sends goals; a person where the cell has no motion client."""
+    clients = motion_clients(graph.cell)
+    yield from ((node.full_name,) for node in clients)
+    if not clients:
+        yield ("a person",)
 
 
 def missing_first_motion(graph: CellGraph) -> Iterator[Values]:

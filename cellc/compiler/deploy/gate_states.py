@@ -4,11 +4,62 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.compiler.deploy.gate_motion import Values
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.device import Device
+from cellc.compiler.deploy.gate_motion import Values, speed_of
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.vocabulary import GateCode, LeftBy
+from cellc.contract.vocabulary import CommandAuthority, GateCode, LeftBy, Moment
+
+
+def commanding(cell: Cell) -> Iterator[Device]:
+    """Yield the devices that follow the computer from the start of their driver on."""
+    for device in cell.devices:
+        hardware = device.control.hardware
+        start = None if hardware is None else hardware.effects.get(Moment.INIT)
+        if start is not None and start.authority is CommandAuthority.TAKEN:
+            yield device
+
+
+def enabled_in(cell: Cell, device: Device) -> GateCode:
+    """Return the gate in which people power a device and try its stop: before its driver, where that commands it."""
+    return GateCode.G3 if device in tuple(commanding(cell)) else GateCode.G5
+
+
+def stop_tests(graph: CellGraph) -> Iterator[Values]:
+    """Yield the gates in which the stop is tried, each with the one whose start of the driver is repeated then."""
+    moved = (device for device in graph.cell.devices if device.actuated_joints)
+    gates = {enabled_in(graph.cell, device) for device in moved} or {GateCode.G5}
+    yield from ((gate, "G4" if gate is GateCode.G5 else "this gate") for gate in sorted(gates))
+
+
+def stop_evidence(graph: CellGraph) -> Iterator[Values]:
+    """Yield what proves the test of the stop, in each gate with that test."""
+    for gate, _ in stop_tests(graph):
+        yield from ((evidence, gate) for evidence in graph.cell.safety.stop.evidence)
+
+
+def speed_controls(graph: CellGraph) -> Iterator[Values]:
+    """Yield what slows arms down, what for the first motions, and how people set it."""
+    for device in graph.cell.devices:
+        control = device.procedures.speed_control
+        if device.kind == "arm" and control is not None and control.name:
+            yield device.name, control.name, speed_of(control), control.does
+
+
+def without_speed_control(graph: CellGraph) -> Iterator[Values]:
+    """Yield the arms that nothing slows down, and why."""
+    for device in graph.cell.devices:
+        control = device.procedures.speed_control
+        if device.kind == "arm" and control is not None and not control.name:
+            yield device.name, control.does
+
+
+def open_speed_controls(graph: CellGraph) -> Iterator[Values]:
+    """Yield the arms of which no source says whether anything slows them down."""
+    arms = (device for device in graph.cell.devices if device.kind == "arm")
+    return ((device.name,) for device in arms if device.procedures.speed_control is None)
 
 
 def stopping_devices(graph: CellGraph) -> Iterator[Values]:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.drills import claimed, drills, interlocks, pulled
 from cellc.compiler.deploy.ends import ends_on_real, is_late, silent
 from cellc.compiler.deploy.files import is_servo
+from cellc.compiler.deploy.gate_loads import loaded_devices, tool_centers, tool_connectors
 from cellc.compiler.deploy.gate_motion import (
     Values,
+    authorized_motion,
     cancels,
     endpoint_command,
     first_motion,
@@ -24,6 +24,7 @@ from cellc.compiler.deploy.gate_motion import (
     missing_first_motion,
     real_actions,
     released,
+    senders,
     small_goal,
     stated_jogs,
     stop_reasons,
@@ -34,27 +35,35 @@ from cellc.compiler.deploy.gate_states import (
     bounded_clocks,
     identities,
     modes,
+    open_speed_controls,
     ready_states,
     secret_files,
     self_resuming,
+    speed_controls,
+    stop_evidence,
+    stop_tests,
     stopping_devices,
     variables,
+    without_speed_control,
 )
 from cellc.compiler.deploy.labels import said_around
 from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
-from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, move_real, start_mock, start_real
-from cellc.compiler.deploy.versions import fetched_parts, installed_parts
+from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, start_mock, start_real
+from cellc.compiler.deploy.versions import Installed, compared_on, fetched_parts, installed_parts
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
-from cellc.compiler.formats.numbers import positive_zero, shortest
+from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.pins import is_commit, last_word
 from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, InterfaceKind, features
 
 Row = Mapping[str, str]
+_LEAST_RATE = 0.95
+"""Share of its stated rate at which a topic must arrive, as an average over what is printed."""
+
 CELL = "cell"
 """The subject of a line that is written once."""
 
@@ -78,16 +87,22 @@ def cell_row(cell: Cell, header: Header, code: str) -> Row:
 
 
 def _installed(graph: CellGraph) -> Iterator[Values]:
-    for part in installed_parts(graph.cell):
-        if not is_commit(last_word(part.text)):
-            yield part.name, part.text, part.command
+    yield from ((part.name, part.text, part.command, on) for on, part in _read(graph, commits=False))
 
 
 def _built(graph: CellGraph) -> Iterator[Values]:
     """Yield what is pinned to a commit, which the source that was built shows and no version of a package."""
-    for part in installed_parts(graph.cell):
-        if is_commit(last_word(part.text)):
-            yield part.name, part.text, part.command
+    yield from ((part.name, part.text, part.command, on) for on, part in _read(graph, commits=True))
+
+
+def _read(graph: CellGraph, *, commits: bool) -> Iterator[tuple[str, Installed]]:
+    """Yield what a computer shows, after the computer; a cell that runs in one place names none."""
+    places = tuple(compared_on(graph.cell))
+    placed = {part for _, parts in places for part in parts}
+    elsewhere = tuple(part for part in installed_parts(graph.cell) if part not in placed)
+    for host, parts in (*places, ("", elsewhere)):
+        where = f"On {host}: " if host else ""
+        yield from ((where, part) for part in parts if is_commit(last_word(part.text)) is commits)
 
 
 def _visible(graph: CellGraph) -> Iterator[Values]:
@@ -129,8 +144,9 @@ def _joint_states(graph: CellGraph) -> Iterator[Interface]:
 
 
 def _idle_joint_states(graph: CellGraph) -> Iterator[Values]:
-    """Yield the joint states that arrive before a person activates hardware."""
-    return ((interface.name,) for interface in _joint_states(graph) if not is_late(graph, interface))
+    """Yield the joint states that arrive before a person activates hardware, as streams."""
+    names = {interface.name for interface in _joint_states(graph)}
+    return (values for values in _streams(graph, late=False) if values[0] in names)
 
 
 def _late_readers(graph: CellGraph) -> Iterator[Values]:
@@ -154,41 +170,6 @@ def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
             yield node.full_name, "inactive" if later else "active"
 
 
-def _loaded_devices(graph: CellGraph) -> Iterator[Values]:
-    text = graph.cell.text
-    for device in graph.cell.devices:
-        if device.robot.payload is not None:
-            payload = (*device.path, "payload")
-            moments = text(*payload, "inertia")
-            said = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
-            stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), moments, said
-            yield *stated, device.body.tool_frame or device.body.root_link, device.robot.payload.set_by
-
-
-def _tool_centers(graph: CellGraph) -> Iterator[Values]:
-    """Yield the TCP that the robot's own controller must have, and the command that shows it."""
-    for device in graph.cell.devices:
-        if device.robot.tcp is None or device.body.tool_frame is None:
-            continue
-        pose = graph.frames.pose_in(device.robot.tcp, device.body.tool_frame)
-        if pose is not None:
-            xyz = _figures((1000.0 * value for value in pose.position), 2) + " mm"
-            turn = _figures(pose.rotation_vector(), 4) + " rad"
-            rpy = _figures(map(math.degrees, pose.rpy()), 2) + " deg"
-            yield device.name, device.robot.tcp, device.body.tool_frame, xyz, turn, rpy, _shows_center(graph, device)
-
-
-def _tool_connectors(graph: CellGraph) -> Iterator[Values]:
-    tools: dict[str, list[str]] = {}
-    for tool in graph.cell.devices:
-        if tool.site.connection is not None and tool.site.connection.through is not None:
-            tools.setdefault(tool.site.connection.through, []).append(tool.name)
-    for device in graph.cell.devices:
-        if device.robot.tool_connector is not None:
-            voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
-            yield device.name, voltage, ", ".join(tools.get(device.name, ())) or "every connected tool"
-
-
 def _servo(graph: CellGraph) -> Iterator[Values]:
     """Yield what MoveIt Servo commands, what starts it, and the command that shows the ends of its topic."""
     servo = graph.cell.servo
@@ -201,32 +182,14 @@ def _servo(graph: CellGraph) -> Iterator[Values]:
         yield node.full_name, f"{node.full_name}/{service}", servo.controller, *speeds, timeout, command
 
 
-def _figures(values: Iterable[float], digits: int) -> str:
-    return " ".join(f"{positive_zero(round(value, digits)):.{digits}f}" for value in values)
-
-
-def _shows_center(graph: CellGraph, device: Device) -> str:
-    """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
-    broadcaster = graph.once(_active_by_kind).get((device.robot.accepts.tcp_kind, device.name))
-    if broadcaster is None:
-        return ""
-    return f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.accepts.tcp_topic}"
-
-
-def _active_by_kind(graph: CellGraph) -> Mapping[tuple[str | None, str | None], Controller]:
-    """Return the first active controller of each kind and device."""
-    active = (controller for controller in reversed(graph.cell.controllers) if controller.active)
-    return {(controller.kind, controller.device): controller for controller in active}
-
-
-def _by_vendors(graph: CellGraph, *, shows: bool = False, powers: bool = False) -> Iterator[Values]:
-    """Yield the vendors' steps for people in the gates, or the signs that must show there after a release.
+def _by_vendors(graph: CellGraph, *, after_release: bool = False, powers: bool = False) -> Iterator[Values]:
+    """Yield the vendors' steps for people in the gates, or those that come there after a release.
 
     Steps that power the drives are yielded separately: a stop is tested on powered drives.
     """
     for device in graph.cell.devices:
         for step in device.procedures.commissioning:
-            if (step.shows, step.powers) == (shows, powers):
+            if (step.after_release, step.powers) == (after_release, powers):
                 commands = (*(_addressed(device, command) for command in step.run), *_of_this_launch(step.log))
                 yield device.name, step.does, "\n".join(commands), step.gate, step.sets or ""
 
@@ -290,13 +253,14 @@ def _streams(graph: CellGraph, *, late: bool) -> Iterator[Values]:
             if is_late(graph, interface) is not late:
                 continue
             # What is measured is the sum of all sources, and the interface has the rate of the slowest manager.
-            several = f" or more ({len(interface.sources)} sources)" if len(interface.sources) > 1 else ""
+            several = f", {len(interface.sources)} sources" if len(interface.sources) > 1 else ""
+            least = shortest(round(_LEAST_RATE * interface.rate_hz, 3))
             age = (
                 "no age limit"
                 if interface.max_age_s is None
                 else f"no sample older than {shortest(interface.max_age_s)} s"
             )
-            yield interface.name, f"{shortest(interface.rate_hz)} Hz{several}", age
+            yield interface.name, f"{least} Hz or more (stated: {shortest(interface.rate_hz)} Hz{several})", age
 
 
 def _groups(graph: CellGraph, *, late: bool) -> Iterator[Values]:
@@ -315,11 +279,12 @@ def _each(values: tuple[str, ...]) -> Iterator[Values]:
 
 
 _VENDOR_STEP = ("device", "does", "command", "gate", "sets")
-_PAYLOAD = ("device", "mass", "center_of_mass", "inertia", "and_inertia", "frame", "set_by")
+_PAYLOAD = ("device", "mass", "center_of_mass", "inertia", "and_inertia", "frame", "set_by", "entry", "gate")
+_STREAM = ("topic", "rate", "age")
 _FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name", "si")
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
-    "installed_part": (("part", "version", "command"), _installed),
-    "built_part": (("part", "version", "command"), _built),
+    "installed_part": (("part", "version", "command", "where"), _installed),
+    "built_part": (("part", "version", "command", "where"), _built),
     "fetched_part": (("part", "version", "driver"), lambda graph: fetched_parts(graph.cell)),
     "visible_part": (("part", "version"), _visible),
     "unknown_part": (("part",), _unknown),
@@ -335,7 +300,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "mock_action": (("action",), _mock_actions),
     "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),
     "joint_states": (("topic",), lambda graph: ((interface.name,) for interface in _joint_states(graph))),
-    "idle_joint_states": (("topic",), _idle_joint_states),
+    "idle_joint_states": (_STREAM, _idle_joint_states),
     "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), stopping_devices),
     "ready_states": (("device", "states"), ready_states),
@@ -343,26 +308,34 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "secret_file": (("device", "file", "command"), secret_files),
     "modes": (("device", "modes"), modes),
     "self_resuming": (("device", "state"), self_resuming),
-    "loaded_device": (_PAYLOAD, _loaded_devices),
-    "tool_center": (("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "command"), _tool_centers),
-    "tool_connector": (("device", "voltage", "tools"), _tool_connectors),
+    "loaded_device": (_PAYLOAD, loaded_devices),
+    "tool_center": (
+        ("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "rotation", "command", "gate"),
+        tool_centers,
+    ),
+    "tool_connector": (("device", "voltage", "tools"), tool_connectors),
     "servo": (("node", "starts", "controller", "linear", "rotational", "joint", "timeout", "command"), _servo),
-    "stop_evidence": (("evidence",), lambda graph: _each(graph.cell.safety.stop.evidence)),
+    "stop_test": (("gate", "start_gate"), stop_tests),
+    "stop_evidence": (("evidence", "gate"), stop_evidence),
+    "speed_control": (("device", "name", "low", "does"), speed_controls),
+    "no_speed_control": (("device", "does"), without_speed_control),
+    "open_speed_control": (("device",), open_speed_controls),
     "first_motion": (_FIRST_MOTION, first_motion),
-    "small_goal": ((*_FIRST_MOTION, "command", "cancel"), small_goal),
+    "small_goal": ((*_FIRST_MOTION, "slow", "command", "cancel"), small_goal),
     "jogging": ((), jogging),
     "stated_jog": (("device", "does"), stated_jogs),
     "unstated_jog": (("device",), unstated_jogs),
     "jogged": (_FIRST_MOTION, jogged),
-    "guided": ((*_FIRST_MOTION, "does"), guided),
+    "guided": ((*_FIRST_MOTION, "does", "then", "again"), guided),
     "missing_first_motion": ((), missing_first_motion),
     "stop_reason": (("reason",), stop_reasons),
     "vendor_step": (_VENDOR_STEP, _by_vendors),
     "vendor_power": (_VENDOR_STEP, lambda graph: _by_vendors(graph, powers=True)),
-    "vendor_sign": (_VENDOR_STEP, lambda graph: _by_vendors(graph, shows=True)),
+    "vendor_sign": (_VENDOR_STEP, lambda graph: _by_vendors(graph, after_release=True)),
     "real_activation": (("where", "command"), lambda graph: released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
     "real_claim": (("where", "command"), lambda graph: released(graph, CLAIM, BringUpPhase.CLAIM)),
-    "real_motion": (("where", "command"), lambda graph: move_real(graph.cell)),
+    "real_motion": (("where", "command", "slow"), authorized_motion),
+    "sender": (("node",), senders),
     "real_action": (("action",), real_actions),
     "cancel": (("action", "seconds", "service"), cancels),
     "pulled": (("device", "does"), pulled),
@@ -374,8 +347,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "reached_device": (("host", "device", "card", "address"), _reached_devices),
     "device": (("device", "serial", "firmware", "safety"), identities),
     "interface": (("interface", "starts", "ends", "command"), _interfaces),
-    "stream": (("topic", "rate", "age"), lambda graph: _streams(graph, late=False)),
-    "late_stream": (("topic", "rate", "age"), lambda graph: _streams(graph, late=True)),
+    "stream": (_STREAM, lambda graph: _streams(graph, late=False)),
+    "late_stream": (_STREAM, lambda graph: _streams(graph, late=True)),
     "late_reader": (("controller",), _late_readers),
     "bounded_clock": (("host", "offset"), bounded_clocks),
     "group": (("tip", "base"), lambda graph: _groups(graph, late=False)),

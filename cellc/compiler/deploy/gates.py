@@ -14,6 +14,7 @@ from pydantic import Field, Strict, field_validator, model_validator
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text
 from cellc.compiler.catalog.read_model import read_model
+from cellc.compiler.deploy.gate_states import commanding
 from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_row
 from cellc.compiler.formats.escape import code, shell_word
 from cellc.compiler.formats.header import Header
@@ -32,7 +33,7 @@ _SETTINGS: Mapping[str, RobotSetting] = {
     "first_motion": "first_motion",
 }
 """Subjects that are set or tried in a robot; a vendor's step names what it sets itself."""
-_UNSTATED = (*_COMMANDS, "gate", "sets", "device", "and_inertia", "name", "si")
+_UNSTATED = (*_COMMANDS, "gate", "sets", "device", "and_inertia", "name", "si", "entry", "rotation")
 """Fields that say how, when or on which device, or repeat another."""
 
 FILE = Path(__file__).with_name("gates.yaml")
@@ -91,7 +92,8 @@ class Gate:
 class Line(CatalogModel):
     """A text that is written once for each subject, with its commands.
 
-    Where ``first`` is stated, it is a line with the commands of all of them, before their texts.
+    Where ``first`` is stated, it is a line with the commands of all of them, before their texts: one for each ``where``
+    of subjects that have it. What several subjects say the same is one line.
     """
 
     of: str = CELL
@@ -111,7 +113,7 @@ class Line(CatalogModel):
     def _names_its_subject(self) -> Line:
         of_text = {*FIELDS[CELL], *FIELDS[self.of]}
         of_commands = {*of_text, *FIELDS[self.each or CELL]}
-        texts = ((self.first or "", {*FIELDS[CELL]}), (self.text, of_text))
+        texts = ((self.first or "", {*FIELDS[CELL], *({"where"} & of_text)}), (self.text, of_text))
         for text, known in (*texts, *((command, of_commands) for command in self.run)):
             unknown = {name for _, name, _, _ in Formatter().parse(text) if name is not None} - known
             if unknown:
@@ -120,17 +122,21 @@ class Line(CatalogModel):
 
 
 class GateText(CatalogModel):
-    """The prose of a gate; ``signed_by`` names the field of the spec with its owner."""
+    """The prose of a gate; ``signed_by`` names the field of the spec with its owner.
+
+    ``commanded`` is its state where the start of a driver takes command of a robot.
+    """
 
     code: Annotated[GateCode, Strict(False)]
     title: Text
     shows: Text
     state: Text
+    commanded: Text | None = None
     evidence: Text
     signed_by: Text
     checks: tuple[Line, ...] = Field(min_length=1)
     stop: tuple[Line, ...] = Field(min_length=1)
-    measured: tuple[Text, ...] = ()
+    measured: tuple[Line, ...] = ()
 
 
 class PageText(CatalogModel):
@@ -182,12 +188,12 @@ def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
         code=text.code,
         title=text.title,
         shows=text.shows,
-        state=text.state,
+        state=text.commanded if text.commanded is not None and any(commanding(graph.cell)) else text.state,
         checks=tuple(check for line in text.checks for check in _checks(line, graph, base)),
         evidence=text.evidence,
         owner=_owners(graph)[text.signed_by],
         stop=tuple(check.text for line in text.stop for check in _checks(line, graph, base)),
-        measured=text.measured,
+        measured=tuple(check.text for line in text.measured for check in _checks(line, graph, base)),
     )
 
 
@@ -202,22 +208,26 @@ def _owners(graph: CellGraph) -> Mapping[str, str]:
 
 def _checks(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
     checks = tuple(_each(line, graph, base))
-    commands = tuple(command for check in checks for command in check.commands)
-    if line.first is None or len(commands) < 2:
-        yield from checks
+    places: dict[str, dict[str, None]] = {}
+    for where, check in checks:
+        places.setdefault(where, {}).update(dict.fromkeys(check.commands))
+    if line.first is None or sum(map(len, places.values())) < 2:
+        yield from (check for _, check in checks)
         return
-    yield Check(_said(line.first, base), commands, traced=True)
-    yield from (replace(check, commands=()) for check in checks)
+    for where, commands in places.items():
+        yield Check(_said(line.first, {**base, "where": where}), tuple(commands), traced=True)
+    yield from {check.text: replace(check, commands=()) for _, check in checks}.values()
 
 
-def _each(line: Line, graph: CellGraph, base: Row) -> Iterator[Check]:
+def _each(line: Line, graph: CellGraph, base: Row) -> Iterator[tuple[str, Check]]:
+    """Yield each line after the place that it is for; an empty one where its subject has none."""
     repeated = tuple(_rows(line.each or CELL, graph, base["gate"]))
     for row in _rows(line.of, graph, base["gate"]) if repeated else ():
         filled = {**base, **row}
         words = ({name: _word(name, value) for name, value in {**filled, **other}.items()} for other in repeated)
         commands = (command.format_map(known) for known in words for command in line.run)
         run = tuple(command for command in commands if command)
-        yield Check(_said(line.text, filled), run, _setting(base["gate"], line.of, row))
+        yield row.get("where", ""), Check(_said(line.text, filled), run, _setting(base["gate"], line.of, row))
 
 
 def _setting(gate: str, subject: str, row: Row) -> GateSetting | None:

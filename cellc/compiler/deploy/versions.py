@@ -98,11 +98,11 @@ def fetched_parts(cell: Cell) -> Iterator[tuple[str, str, str]]:
             yield f"{device.name}.sdk", text, f"{device.name}.driver"
 
 
-def compared_on(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
+def compared_on(cell: Cell) -> Iterator[tuple[str, tuple[Installed, ...]]]:
     """Yield each computer that starts something, with the parts that it must show; an empty name for the only one."""
     parts = tuple(installed_parts(cell))
     for host in launch_hosts(cell) or ("",):
-        yield host, tuple(part.shown for part in parts if not host or _is_on(cell, part.name, host))
+        yield host, tuple(part for part in parts if not host or _is_on(cell, part.name, host))
 
 
 def _is_on(cell: Cell, part: str, host: str) -> bool:

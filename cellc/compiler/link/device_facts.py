@@ -34,13 +34,14 @@ from cellc.compiler.cell.vendor import (
     RecordSource,
     RecoveryProcedure,
     SafetyState,
+    SpeedControl,
     VendorSafety,
 )
 from cellc.compiler.link.hardware import device_driver, offered_interfaces, run_nodes, started_nodes
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.ports import listened
 from cellc.compiler.link.quantities import joint_figure, si
-from cellc.compiler.link.robot import command_laws, conditions
+from cellc.compiler.link.robot import command_laws, conditions, set_by
 from cellc.compiler.link.site import bind_clock
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.devices import EVERY_JOINT, DeviceSpec
@@ -113,13 +114,25 @@ def vendor_procedures(
         safety=_vendor_safety(facts, known, holding),
         record=tuple(_record(facts)),
         jog=None if facts.jog is None else facts.jog.does,
+        jog_ends=(None if facts.jog is None else facts.jog.then) or "",
         driver_runs=facts.jog is None or facts.jog.driver_runs,
+        speed_control=_speed_control(facts),
+        payload_entry=known.fill(facts.robot.payload_entry.get(set_by(written), "")),
+        rotation_vector=facts.robot.rotation_vector,
         commissioning=tuple(
             _step(step, known)
             for step in facts.commissioning
             if (not step.only or distro in step.only) and (not step.when or holding.intersection(step.when))
         ),
     )
+
+
+def _speed_control(facts: DeviceModel) -> SpeedControl | None:
+    control = facts.speed_control
+    if control is None:
+        return None
+    low = 1.0 if control.low is None else control.low.si
+    return SpeedControl(name=control.name or "", does=control.does or control.because or "", low=low)
 
 
 def device_mock(
@@ -328,7 +341,7 @@ def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
     return CommissioningStep(
         gate=facts.gate,
         does=known.fill(facts.does),
-        shows=facts.shows,
+        after_release=facts.after_release,
         powers=facts.powers,
         sets=facts.sets,
         log=facts.log,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from typing import Literal
 
 from cellc.compiler.catalog import robot_facts as catalog
 from cellc.compiler.catalog.device_laws import LawFacts
@@ -107,10 +108,14 @@ def chosen_start_mode(facts: DeviceModel, written: DeviceSpec) -> StartMode | No
     return program.start_mode(_starter(written.program), written.program.mode)
 
 
+def set_by(written: DeviceSpec) -> Literal["installation", "service"]:
+    """Return how a robot gets its payload: by what is saved on it where the spec does not say."""
+    return "installation" if written.payload is None else written.payload.set_by
+
+
 def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
     """Return the conditions that a device meets, of those that a step of its vendor's procedure may depend on."""
     start = chosen_start_mode(facts, written)
-    set_by = "installation" if written.payload is None else written.payload.set_by
     thresholds = "open" if written.collision is None else "stated"
     name = "" if start is None else start.name
     impedance = written.impedance
@@ -120,7 +125,7 @@ def conditions(facts: DeviceModel, written: DeviceSpec) -> frozenset[str]:
         "cartesian_impedance_stated": impedance is not None and impedance.cartesian is not None,
     }
     more = (name for name, so in stated.items() if so)
-    names = (name, *more, f"payload_by_{set_by}", f"thresholds_{thresholds}", *tool_conditions(written, name))
+    names = (name, *more, f"payload_by_{set_by(written)}", f"thresholds_{thresholds}", *tool_conditions(written, name))
     return frozenset(names)
 
 

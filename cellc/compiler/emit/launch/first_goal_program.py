@@ -5,8 +5,9 @@
         [--then end|cancel] [--evidence DIR] JOINT:LOWER:UPPER...
 
 It starts only when the states of all joints are fresh and all joints are at standstill, with no motion client running.
-`end` moves the joint by BY, back, to the other side and back: four goals, within twice BY in all. `cancel` moves it by
-BY, cancels half way, prints the time from the request to standstill, and moves it back. A joint that leaves its way, or
+`end` moves the joint by BY, back, to the other side and back: four goals, within twice BY in all. A side beyond a limit
+is left out. `cancel` moves it by BY, cancels half way, prints the time from the request to standstill, and moves it
+back. A joint that leaves its way, or
 states that stop arriving, cancel the goal; so does Ctrl-C. It ends with 0 when every goal ended as requested.
 With --evidence it writes command, state and error of each joint as CSV, and of the joint that moves as SVG.
 goal.launch.xml starts it, by a person's authorization, while the claims hold.
@@ -27,8 +28,8 @@ from typing import Any, NamedTuple
 
 WAIT_S = 10.0  # for states, for the server, and for standstill
 FRESH_S = 0.5  # age of the newest states, by their arrival and by their stamp
-STILL = 5e-3  # rad/s or m/s; a slower joint is at standstill
-STILL_S = 0.5  # for so long before the first goal
+STILL = 5e-4  # rad or m; a joint that stays within it is at standstill, however slow its goals are
+STILL_S = 0.5  # for so long
 SLACK = 0.2  # share of BY by which a joint may leave its way
 SUCCEEDED, CANCELED = 4, 5  # action_msgs/msg/GoalStatus
 
@@ -67,6 +68,7 @@ class Robot:
         self.positions: dict[str, float] = {}
         self.arrived: dict[str, float] = {}
         self.moved: dict[str, float] = {}
+        self._held: dict[str, float] = {}
         self.stamp_age_s = math.inf
         self.samples: list[Sample] = []
         self.goal = ""
@@ -76,14 +78,9 @@ class Robot:
         now = time.monotonic()
         stamp = message.header.stamp
         self.stamp_age_s = self._node.get_clock().now().nanoseconds * 1e-9 - stamp.sec - stamp.nanosec * 1e-9
-        speeds = dict(zip(message.name, message.velocity, strict=False))
         for name, position in zip(message.name, message.position, strict=False):
-            speed = speeds.get(name, math.nan)
-            if not math.isfinite(speed):  # a robot that reports no speed: from the positions
-                passed = now - self.arrived.get(name, now)
-                speed = (position - self.positions.get(name, position)) / passed if passed > 0.0 else 0.0
-            if abs(speed) > STILL or not math.isfinite(position) or name not in self.moved:
-                self.moved[name] = now
+            if not abs(position - self._held.get(name, math.nan)) <= STILL:
+                self._held[name], self.moved[name] = position, now
             self.positions[name], self.arrived[name] = position, now
             if self.goal:
                 self.samples.append(Sample(now, self.goal, name, math.nan, position, math.nan))
@@ -135,23 +132,39 @@ class Trial:
 
     def run(self) -> str:
         """Check, then send the goals; return why that failed, or an empty text."""
-        by, canceled = self._arguments.by, self._arguments.then == "cancel"
         try:
             self._check()
             self._start = {name: self._robot.positions[name] for name in self._joints}
-            for name, offset, cancels in self._goals(by, canceled):
+            for name, offset, cancels in self._goals(self._sides()):
                 self._send(name, offset, cancels)
         except MotionError as error:
             return str(error)
         return ""
 
-    @staticmethod
-    def _goals(by: float, canceled: bool) -> Iterator[tuple[str, float, bool]]:
-        yield ("canceled" if canceled else "out"), by, canceled
+    def _goals(self, sides: Sequence[float]) -> Iterator[tuple[str, float, bool]]:
+        canceled = self._arguments.then == "cancel"
+        yield ("canceled" if canceled else "out"), sides[0], canceled
         yield "back", 0.0, False
-        if not canceled:
-            yield "other side", -by, False
+        if not canceled and len(sides) > 1:
+            yield "other side", sides[1], False
             yield "back again", 0.0, False
+
+    def _sides(self) -> list[float]:
+        """Return the ways to the sides that are open, rad or m.
+
+        Raises:
+            MotionError: a limit is nearer to both sides.
+        """
+        joint, by = self._arguments.joint, self._arguments.by
+        lower, upper = self._limits[joint]
+        position = self._start[joint]
+        sides = [side for side in (by, -by) if lower <= position + side <= upper]
+        near = f"{joint} at {position:.4f} is closer than {abs(by):.4f} to its limits {lower:g} {upper:g}"
+        if not sides:
+            raise MotionError(near)
+        if len(sides) == 1:
+            print(f"{near}: only the side of {'+' if sides[0] > 0.0 else '-'} is open", flush=True)
+        return sides
 
     def _check(self) -> None:
         """Return when everything is ready.
@@ -172,12 +185,6 @@ class Trial:
         if not self._wait(lambda: not self._stale() and not self._moving(STILL_S), WAIT_S):
             raise MotionError(
                 self._stale() or f"{', '.join(self._moving(STILL_S))} not at standstill for {STILL_S:g} s"
-            )
-        lower, upper = self._limits[arguments.joint]
-        position, by = robot.positions[arguments.joint], abs(arguments.by)
-        if not lower <= position - by or not position + by <= upper:
-            raise MotionError(
-                f"{arguments.joint} at {position:.4f} is closer than {by:.4f} to its limits {lower:g} {upper:g}"
             )
 
     def _stale(self) -> str:
@@ -226,7 +233,8 @@ class Trial:
                 raise MotionError(f"{arguments.action} did not accept the goal")
             ended = sent.result().get_result_async()
             if cancels:
-                self._watch(lambda: False, arguments.seconds / 2.0, before, target)
+                if not self._watch(lambda: self._is_half_way(before, target), arguments.timeout, before, target):
+                    raise MotionError(f"{arguments.joint} was not half way within {arguments.timeout:g} s")
                 self._cancel(sent.result())
             if not self._watch(ended.done, arguments.timeout, before, target):
                 raise MotionError(f"the goal did not end within {arguments.timeout:g} s and was canceled")
@@ -253,6 +261,10 @@ class Trial:
 
         return self._wait(ends, seconds)
 
+    def _is_half_way(self, before: dict[str, float], target: dict[str, float]) -> bool:
+        joint = self._arguments.joint
+        return bool(abs(self._robot.positions[joint] - before[joint]) >= abs(target[joint] - before[joint]) / 2.0)
+
     def _end(self, sent: Any) -> None:
         """Cancel a goal, also one that is accepted only now, and wait for its end."""
         if self._wait(sent.done, WAIT_S) and sent.result().accepted:
@@ -263,7 +275,7 @@ class Trial:
         """Cancel, and print the time from the request to standstill."""
         requested = last = time.monotonic()
         handle.cancel_goal_async()
-        while time.monotonic() < requested + self._arguments.timeout:
+        while time.monotonic() < min(requested + self._arguments.timeout, last + STILL_S):
             self._robot.spin(0.02)
             last = max(last, *(self._robot.moved[name] for name in self._joints))
         print(f"canceled: standstill {last - requested:.3f} s after the request", flush=True)

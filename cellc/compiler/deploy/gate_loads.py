@@ -1,0 +1,73 @@
+"""Lines of the gates about what the robot's own controller knows of its tool: payload, TCP, and the tool connector."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+from cellc.compiler.cell.control import Controller
+from cellc.compiler.cell.device import Device
+from cellc.compiler.deploy.gate_motion import Values
+from cellc.compiler.deploy.gate_states import enabled_in
+from cellc.compiler.formats.numbers import positive_zero
+from cellc.compiler.graph.cell_graph import CellGraph
+
+_UNSAID = "Enter it as the manual of its vendor says, and record the values that it shows."
+
+
+def loaded_devices(graph: CellGraph) -> Iterator[Values]:
+    text = graph.cell.text
+    for device in graph.cell.devices:
+        if device.robot.payload is not None:
+            payload = (*device.path, "payload")
+            moments = text(*payload, "inertia")
+            said = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
+            stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), moments, said
+            frame, gate = device.body.tool_frame or device.body.root_link, enabled_in(graph.cell, device)
+            yield *stated, frame, device.robot.payload.set_by, device.procedures.payload_entry or _UNSAID, gate
+
+
+def tool_centers(graph: CellGraph) -> Iterator[Values]:
+    """Yield the TCP that the robot's own controller must have, and the command that shows it."""
+    for device in graph.cell.devices:
+        if device.robot.tcp is None or device.body.tool_frame is None:
+            continue
+        pose = graph.frames.pose_in(device.robot.tcp, device.body.tool_frame)
+        if pose is not None:
+            xyz = _figures((1000.0 * value for value in pose.position), 2) + " mm"
+            turn = _figures(pose.rotation_vector(), 4) + " rad"
+            rpy = _figures(map(math.degrees, pose.rpy()), 2) + " deg"
+            turned = f"roll pitch yaw {rpy}"
+            if device.procedures.rotation_vector:
+                turned = f"rotation vector {turn}, {turned}"
+            frames, gate = (device.robot.tcp, device.body.tool_frame), enabled_in(graph.cell, device)
+            yield device.name, *frames, xyz, turn, rpy, turned, _shows_center(graph, device), gate
+
+
+def tool_connectors(graph: CellGraph) -> Iterator[Values]:
+    tools: dict[str, list[str]] = {}
+    for tool in graph.cell.devices:
+        if tool.site.connection is not None and tool.site.connection.through is not None:
+            tools.setdefault(tool.site.connection.through, []).append(tool.name)
+    for device in graph.cell.devices:
+        if device.robot.tool_connector is not None:
+            voltage = graph.cell.text(*device.path, "tool_connector", "voltage")
+            yield device.name, voltage, ", ".join(tools.get(device.name, ())) or "every connected tool"
+
+
+def _figures(values: Iterable[float], digits: int) -> str:
+    return " ".join(f"{positive_zero(round(value, digits)):.{digits}f}" for value in values)
+
+
+def _shows_center(graph: CellGraph, device: Device) -> str:
+    """Return the command that prints the robot's own TCP; empty where no controller of the cell publishes it."""
+    broadcaster = graph.once(_active_by_kind).get((device.robot.accepts.tcp_kind, device.name))
+    if broadcaster is None:
+        return ""
+    return f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.accepts.tcp_topic}"
+
+
+def _active_by_kind(graph: CellGraph) -> Mapping[tuple[str | None, str | None], Controller]:
+    """Return the first active controller of each kind and device."""
+    active = (controller for controller in reversed(graph.cell.controllers) if controller.active)
+    return {(controller.kind, controller.device): controller for controller in active}

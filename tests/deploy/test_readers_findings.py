@@ -1,0 +1,123 @@
+"""What a reader who knows the vendors missed in the gates: lines at their place, and in the words of each device."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache
+
+import pytest
+
+from cellc.compiler.catalog.load import device_names
+from tests.cells import EVERY_CELL, built, device_of
+
+_WALKED = ("ur5e_pick", "fr3_hand", "gen3_2f", "openarm_bimanual")
+_ARMS = tuple(name for name in device_names() if device_of(name).model.kind == "arm")
+
+
+@cache
+def _gates(cell: str) -> Mapping[str, str]:
+    parts = re.split(r"^## ([GL]\d) ", built(cell).texts["gates/promotion.md"].replace("\\", ""), flags=re.MULTILINE)
+    return dict(zip(parts[1::2], parts[2::2], strict=True))
+
+
+def _in_order(text: str, *words: str) -> bool:
+    places = [text.index(word) for word in words]
+    return places == sorted(places)
+
+
+def test_a_driver_that_commands_from_its_start_on_is_started_after_the_test_of_the_stop() -> None:
+    # kortex_driver/src/hardware_interface.cpp:211: loaded, it clears faults and takes low-level control.
+    gates = _gates("gen3_2f")
+    before = ("Place the observer", "Payload of arm", "Bring the arm low", "trip the stop", "power the drives again")
+    assert _in_order(gates["G3"], *before, "launch gen3_2f cell.launch.xml")
+    assert "trip the stop" not in gates["G5"]
+    assert not [code for code in ("G3", "G4") if "rives disabled" in gates[code]]
+
+
+@pytest.mark.parametrize("cell", sorted(set(_WALKED) - {"gen3_2f"}))
+def test_any_other_driver_is_started_with_its_drives_disabled(cell: str) -> None:
+    gates = _gates(cell)
+    assert "trip the stop" in gates["G5"]
+    assert "trip the stop" not in gates["G3"]
+    assert "Drives disabled" in gates["G3"]
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_evidence_of_the_stop_test_is_attached_after_it(cell: str) -> None:
+    for text in _gates(cell).values():
+        assert "Attach the evidence" not in text or _in_order(text, "trip the stop", "Attach the evidence")
+
+
+@pytest.mark.parametrize("name", _ARMS)
+def test_an_arm_says_what_slows_it_down_or_that_nothing_does(name: str) -> None:
+    control = device_of(name).model.speed_control
+    assert control is not None
+    assert control.source
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_only_a_robot_with_a_slider_is_slowed_by_one(cell: str) -> None:
+    text = "".join(_gates(cell).values())
+    models = {device.model for device in built(cell).graph.cell.devices}
+    has = any(device_of(model).model.vendor == "Universal Robots" for model in models)
+    assert ("speed slider" in text) is has
+    assert "vendor's speed control" not in text
+    assert "reduced mode" not in text
+
+
+@pytest.mark.parametrize("cell", ["fr3_hand", "gen3_2f", "openarm_bimanual"])
+def test_payload_is_asked_for_once_in_the_words_of_its_robot(cell: str) -> None:
+    text = "".join(_gates(cell).values())
+    assert "by its installation" not in text
+    assert "rotation vector" not in text
+    assert not re.findall(r"set (mass|the end effector)", text)
+
+
+def test_a_gripper_gets_its_first_goal_when_it_is_claimed() -> None:
+    assert _in_order(_gates("ur5e_pick")["G7"], "Authorize the claims", "Open the gripper with its first goal")
+
+
+@pytest.mark.parametrize("cell", _WALKED)
+def test_no_line_says_run_this_without_a_command(cell: str) -> None:
+    assert not re.search(r"in the build workspace that[^\n]*\n(?!\n  ```sh)", _gates(cell)["G0"])
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_each_computer_is_read_by_its_name_where_there_are_several(cell: str) -> None:
+    hosts = [node.host for node in built(cell).graph.cell.nodes]
+    for host in set(hosts) if len(set(hosts)) > 1 else ():
+        assert f"On {host}: Read the installed versions" in _gates(cell)["G0"]
+
+
+def test_words_that_are_no_figure_are_gone() -> None:
+    for cell in EVERY_CELL:
+        text = built(cell).texts["gates/promotion.md"]
+        assert "stay fresh" not in text
+        assert "slider low" not in text
+        assert not re.search(r"arrives at \d+ Hz,", text)
+        assert "Send a short goal" not in text
+
+
+def test_the_brakes_of_a_ur_are_closed_before_its_driver_is_started_and_while_it_reads() -> None:
+    gates = _gates("ur5e_pick")
+    assert _in_order(gates["G3"], "the brakes are closed", "Authorize the hardware launch")
+    assert _in_order(gates["G4"], "Authorize the hardware launch again", "robot_mode", "POWER_OFF (3) or IDLE (5)")
+
+
+@pytest.mark.parametrize("cell", ["fr3_hand", "gen3_2f", "openarm_bimanual"])
+def test_gate_g6_starts_a_driver_once_for_each_arm(cell: str) -> None:
+    arms = len(built(cell).graph.cell.bringup.first_motions)
+    assert len(re.findall(r"tart the driver", _gates(cell)["G6"])) == arms
+
+
+@pytest.mark.parametrize(
+    ("motor", "firmware"), [("DM4310", "V5017_04"), ("DM4340", "V5117_04"), ("DM8009", "V6417_04")]
+)
+def test_each_motor_of_an_openarm_has_its_own_firmware(motor: str, firmware: str) -> None:
+    # enactic/openarm@1080ae9 website/docs/setup/openarm-setup/6-motor-firmware-update.mdx:40-42
+    assert f"{firmware} on a {motor}" in _gates("openarm_bimanual")["G0"].replace("\n", " ")
+
+
+def test_a_repeated_gate_gets_an_evidence_folder_of_its_own() -> None:
+    assert 'mkdir "$E"' in built("ur5e_pick").texts["gates/promotion.md"]
