@@ -7,7 +7,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from tests.cells import EVERY_CELL, built
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.bringup import bring_up
+from cellc.contract.bring_up import LifecycleProof, Transition
+from tests.cells import CORPUS, EVERY_CELL, built, graph_of
 
 _WORDS = {
     "activate": "I_HAVE_PASSED_GATES_G0_TO_G4_AND_THE_AREA_IS_EMPTY",
@@ -85,3 +88,32 @@ def test_gates_release_one_device_a_line() -> None:
 
 
 _ARGUMENT = {"activate": "activation", "claim": "claim"}
+
+
+def _cells_with_adapters() -> dict[str, Cell]:
+    graphs = {name: built(name).graph for name in EVERY_CELL}
+    valid = {path.stem: graph_of(path) for path in sorted((CORPUS / "valid").glob("*.yaml"))}
+    return {name: graph.cell for name, graph in (graphs | valid).items() if graph.cell.adapters}
+
+
+def test_an_adapter_reads_from_its_configuration_on_and_takes_goals_from_the_claim_on() -> None:
+    cells = _cells_with_adapters()
+    assert "hybrid_sdk" in cells
+    for cell in cells.values():
+        plan = bring_up(cell)
+        nodes = {adapted.node for adapted in cell.adapters} & {node.full_name for node in cell.nodes}
+        asked = [(step.phase.value, step.request) for step in plan.real if isinstance(step.request, Transition)]
+        for node in nodes:
+            steps = [(phase, request.transition) for phase, request in asked if request.node == node]
+            assert steps == [("start", "configure"), ("claim", "activate")]
+            moving = next(step for step in plan.real if step.phase.value == "move")
+            assert LifecycleProof(kind="lifecycle", node=node, state="active") in moving.proof
+        assert not nodes & {step.request.node for step in plan.mock if isinstance(step.request, Transition)}
+
+
+def test_gates_of_an_adapter_read_it_before_it_is_claimed() -> None:
+    page = built("hybrid_sdk").texts["gates/promotion.md"]
+    launched = page.index("Authorize the hardware launch again")
+    read = page.index("Check that the adapter reads and publishes")
+    idle = page.index("Check that /arm is inactive")
+    assert launched < read < idle < page.index("Authorize the claims")

@@ -50,7 +50,7 @@ def _first_goal(by: float, seconds: float) -> str:
         '<node pkg="ur5e_pick" exec="first_goal" name="first_goal" output="both" args="--then $(var then) '
         "--joint $(var joint) --evidence $(var evidence) "
         "--action /arm_trajectory/follow_joint_trajectory --states /joint_states "
-        f'--by={by} --seconds={seconds} --timeout=5.0 --absent=/task {joints}" '
+        f'--by={by} --seconds={seconds} --timeout=50.0 --absent=/task {joints}" '
         f'launch-prefix="{prove} --target real move --" '
         """if="$(eval &quot;'$(var confirm_goal)' == 'I_HAVE_PASSED_GATES_G0_TO_G6' and '$(var joint)' in """
         f"""{[f"arm_{name}_joint" for name in reversed(turns)]}&quot;)" """

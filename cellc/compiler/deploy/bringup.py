@@ -16,7 +16,7 @@ from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import WORLD
 from cellc.compiler.cell.interface import Node
-from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, motion_clients
+from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, is_adapter, motion_clients
 from cellc.compiler.deploy.readiness import (
     activated_later,
     components_of,
@@ -98,11 +98,11 @@ def activation(node: Node) -> str:
 
 def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
     """Yield the steps on a target; each waits for what an earlier one made, on whichever host that runs."""
-    managed = [node for node in cell.nodes if node.lifecycle]
+    managed = [node for node in cell.nodes if node.lifecycle and (target == "real" or not node.real_only)]
     yield from (_configure(cell, node, target) for node in managed)
     for manager in cell.managers:
         yield from _observe(cell, manager, target)
-    activated = [node for node in managed if not asks_for_motion(cell, node)]
+    activated = [node for node in managed if not asks_for_motion(cell, node) and not is_adapter(cell, node)]
     late = {node.full_name: hardware_before(cell, node, target) for node in activated}
     yield from (_activate(cell, node, target, BringUpPhase.START) for node in activated if not late[node.full_name])
     for manager in cell.managers:
@@ -112,6 +112,7 @@ def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
             yield _activate(cell, node, target, BringUpPhase.ACTIVATE, devices[-1])
     for manager in cell.managers:
         yield from _claim(cell, manager, target)
+    yield from (_claim_by_adapter(cell, node, target) for node in managed if is_adapter(cell, node))
     if motion_clients(cell):
         yield _move(cell, target)
 
@@ -241,6 +242,24 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
         )
 
 
+def _claim_by_adapter(cell: Cell, node: Node, target: Target) -> BringUpStep:
+    """Return the step from which on an adapter takes goals: it is a claim, and has read since it was configured."""
+    adapted = next(adapted for adapted in cell.adapters if adapted.node == node.full_name)
+    return _step(
+        BringUpPhase.CLAIM,
+        f"claim_by_{node.name}",
+        node.host,
+        [
+            *_mocked(cell, target),
+            _lifecycle(node, "inactive"),
+            TopicProof(kind="topic", topic=adapted.state_topic, type=JOINT_STATE_TYPE),
+        ],
+        Transition(kind="transition", node=node.full_name, transition="activate"),
+        [_lifecycle(node, "active")],
+        moved_with(cell, adapted.device),
+    )
+
+
 def _acknowledge(
     cell: Cell, manager: ControllerManager, watched: Sequence[Watch], released: str, names: Sequence[str]
 ) -> Iterator[BringUpStep]:
@@ -271,6 +290,7 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
         if is_claiming(cell, controller, ())
     )
     adapted = tuple(adapter.action for adapter in cell.adapters)
+    adapting = (_lifecycle(node, "active") for node in cell.nodes if target == "real" and is_adapter(cell, node))
     asked = (
         interface.name
         for interface in cell.interfaces
@@ -281,7 +301,7 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     names = (name for name in asked if name not in adapted)
     actions = (ActionProof(kind="action", action=name) for name in (*(adapted if target == "real" else ()), *names))
     followed = (proof for device in cell.devices for proof in heard(cell, device).values() if target == "real")
-    proof: list[Proof] = [*_mocked(cell, target), *claimed, *followed, *actions, *_managed_nodes(cell)]
+    proof: list[Proof] = [*_mocked(cell, target), *claimed, *adapting, *followed, *actions, *_managed_nodes(cell)]
     return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
 
 
@@ -292,7 +312,8 @@ def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
     of the other: what is asked, and what describes the robot, is there once.
     """
     describing = tuple(description_nodes(cell))
-    asked = (*(manager.node for manager in cell.managers), *(node.full_name for node in cell.nodes if node.lifecycle))
+    there = (node for node in cell.nodes if node.lifecycle and (target == "real" or not node.real_only))
+    asked = (*(manager.node for manager in cell.managers), *(node.full_name for node in there))
     if nodes := tuple(dict.fromkeys((*describing, *asked))):
         yield AloneProof(kind="alone", nodes=nodes)
     if target == "mock":
@@ -373,4 +394,5 @@ def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof
 
 
 def _managed_nodes(cell: Cell) -> Iterator[LifecycleProof]:
-    return (_lifecycle(node, "active") for node in cell.nodes if node.lifecycle and not asks_for_motion(cell, node))
+    managed = (node for node in cell.nodes if node.lifecycle and not is_adapter(cell, node))
+    return (_lifecycle(node, "active") for node in managed if not asks_for_motion(cell, node))

@@ -47,7 +47,7 @@ from cellc.compiler.deploy.gate_states import (
     without_speed_control,
 )
 from cellc.compiler.deploy.labels import said_around
-from cellc.compiler.deploy.processes import asks_for_motion, description_nodes
+from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, is_adapter
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, start_mock, start_real
@@ -166,7 +166,8 @@ def _components(graph: CellGraph) -> Iterator[Values]:
 def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
     for node in graph.cell.nodes:
         if node.lifecycle:
-            later = asks_for_motion(graph.cell, node) or node.full_name in graph.once(silent)
+            waits = asks_for_motion(graph.cell, node) or is_adapter(graph.cell, node)
+            later = waits or node.full_name in graph.once(silent)
             yield node.full_name, "inactive" if later else "active"
 
 

@@ -47,6 +47,11 @@ def asks_for_motion(cell: Cell, node: Node) -> bool:
     return node.full_name in cell.mover_names
 
 
+def is_adapter(cell: Cell, node: Node) -> bool:
+    """Tell whether a node is the adapter of a device: configured it reads, and active it is a claim."""
+    return any(adapted.node == node.full_name for adapted in cell.adapters)
+
+
 def started_by_a_person(cell: Cell, node: Node) -> bool:
     """Tell whether a node runs only from the gate before motion on; a managed mover runs earlier, unactivated."""
     return asks_for_motion(cell, node) and not node.lifecycle

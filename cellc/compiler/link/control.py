@@ -126,7 +126,7 @@ _CONNECTS = Effect(
     needs={},
     drops_part=False,
     leaves=None,
-    does="connects and reads; nothing moves, and no command is taken",
+    does="connects and reads as it is configured; nothing moves, and no command is taken before the claim activates it",
 )
 """What an adapter does as it starts: `DeviceAdapter.connect`, which its conformance holds."""
 
@@ -174,7 +174,7 @@ def as_driven(cell: Cell) -> Cell:
 
 
 def _with_parameters(node: Node, adapted: AdaptedDevice) -> Node:
-    """Return the node of an adapter with the parameters that the spec states for it, in SI units."""
+    """Return the node of an adapter as the managed node that it is, with the parameters of the spec in SI units."""
     parameters: dict[str, ParameterValue] = {
         "joints": adapted.joints,
         "command_timeout": adapted.command_timeout_s,
@@ -182,7 +182,7 @@ def _with_parameters(node: Node, adapted: AdaptedDevice) -> Node:
         "goal_time": adapted.goal_time_s,
         "path_tolerance": adapted.path_tolerance,
     }
-    return replace(node, parameters={**node.parameters, **parameters})
+    return replace(node, lifecycle=True, parameters={**node.parameters, **parameters})
 
 
 def _adapted_device(device: Device, adapted: AdaptedDevice, nodes: Iterable[Node]) -> Device:

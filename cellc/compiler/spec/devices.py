@@ -134,8 +134,9 @@ class AdapterSpec(StatedModel):
 
     run: Pin = Field(
         UNKNOWN,
-        description="Package and executable of its node, which has the name of the device; it runs on the real target "
-        "alone, with the parameters `address` or `port`, and in rad, m and s `joints` and the four that stand here.",
+        description="Package and executable of its managed node, which has the name of the device. Configured it "
+        "reads, active it takes goals. It runs on the real target alone, with the parameters `address` or `port`, and "
+        "in rad, m and s `joints` and the four that stand here.",
         examples=["my_arm_adapter/adapter"],
     )
     command_timeout: TimeShift | None = Field(
