@@ -216,7 +216,7 @@ class JogFacts(CatalogModel):
 
 
 class SpeedControlFacts(CatalogModel):
-    """What of the real device slows every motion down, whoever sends it.
+    """What of the real device slows every motion down.
 
     Attributes:
         name: Name of it, such as ``speed slider``; absent where the device has none.

@@ -61,8 +61,8 @@ from cellc.contract.pins import is_commit, last_word
 from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, InterfaceKind, features
 
 Row = Mapping[str, str]
-_LEAST_RATE = 0.95
-"""Share of its stated rate at which a topic must arrive, as an average over what is printed."""
+_SLOWER = "5 %"
+"""Of its stated rate, by which a topic may arrive more slowly: commands print an average."""
 
 CELL = "cell"
 """The subject of a line that is written once."""
@@ -254,14 +254,13 @@ def _streams(graph: CellGraph, *, late: bool) -> Iterator[Values]:
             if is_late(graph, interface) is not late:
                 continue
             # What is measured is the sum of all sources, and the interface has the rate of the slowest manager.
-            several = f", {len(interface.sources)} sources" if len(interface.sources) > 1 else ""
-            least = shortest(round(_LEAST_RATE * interface.rate_hz, 3))
+            several = f" or more ({len(interface.sources)} sources)" if len(interface.sources) > 1 else ""
             age = (
                 "no age limit"
                 if interface.max_age_s is None
                 else f"no sample older than {shortest(interface.max_age_s)} s"
             )
-            yield interface.name, f"{least} Hz or more (stated: {shortest(interface.rate_hz)} Hz{several})", age
+            yield interface.name, f"{shortest(interface.rate_hz)} Hz{several}, at most {_SLOWER} less", age
 
 
 def _groups(graph: CellGraph, *, late: bool) -> Iterator[Values]:

@@ -150,7 +150,7 @@ class Trial:
             yield "back again", 0.0, False
 
     def _sides(self) -> list[float]:
-        """Return the ways to the sides that are open, rad or m.
+        """Return the motions to the sides that are open, rad or m.
 
         Raises:
             MotionError: a limit is nearer to both sides.
