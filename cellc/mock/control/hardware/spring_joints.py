@@ -8,9 +8,8 @@ motion, on a grid of cycles that does not depend on how many are computed togeth
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,14 +50,15 @@ class _Look:
 
 @dataclass(frozen=True, slots=True)
 class _Computed:
-    """Cycles that were computed; rows of ``wanted`` begin with the last command before.
+    """Cycles that were computed.
 
     Attributes:
-        wanted, taken: by joint and cycle.
+        wanted: commands by cycle and joint; the first row is the last command before.
+        taken: positions by joint and cycle.
         looks: what held up to a cycle, with the number of that cycle.
     """
 
-    wanted: list[_Values]
+    wanted: Array
     taken: list[_Values]
     looks: list[tuple[int, _Look]]
 
@@ -119,13 +119,10 @@ class SpringJoints:
         shares = [0.0] * len(self._laws)
         for number in own:
             shares[number] = period_s / (self._laws[number].lag_s + period_s)
-        rows = (
-            np.tile(self._commanded, (len(commanded), 1))
-            if len(own) < len(shares)
-            else np.empty((len(commanded), len(own)))
-        )
-        rows[:, own] = commanded[:, columns]
-        self._computed = self._compute([self._commanded, *rows.tolist()], shares, cycle, period_s)
+        wanted = np.empty((len(commanded) + 1, len(shares)))
+        wanted[:] = self._commanded
+        wanted[1:, own] = commanded[:, columns]
+        self._computed = self._compute(wanted, shares, cycle, period_s)
         for number, column in zip(own, columns, strict=True):
             commanded[:, column] = self._computed.taken[number]
 
@@ -136,8 +133,8 @@ class SpringJoints:
             return
         self._look = next(look for end, look in done.looks if end >= cycles)
         self._positions = [taken[cycles - 1] for taken in done.taken]
-        self._commanded = [wanted[cycles] for wanted in done.wanted]
-        self._steps = [wanted[cycles] - wanted[cycles - 1] for wanted in done.wanted]
+        self._commanded = done.wanted[cycles].tolist()
+        self._steps = (done.wanted[cycles] - done.wanted[cycles - 1]).tolist()
 
     def _matched(self, indices: tuple[int, ...]) -> tuple[list[int], list[int]]:
         """Return which joints of the law are commanded, and the column of each."""
@@ -147,21 +144,22 @@ class SpringJoints:
             self._known[indices] = own, [places[index] for index in self._joints[own].tolist()]
         return self._known[indices]
 
-    def _compute(self, rows: list[_Values], shares: _Values, cycle: int, period_s: float) -> _Computed:
+    def _compute(self, wanted: Array, shares: _Values, cycle: int, period_s: float) -> _Computed:
         """Compute where the joints go; one whose share of the way in a cycle is zero stays where it is.
 
         Args:
-            rows: commands, the last one before at first.
+            wanted: commands by cycle and joint; the first row is the last command before.
         """
-        grid, cycles = max(1, round(_LOOK_S / period_s)), len(rows) - 1
-        changes = [row for row in range(cycles) if rows[row] != rows[row + 1]]
-        done = _Computed([list(column) for column in zip(*rows, strict=True)], [[] for _ in shares], [])
+        grid, cycles = max(1, round(_LOOK_S / period_s)), len(wanted) - 1
+        changes = np.flatnonzero((wanted[1:] != wanted[:-1]).any(axis=1)).tolist()
+        along = self._along(wanted)
+        done = _Computed(wanted, [[] for _ in shares], [])
         look, positions, row = self._look, self._positions, 0
         while row < cycles:
             offset = (cycle + row) % grid
             if look is None or not look.at or offset == 0:
                 passed_s = 0.0 if offset else grid * period_s
-                look, positions = self._looked(look, positions, rows[row], shares, passed_s)
+                look, positions = self._looked(look, positions, wanted[row].tolist(), shares, passed_s)
             change = bisect_left(changes, row)
             end = changes[change] if change < len(changes) else cycles
             if look.settled and end > row:
@@ -169,10 +167,25 @@ class SpringJoints:
             else:
                 look = replace(look, settled=False) if look.settled else look
                 end = min(cycles, row + grid - offset)
-                positions = list(self._moved(done, look.droop, positions, shares, row, end))
+                goals = wanted[row + 1 : end + 1] - look.droop
+                _move(done.taken, positions, shares, goals, along[row:end])
+                positions = [column[-1] for column in done.taken]
             done.looks.append((end, look))
             row = end
         return done
+
+    def _along(self, wanted: Array) -> Array:
+        """Return how far the velocity of the command takes each joint along in each cycle, rad or m.
+
+        It does where damping brakes the error alone. A command that jumps once, as that of a hold does, has no
+        velocity: of two steps in a row the smaller counts.
+        """
+        steps = np.diff(wanted, axis=0)
+        if self._lags:
+            return np.zeros_like(steps)
+        before = np.vstack((self._steps, steps[:-1]))
+        smaller = np.where(np.abs(before) < np.abs(steps), before, steps)
+        return np.where(steps * before > 0.0, smaller, 0.0)
 
     def _looked(
         self, last: _Look | None, positions: _Values, commanded: _Values, shares: _Values, passed_s: float
@@ -205,27 +218,6 @@ class SpringJoints:
             return _Look(at, weights, integral, droop, settled=False), positions
         return _Look(rest, weights, integral, droop, settled=True), rest
 
-    def _moved(
-        self, done: _Computed, droop: _Values, positions: _Values, shares: _Values, row: int, end: int
-    ) -> Iterator[float]:
-        """Move the joints through some cycles, and yield where each is then.
-
-        Where damping brakes the error alone, the velocity of the command takes them along. A command that jumps once,
-        as that of a hold does, has no velocity: of two steps in a row the smaller counts.
-        """
-        for joint, (at, share, away) in enumerate(zip(positions, shares, droop, strict=True)):
-            wanted, column = done.wanted[joint], done.taken[joint]
-            before = wanted[row] - wanted[row - 1] if row else self._steps[joint]
-            for last, goal in pairwise(wanted[row : end + 1]):
-                if not self._lags:
-                    step = goal - last
-                    if step * before > 0.0:
-                        at += before if abs(before) < abs(step) else step
-                    before = step
-                at += share * (goal - away - at)
-                column.append(at)
-            yield at
-
 
 def _near(ones: _Values, others: _Values) -> bool:
     return all(abs(one - other) <= _STILL for one, other in zip(ones, others, strict=True))
@@ -234,3 +226,13 @@ def _near(ones: _Values, others: _Values) -> bool:
 def _stay(taken: list[_Values], positions: _Values, cycles: int) -> None:
     for column, at in zip(taken, positions, strict=True):
         column.extend([at] * cycles)
+
+
+def _move(taken: list[_Values], positions: _Values, shares: _Values, goals: Array, along: Array) -> None:
+    """Move the joints through some cycles: along with their commands, and by their share of the way to their goals."""
+    rows = zip(taken, positions, shares, goals.T.tolist(), along.T.tolist(), strict=True)
+    for column, at, share, targets, steps in rows:
+        for target, step in zip(targets, steps, strict=True):
+            at += step
+            at += share * (target - at)
+            column.append(at)
