@@ -9,15 +9,14 @@ from cellc.contract.entities import Target
 from cellc.contract.faults import FaultKind
 from cellc.contract.grading import STALE, Graded, Rule
 from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
+from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, ReviewArea
 
 
 class StepEntry(ContractModel):
     """One step; ``target`` is a pose, goal, frame, device, service or who acknowledges; empty for a wait."""
 
-    kind: Literal["move", "detect", "grip", "set", "sense", "call", "wait", "acknowledge"] = Field(
-        description="What the step does."
-    )
+    kind: StepKind = Field(description="What the step does.")
     target: str = Field(description="Pose, goal, frame, device, service, or who acknowledges.")
     command: Literal["open", "close", "together"] | None = Field(
         None, description="What the gripper does; `together` where the groups of a pose move simultaneously."

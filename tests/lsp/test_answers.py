@@ -9,6 +9,7 @@ import pytest
 
 from cellc.compiler.catalog.compiled import device_file
 from cellc.compiler.source.compose import compose
+from cellc.contract.steps import StepKind
 from cellc.tools.lsp.answers import Known, completions, definition, hover
 from cellc.tools.lsp.cells import Cells
 from cellc.tools.lsp.cursor import Here, here
@@ -59,6 +60,26 @@ def test_completion_offers_what_a_fault_hits(kind: str) -> None:
     proposed = completions(text, 3, len(f"    inject: {{{kind}: ") + 1, cells.known(spec))
     assert _HIT[kind] in [one.word for one in proposed]
     assert "world" not in [one.word for one in proposed] or kind == "drop_frame"
+
+
+_NAMED = {
+    "move": {"home", "pick"},
+    "detect": {"object"},
+    "set": {"gripper"},
+    "sense": {"gripper"},
+    "call": {"/object_pose"},
+}
+
+
+@pytest.mark.parametrize("kind", StepKind)
+def test_completion_offers_what_a_step_names(kind: StepKind) -> None:
+    spec = spec_of("ur5e_pick").as_posix()
+    cells = Cells()
+    cells.check(spec, {})
+    text = f"rehearsals:\n  a:\n    steps: [{kind}: ]\n"
+    proposed = {one.word for one in completions(text, 3, len(f"    steps: [{kind}: ") + 1, cells.known(spec))}
+    assert _NAMED.get(kind, set()) <= proposed
+    assert "home" not in proposed or kind is StepKind.MOVE
 
 
 _WRITTEN = [

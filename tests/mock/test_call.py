@@ -10,6 +10,7 @@ import pytest
 
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import load
 from cellc.mock.cell import cell_of
@@ -27,7 +28,7 @@ def folder(built_folder: Path) -> GeneratedFolder:
 
 
 def _run(folder: GeneratedFolder, *faults: FaultEntry, target: str = SERVICE) -> RehearsalResult:
-    steps = (StepEntry(kind="call", target=target), StepEntry(kind="wait", target="", duration_s=0.5))
+    steps = (StepEntry(kind=StepKind.CALL, target=target), StepEntry(kind="wait", target="", duration_s=0.5))
     entry = RehearsalEntry(name="called", steps=steps, faults=faults, expect=AttemptOutcome.SUCCEEDED, timeout_s=60.0)
     return cell_of(folder).rehearse(entry)
 

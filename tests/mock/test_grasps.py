@@ -9,6 +9,7 @@ import pytest
 from cellc.contract.devices import ContractGripper
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import load
 from cellc.mock.cell import cell_of
@@ -21,11 +22,11 @@ from tests.cells import generated, there
 JOINT = "gripper_robotiq_85_left_knuckle_joint"
 OUT, UP, PIVOT, PAD = 0.0371575, 0.04342168, 0.03060114, 0.02526
 """Of robotiq_description 3b6cf8f, m: from the knuckle to the tip's pivot, the knuckle from the middle, pivot to pad."""
-HOME = StepEntry(kind="move", target="home")
-DETECT = StepEntry(kind="detect", target="object")
-PICK, PLACE = StepEntry(kind="move", target="pick"), StepEntry(kind="move", target="place")
-CLOSE = StepEntry(kind="grip", target="gripper", command="close", part="object")
-OPEN = StepEntry(kind="grip", target="gripper", command="open")
+HOME = StepEntry(kind=StepKind.MOVE, target="home")
+DETECT = StepEntry(kind=StepKind.DETECT, target="object")
+PICK, PLACE = StepEntry(kind=StepKind.MOVE, target="pick"), StepEntry(kind="move", target="place")
+CLOSE = StepEntry(kind=StepKind.GRIP, target="gripper", command="close", part="object")
+OPEN = StepEntry(kind=StepKind.GRIP, target="gripper", command="open")
 TAKEN = (HOME, DETECT, PICK, CLOSE)
 
 

@@ -15,6 +15,7 @@ import pytest
 from cellc.contract.bring_up import Activation, BringUpStep, HardwareActivation
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, ManagerLock, Moment, Need, Unmet
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
@@ -24,7 +25,7 @@ from cellc.mock.real_start import RealStart
 from cellc.mock.result import RehearsalResult
 from tests.cells import generated
 
-STEPS = (StepEntry(kind="move", target="home"), StepEntry(kind="wait", target="", duration_s=1.0))
+STEPS = (StepEntry(kind=StepKind.MOVE, target="home"), StepEntry(kind="wait", target="", duration_s=1.0))
 PLAIN = RehearsalEntry(
     name="real", steps=STEPS, faults=(), expect=AttemptOutcome.SUCCEEDED, timeout_s=60.0, bring_up="real"
 )

@@ -7,8 +7,10 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.steps import StepKind
 from cellc.mock import MockCell
 from cellc.mock.result import AttemptRecord
+from cellc.mock.task.task import EXECUTED
 from tests.mock.conftest import Fault, LoadWith, fault
 
 
@@ -135,3 +137,7 @@ def test_two_controller_managers_share_one_clock(two_managers: MockCell) -> None
         "canceled",
         *["grip_failure"] * 4,
     ]
+
+
+def test_every_kind_of_step_is_executed() -> None:
+    assert set(EXECUTED) == set(StepKind)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from cellc.compiler.cell.entity import Entity
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.contract.faults import FaultKind
+from cellc.contract.steps import StepKind
 from cellc.contract.transforms import Pose, Vector3
 
 
@@ -122,12 +123,9 @@ class CartesianGoal(Entity):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step(Entity):
-    """One step: ``kind`` is move, detect, grip, set, sense, call, wait or acknowledge.
+    """One step; ``name`` is the pose, goal, frame, device or service, or who acknowledges."""
 
-    ``name`` is the pose, goal, frame, device or service, or who acknowledges.
-    """
-
-    kind: str
+    kind: StepKind
     command: str | None = None  # open or close, for grip; together, for groups of a pose that move together
     state: str | None = None  # for set and sense
     duration_s: float | None = None  # for wait

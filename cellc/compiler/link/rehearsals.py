@@ -18,19 +18,11 @@ from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import si
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
-from cellc.compiler.spec.rehearsals import (
-    AcknowledgeStep,
-    CallStep,
-    DetectStep,
-    GripStep,
-    MoveStep,
-    RehearsalSpec,
-    SenseStep,
-    SetStep,
-    StepSpec,
-)
+from cellc.compiler.spec.quantity import Quantity
+from cellc.compiler.spec.rehearsals import RehearsalSpec, StepSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.contract.faults import FaultTarget
+from cellc.contract.steps import StepTarget
 from cellc.contract.vocabulary import InterfaceKind
 
 _Bound = TypeVar("_Bound", Step, Fault)
@@ -154,47 +146,44 @@ def _use_cycle(seen: list[str], document: SourceDocument, path: YamlPath) -> Dia
 
 
 def _step(step: StepSpec, document: SourceDocument, path: YamlPath, names: _Names) -> Outcome[Step]:
-    span = document.locate(path)
-    if isinstance(step, MoveStep):
+    kind, at = step.kind, (*path, step.kind.value)
+    bound = Step(name=str(step.target), path=path, span=document.locate(path), kind=kind)
+    if isinstance(step.target, Quantity):
+        return Outcome(replace(bound, name="", duration_s=step.target.si))
+    if kind.target is StepTarget.POSTURE:
         known = (*names.poses, *names.goals)
-        problem = _missing("unknown-goal", step.move, "pose or goal", known, document, (*path, "move"))
-        at_once = "together" if step.together else None
-        return Outcome(Step(name=step.move, path=path, span=span, kind="move", command=at_once), problem)
-    if isinstance(step, DetectStep):
-        frame = names.frames.bind(step.detect, (*path, "detect"))
-        return Outcome(Step(name=frame.value or step.detect, path=path, span=span, kind="detect"), frame.diagnostics)
-    if isinstance(step, GripStep):
-        gripper = step.device or (names.grippers[0] if len(names.grippers) == 1 else "")
-        at = (*path, "device") if step.device else path
-        problem = _missing("unknown-device", gripper, "gripper", names.grippers, document, at)
+        problem = _missing("unknown-goal", bound.name, "pose or goal", known, document, at)
+        return Outcome(replace(bound, command="together" if step.more else None), problem)
+    if kind.target is StepTarget.FRAME:
+        frame = names.frames.bind(bound.name, at)
+        return Outcome(replace(bound, name=frame.value or bound.name), frame.diagnostics)
+    if kind.target is StepTarget.FINGERS:
+        gripper = str(step.more or (names.grippers[0] if len(names.grippers) == 1 else ""))
+        problem = _missing(
+            "unknown-device", gripper, "gripper", names.grippers, document, (*path, "device") if step.more else path
+        )
         if not gripper:
             message = f"`grip` names no gripper, and the cell has {len(names.grippers) or 'none'}"
             problem = tuple(replace(diagnostic, message=message) for diagnostic in problem)
-        return Outcome(Step(name=gripper, path=path, span=span, kind="grip", command=step.grip), problem)
-    if isinstance(step, SetStep | SenseStep):
-        return _switched_step(step, document, path, names)
-    if isinstance(step, CallStep):
-        problem = _missing("unknown-interface", step.call, "service", names.services, document, (*path, "call"))
-        return Outcome(Step(name=step.call, path=path, span=span, kind="call"), problem)
-    if isinstance(step, AcknowledgeStep):
-        return Outcome(Step(name=step.acknowledge, path=path, span=span, kind="acknowledge"))
-    return Outcome(Step(name="", path=path, span=span, kind="wait", duration_s=step.wait.si))
+        return Outcome(replace(bound, name=gripper, command=bound.name), problem)
+    if kind.target in (StepTarget.SWITCHED, StepTarget.SENSED):
+        bound = replace(bound, state=str(step.more))
+        return Outcome(bound, _unswitched(bound, kind.target, document, names))
+    if kind.target is StepTarget.SERVICE:
+        return Outcome(bound, _missing("unknown-interface", bound.name, "service", names.services, document, at))
+    return Outcome(bound)
 
 
-def _switched_step(step: SetStep | SenseStep, document: SourceDocument, path: YamlPath, names: _Names) -> Outcome[Step]:
-    """Bind a step to a device that outputs switch, or whose sensors tell the state that is waited for."""
-    if isinstance(step, SetStep):
-        kind, device, noun = "set", step.set, "device with outputs"
-        fits = {name: switched for name, switched in names.switched.items() if switched.signals}
-    else:
-        kind, device, noun = "sense", step.sense, "device with sensors that are wired"
-        fits = {name: switched for name, switched in names.switched.items() if switched.inputs}
-    problem = _missing("unknown-device", device, noun, tuple(fits), document, (*path, kind))
-    if device in fits:
-        known = fits[device].states if kind == "set" else tuple(fits[device].distinct_states)
-        problem = _missing("unknown-state", step.state, "state", tuple(known), document, (*path, "state"))
-    span = document.locate(path)
-    return Outcome(Step(name=device, path=path, span=span, kind=kind, state=step.state), problem)
+def _unswitched(step: Step, target: StepTarget, document: SourceDocument, names: _Names) -> tuple[Diagnostic, ...]:
+    """Report a device that no outputs switch, or whose sensors tell nothing, and a state that it does not have."""
+    outputs = target is StepTarget.SWITCHED
+    fits = {name: facts for name, facts in names.switched.items() if (facts.signals if outputs else facts.inputs)}
+    if step.name not in fits:
+        noun = "device with outputs" if outputs else "device with sensors that are wired"
+        path = (*step.path, step.kind.value)
+        return _missing("unknown-device", step.name, noun, tuple(fits), document, path)
+    known = fits[step.name].states if outputs else fits[step.name].distinct_states
+    return _missing("unknown-state", step.state or "", "state", tuple(known), document, (*step.path, "state"))
 
 
 def _missing(

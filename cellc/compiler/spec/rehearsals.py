@@ -1,93 +1,73 @@
 """What the mock executes, what it must end in, what is measured and what is recorded."""
 
-from collections.abc import Mapping
-from typing import Annotated, Literal, Union
+from functools import cache
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Field, create_model
 
 from cellc.compiler.spec.base import MOST, StandardOr
 from cellc.compiler.spec.faults import FaultsSpec
 from cellc.compiler.spec.kinds import Kinds
-from cellc.compiler.spec.quantity import Confidence, Duration, PositiveDuration, Rate, Share
+from cellc.compiler.spec.quantity import Confidence, Duration, PositiveDuration, Quantity, Rate, Share
 from cellc.contract.entities import Target
 from cellc.contract.stated import Name, StatedModel, Text
+from cellc.contract.steps import DEVICE, STATE, TOGETHER, Key, StepKind, StepTarget
 from cellc.contract.vocabulary import AttemptOutcome
 
 
-class MoveStep(StatedModel):
-    """Move a group to a named pose or a Cartesian goal."""
+class StepSpec(StatedModel):
+    """One step; the model of its kind adds its keys."""
 
-    move: Name = Field(..., description="Named pose or goal.", examples=["home"])
-    together: bool = Field(
-        False, description="The groups of the pose move together; one after another if false.", examples=[True]
-    )
+    kind: ClassVar[StepKind]
 
+    @property
+    def target(self) -> str | Quantity:
+        """What the key of its kind says, as written."""
+        target: str | Quantity = getattr(self, self.kind.value)
+        return target
 
-class DetectStep(StatedModel):
-    """Wait for a fresh observation of a dynamic frame and keep its stamp for the goals that use it."""
-
-    detect: Name = Field(..., description="Dynamic frame.", examples=["object"])
-
-
-class GripStep(StatedModel):
-    """Drive the gripper."""
-
-    grip: Literal["open", "close"] = Field(..., description="Open or close.", examples=["close"])
-    device: Name | None = Field(None, description="Gripper; the only one if absent.", examples=["gripper"])
+    @property
+    def more(self) -> str | bool | None:
+        """What its second key says."""
+        more: str | bool | None = None if self.kind.more is None else getattr(self, self.kind.more.key)
+        return more
 
 
-class SetStep(StatedModel):
-    """Set the outputs of a switched device; the step does not wait until it is there."""
-
-    set: Name = Field(..., description="Device that digital outputs switch.", examples=["gripper"])
-    state: Name = Field(..., description="One of its states.", examples=["closed"])
-
-
-class SenseStep(StatedModel):
-    """Wait until the sensors of a switched device tell a state."""
-
-    sense: Name = Field(..., description="Device with sensors.", examples=["door"])
-    state: Name = Field(..., description="One of its states.", examples=["closed"])
-
-
-class CallStep(StatedModel):
-    """Ask a service and wait for its answer; the mock answers in place of its server."""
-
-    call: Text = Field(..., description="Service interface of the cell.", examples=["/conveyor/start"])
-
-
-class WaitStep(StatedModel):
-    """Let simulated time pass."""
-
-    wait: Duration = Field(..., description="How long.", examples=["1 s"])
-
-
-class AcknowledgeStep(StatedModel):
-    """Let a person acknowledge a stop, so that the cell may go on; without it every further goal is refused."""
-
-    acknowledge: Literal["operator"] = Field(..., description="Who acknowledges.", examples=["operator"])
-
-
-_STEPS: Mapping[str, type[StatedModel]] = {
-    "move": MoveStep,
-    "detect": DetectStep,
-    "grip": GripStep,
-    "set": SetStep,
-    "sense": SenseStep,
-    "call": CallStep,
-    "wait": WaitStep,
-    "acknowledge": AcknowledgeStep,
+_TARGETS: dict[StepTarget, object] = {
+    StepTarget.FINGERS: Literal["open", "close"],
+    StepTarget.SERVICE: Text,
+    StepTarget.TIME: Duration,
+    StepTarget.PERSON: Literal["operator"],
 }
-StepSpec = Annotated[
-    Union[MoveStep, DetectStep, GripStep, SetStep, SenseStep, CallStep, WaitStep, AcknowledgeStep],
-    Kinds("step", tuple(_STEPS), _STEPS.__getitem__),
-]
+"""How a target is written that is not one name."""
+_MORE: dict[Key, tuple[object, object]] = {TOGETHER: (bool, False), DEVICE: (Name | None, None), STATE: (Name, ...)}
+"""How a second key is written, and its default."""
+
+
+@cache
+def step_model(kind: StepKind) -> type[StepSpec]:
+    """Return the model of a kind of step, made of its declaration in ``cellc.contract.steps``."""
+    shape = _TARGETS.get(kind.target, Name)
+    fields: dict[str, Any] = {kind.value: (shape, Field(..., description=kind.description, examples=[kind.example]))}
+    if kind.more is not None:
+        key, description, example = kind.more
+        shape, default = _MORE[kind.more]
+        fields[key] = (shape, Field(default, description=description, examples=[example]))
+    name = f"{kind.title()}Step"
+    model = create_model(name, __base__=StepSpec, __doc__=kind.meaning, __module__=__name__, **fields)
+    model.kind = kind
+    return model
+
+
+StepKinds = Kinds("step", tuple(StepKind), step_model)
 
 
 class RehearsalSpec(StatedModel):
     """One run of the mock: steps of its own or of another rehearsal, faults, and the expected end."""
 
-    steps: tuple[StepSpec, ...] = Field((), description="Steps in order.", examples=[[{"move": "home"}]])
+    steps: tuple[Annotated[StepSpec, StepKinds], ...] = Field(
+        (), description="Steps in order.", examples=[[{"move": "home"}]]
+    )
     use: Name | None = Field(None, description="Rehearsal whose steps are used.", examples=["pick_and_place"])
     bring_up: Target = Field(
         "mock",

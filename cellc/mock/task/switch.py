@@ -14,7 +14,7 @@ _LOOK_NS = 10_000_000
 """The client looks at the inputs a hundred times a second."""
 
 
-def switch(context: TaskContext, device: str, state: str) -> None:
+def switch(context: TaskContext, device: str, state: str) -> Waiting[None]:
     """Set the outputs of a device; what it holds is taken when it is there, and let go as soon as it leaves.
 
     Raises:
@@ -30,6 +30,7 @@ def switch(context: TaskContext, device: str, state: str) -> None:
         release(context, device)
     elif state == facts.holds:
         plant.simulation.at(arrives_ns, partial(_close, context, device, state))
+    yield from ()  # the step does not wait
 
 
 def _close(context: TaskContext, device: str, state: str) -> None:

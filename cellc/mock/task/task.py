@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.bringup import activate
 from cellc.mock.engine.process import Wait, Waiting
@@ -115,6 +118,23 @@ def _activate(plant: Plant) -> Waiting[tuple[str, ...]]:
     return problems
 
 
+EXECUTED: Mapping[StepKind, Callable[[TaskContext, Attempt, StepEntry], Waiting[None]]] = {
+    StepKind.MOVE: lambda context, attempt, step: move(
+        context, attempt, step.target, together=step.command == "together"
+    ),
+    StepKind.DETECT: lambda context, attempt, step: detect(context, attempt, step.target),
+    StepKind.GRIP: lambda context, attempt, step: grip(
+        context, attempt, step.target, step.command or "close", step.part
+    ),
+    StepKind.SET: lambda context, _, step: switch(context, step.target, step.state or ""),
+    StepKind.SENSE: lambda context, _, step: sense(context, step.target, step.state or ""),
+    StepKind.CALL: lambda context, _, step: call(context, step.target),
+    StepKind.WAIT: lambda context, _, step: context.rest(step.duration_s or 0.0),
+    StepKind.ACKNOWLEDGE: lambda context, attempt, step: acknowledge(context, attempt, step.target),
+}
+"""What executes a kind of step."""
+
+
 class Task:
     """Executes the steps of a rehearsal.
 
@@ -154,37 +174,22 @@ class Task:
         except AttemptError as raised:
             failure = raised
         self._close(attempt, failure)
-        return (failure or before) if step.kind != "acknowledge" else failure
+        return (failure or before) if step.kind is not StepKind.ACKNOWLEDGE else failure
 
     def _step(self, attempt: Attempt, step: StepEntry, *, stopped: bool) -> Waiting[None]:
         if self._context.node.milestones.announce("started"):
             yield from self._context.let_take_effect()
-        if step.kind == "acknowledge":
-            yield from acknowledge(self._context, attempt, step.target)
-            return
-        if step.kind == "wait" and stopped:
+        if step.kind is StepKind.WAIT and stopped:
             yield from self._context.stand_by(step.duration_s or 0.0)
             return
-        self._context.check_cell()
-        if step.kind == "move":
-            yield from move(self._context, attempt, step.target, together=step.command == "together")
-        elif step.kind == "detect":
-            yield from detect(self._context, attempt, step.target)
-        elif step.kind == "grip":
-            yield from grip(self._context, attempt, step.target, step.command or "close", step.part)
-        elif step.kind == "set":
-            switch(self._context, step.target, step.state or "")
-        elif step.kind == "sense":
-            yield from sense(self._context, step.target, step.state or "")
-        elif step.kind == "call":
-            yield from call(self._context, step.target)
-        else:
-            yield from self._context.rest(step.duration_s or 0.0)
+        if step.kind is not StepKind.ACKNOWLEDGE:
+            self._context.check_cell()
+        yield from EXECUTED[step.kind](self._context, attempt, step)
 
     def _is_acknowledged_after(self, number: int) -> bool:
         later = self._rehearsal.steps[number:]
         stopped = self._context.plant.stops.state() != NORMAL or is_waiting(self._context.plant)
-        return stopped and any(step.kind == "acknowledge" for step in later)
+        return stopped and any(step.kind is StepKind.ACKNOWLEDGE for step in later)
 
     def _close(self, attempt: Attempt, failure: AttemptError | None) -> AttemptOutcome:
         safety_state = self._context.plant.stops.state()

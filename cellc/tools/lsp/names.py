@@ -10,6 +10,7 @@ from cellc.compiler.source.document import Plain, SourceDocument
 from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.faults import FaultKind, Reference
+from cellc.contract.steps import StepKind, StepTarget
 
 _SECTIONS: Mapping[str, YamlPath] = {
     "device": ("devices",),
@@ -32,19 +33,25 @@ _KINDS: Mapping[str, tuple[str, ...]] = {
     **dict.fromkeys(("device", "through", "grip"), ("device",)),
     **dict.fromkeys(("joint", "joints"), ("joint",)),
     **dict.fromkeys(("activate", "deactivate", "controller"), ("controller",)),
-    **dict.fromkeys(("parent", "frame", "tip", "base", "detect", "tcp"), ("frame",)),
-    **dict.fromkeys(("call", "octomap"), ("interface",)),
+    **dict.fromkeys(("parent", "frame", "tip", "base", "tcp"), ("frame",)),
     "calibration": ("calibration",),
     "group": ("group",),
     "host": ("host",),
     "independent_of": ("host", "device"),
-    "move": ("pose", "goal"),
     "nic": ("nic",),
     "node": ("node",),
+    "octomap": ("interface",),
     "poses": ("group",),
     "use": ("rehearsal",),
 }
 _REFERENCES = {Reference.NODE: ("node", "controller"), Reference.CLOCK: ("host", "device")}
+_STEPS = {
+    StepTarget.POSTURE: ("pose", "goal"),
+    StepTarget.FRAME: ("frame",),
+    StepTarget.SWITCHED: ("device",),
+    StepTarget.SENSED: ("device",),
+    StepTarget.SERVICE: ("interface",),
+}
 _FAULTS = {kind.value: kind.hits.target.reference for kind in FaultKind}
 
 
@@ -95,6 +102,8 @@ def kinds_at(path: YamlPath) -> tuple[str, ...]:
     key = next((part for part in reversed(path) if isinstance(part, str)), "")
     if "inject" in path and key in _FAULTS:
         return _REFERENCES.get(_FAULTS[key], (_FAULTS[key].value,))
+    if "steps" in path and key in tuple(StepKind):
+        return _STEPS.get(StepKind(key).target, ())
     return _KINDS.get(key, ())
 
 

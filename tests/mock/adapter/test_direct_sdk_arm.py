@@ -9,6 +9,7 @@ import pytest
 from cellc.contract.adapter import Phase
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.mock import MockCell, RehearsalResult, load
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.campaign.campaign import execute
@@ -22,7 +23,7 @@ from cellc.mock.plant import Plant
 from tests.cells import CORPUS, ROOT, build_into
 
 SECOND = 1_000_000_000
-REACH = tuple(StepEntry(kind="move", target=pose) for pose in ("home", "aside", "home"))
+REACH = tuple(StepEntry(kind=StepKind.MOVE, target=pose) for pose in ("home", "aside", "home"))
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +119,7 @@ def test_joint_that_is_slow_or_displaced_is_a_tolerance_violation(
 
 def test_displaced_joint_moves_at_once_and_back_when_that_is_over(cell: MockCell) -> None:
     joint = cell.contract.adapters["arm"].joints[1]
-    still = (StepEntry(kind="wait", target="", duration_s=1.0),)
+    still = (StepEntry(kind=StepKind.WAIT, target="", duration_s=1.0),)
     _, plant = run(
         cell, FaultEntry(kind="displace", target=joint, at_s=0.2, displacement=0.2, lasting_s=0.4), steps=still
     )
@@ -139,8 +140,8 @@ STOPS: tuple[tuple[FaultKind, str], ...] = (
 def test_stop_of_the_device_has_its_own_outcome_and_lasts_until_it_is_acknowledged(
     cell: MockCell, kind: FaultKind, outcome: str
 ) -> None:
-    acknowledge = StepEntry(kind="acknowledge", target=cell.contract.safety.acknowledge)
-    steps = (*REACH[:2], StepEntry(kind="wait", target="", duration_s=2.0), REACH[0], acknowledge, *REACH)
+    acknowledge = StepEntry(kind=StepKind.ACKNOWLEDGE, target=cell.contract.safety.acknowledge)
+    steps = (*REACH[:2], StepEntry(kind=StepKind.WAIT, target="", duration_s=2.0), REACH[0], acknowledge, *REACH)
     result, plant = run(cell, FaultEntry(kind=kind, target="arm", at_s=0.5, lasting_s=1.0), steps=steps)
     outcomes = [record.outcome for record in result.attempts[: len(steps)]]
     assert outcomes == ["succeeded", outcome, "succeeded", outcome, *["succeeded"] * 4]

@@ -5,13 +5,14 @@ from __future__ import annotations
 import tracemalloc
 
 from cellc.contract.rehearsals import StepEntry
+from cellc.contract.steps import StepKind
 from cellc.mock import MockCell
 
 
 def peak_bytes(cell: MockCell, seconds: float) -> int:
     """Return the most memory that a wait of some simulated seconds needs."""
     entry = cell.entries[0].model_copy(
-        update={"steps": (StepEntry(kind="wait", target="", duration_s=seconds),), "timeout_s": 2.0 * seconds}
+        update={"steps": (StepEntry(kind=StepKind.WAIT, target="", duration_s=seconds),), "timeout_s": 2.0 * seconds}
     )
     tracemalloc.start()
     try:

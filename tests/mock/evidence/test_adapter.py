@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.mock import load
 from cellc.mock.cell import cell_of
 from tests.cells import CORPUS, build_into
@@ -16,7 +17,7 @@ from tests.mock.conftest import Written, received, write_evidence
 @pytest.fixture(scope="module")
 def adapted(tmp_path_factory: pytest.TempPathFactory) -> Written:
     folder = build_into(tmp_path_factory.mktemp("generated") / "demo", CORPUS / "valid" / "direct_sdk_arm.yaml")
-    steps = tuple(StepEntry(kind="move", target=pose) for pose in ("home", "aside"))
+    steps = tuple(StepEntry(kind=StepKind.MOVE, target=pose) for pose in ("home", "aside"))
     entry = RehearsalEntry(name="reach", steps=steps, faults=(), expect="succeeded", within_s=None, timeout_s=60.0)
     cell = cell_of(replace(load(folder).folder, rehearsals=(entry,)))
     return write_evidence(cell, folder.parent / "evidence")

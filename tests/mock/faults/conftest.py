@@ -11,20 +11,21 @@ import pytest
 
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, RehearsalResult
 from tests.cells import generated
 
-HOME = StepEntry(kind="move", target="home")
-DETECT = StepEntry(kind="detect", target="object")
-PICK = StepEntry(kind="move", target="pick")
-ACKNOWLEDGE = StepEntry(kind="acknowledge", target="operator")
+HOME = StepEntry(kind=StepKind.MOVE, target="home")
+DETECT = StepEntry(kind=StepKind.DETECT, target="object")
+PICK = StepEntry(kind=StepKind.MOVE, target="pick")
+ACKNOWLEDGE = StepEntry(kind=StepKind.ACKNOWLEDGE, target="operator")
 
 
 def wait(duration_s: float) -> StepEntry:
     """Return a step that lets time pass."""
-    return StepEntry(kind="wait", target="", duration_s=duration_s)
+    return StepEntry(kind=StepKind.WAIT, target="", duration_s=duration_s)
 
 
 def during(

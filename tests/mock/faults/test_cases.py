@@ -12,6 +12,7 @@ import pytest
 
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell, load
 from cellc.mock.errors import MockError
@@ -45,8 +46,8 @@ def test_outcomes_of_a_run_are_those_of_the_steps_up_to_the_first_that_cannot_be
     first: int, outcomes: set[str]
 ) -> None:
     entry = FaultEntry(kind="freeze", target="camera")
-    look = StepEntry(kind="detect", target="part")
-    wait = StepEntry(kind="wait", target="")
+    look = StepEntry(kind=StepKind.DETECT, target="part")
+    wait = StepEntry(kind=StepKind.WAIT, target="")
     case = FaultCase(
         entry, {("detect", "part"): ends_in(AttemptOutcome.STALE_STATE, within_s=1.0), ("wait", ""): BORNE}
     )
@@ -61,7 +62,7 @@ def test_bound_of_a_run_is_the_longest_of_the_steps_that_it_may_end_in() -> None
         ("move", "b"): ends_in(AttemptOutcome.TOLERANCE_VIOLATION, within_s=5.0),
         ("move", "c"): ends_in(AttemptOutcome.TOLERANCE_VIOLATION, within_s=9.0),
     }
-    steps = tuple(StepEntry(kind="move", target=name) for name in "abc")
+    steps = tuple(StepEntry(kind=StepKind.MOVE, target=name) for name in "abc")
     assert FaultCase(entry, endings).within_s(steps, 1) == 5.0
 
 

@@ -15,6 +15,7 @@ import pytest
 
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
+from cellc.contract.steps import StepKind
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults
@@ -187,7 +188,7 @@ def test_an_openarm_that_loses_its_supply_reports_nothing_and_its_goal_gets_nowh
 
 def test_an_openarm_that_loses_its_supply_at_rest_shows_nothing_at_all() -> None:
     stop = FaultEntry(kind=FaultKind.EMERGENCY_STOP, target="left", event=second_step(0.5))
-    hang = StepEntry(kind="move", target="hang")
+    hang = StepEntry(kind=StepKind.MOVE, target="hang")
     assert of("openarm_bimanual", stop, steps=(hang, wait(2.0))).result.outcome == "succeeded"
 
 
