@@ -45,13 +45,14 @@ _KINDS: Mapping[str, tuple[str, ...]] = {
     "use": ("rehearsal",),
 }
 _REFERENCES = {Reference.NODE: ("node", "controller"), Reference.CLOCK: ("host", "device")}
-_STEPS = {
+_TARGETS = {
     StepTarget.POSTURE: ("pose", "goal"),
     StepTarget.FRAME: ("frame",),
     StepTarget.SWITCHED: ("device",),
     StepTarget.SENSED: ("device",),
     StepTarget.SERVICE: ("interface",),
 }
+_STEPS = {kind.value: _TARGETS.get(kind.target, ()) for kind in StepKind}
 _FAULTS = {kind.value: kind.hits.target.reference for kind in FaultKind}
 
 
@@ -102,8 +103,8 @@ def kinds_at(path: YamlPath) -> tuple[str, ...]:
     key = next((part for part in reversed(path) if isinstance(part, str)), "")
     if "inject" in path and key in _FAULTS:
         return _REFERENCES.get(_FAULTS[key], (_FAULTS[key].value,))
-    if "steps" in path and key in tuple(StepKind):
-        return _STEPS.get(StepKind(key).target, ())
+    if "steps" in path and key in _STEPS:
+        return _STEPS[key]
     return _KINDS.get(key, ())
 
 
