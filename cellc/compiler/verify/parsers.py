@@ -26,6 +26,14 @@ from cellc.robot.description.urdf_values import reason_of_urdfdom
 _MOVABLE = ("revolute", "prismatic", "continuous")
 _LOGGERS = ("yourdfpy", "trimesh")
 """What they log is found by the comparison, in words of ours; Python prints it to standard error if none listens."""
+_SCENE = {
+    "build_scene_graph": False,
+    "build_collision_scene_graph": True,
+    "load_meshes": False,
+    "load_collision_meshes": False,
+    "force_collision_mesh": False,
+}
+"""That of the collision shapes: it has the same links, and takes 20 ms less for each description."""
 _HEAVY = ("scipy", "networkx", "PIL", "shapely", "rtree")
 
 
@@ -76,8 +84,8 @@ def read_by_yourdfpy(urdf: str) -> tuple[Reading, dict[str, float]]:
     """
     try:
         with held():
-            # Transforms alone: no mesh is opened, and nothing is looked up beside the text.
-            robot = import_yourdfpy().URDF.load(BytesIO(urdf.encode()), load_meshes=False)
+            # Transforms alone: no mesh is opened, nothing is looked up beside the text, and nothing is colored.
+            robot = import_yourdfpy().URDF.load(BytesIO(urdf.encode()), **_SCENE)
     except Exception as error:  # it lets through whatever its parts raise
         raise RefusedError(f"yourdfpy refuses it: {type(error).__name__} {error}") from error
     movable = [joint for joint in robot.robot.joints if joint.type in _MOVABLE]
@@ -115,7 +123,7 @@ def _yourdfpy_poses(robot: Any, positions: dict[str, float]) -> dict[str, Pose]:
         while unknown[-1] not in matrices:
             unknown.append(above[unknown[-1]])
         for parent, link in pairwise(reversed(unknown)):
-            matrices[link] = matrices[parent] @ robot.get_transform(link, parent)
+            matrices[link] = matrices[parent] @ robot.get_transform(link, parent, collision_geometry=True)
     return {name: _pose(matrices[name]) for name in robot.link_map}
 
 

@@ -38,7 +38,7 @@ _JSON_ESCAPE = re.compile(r"\\(?:u[dD][89abAB][0-9a-fA-F]{2}\\u[dD][c-fC-F][0-9a
 
 def hidden(text: str) -> str | None:
     """Say which character hides text, or None."""
-    match = HIDDEN.search(text)
+    match = None if text.isascii() and text.isprintable() else HIDDEN.search(text)
     return None if match is None else _said(match[0])
 
 
@@ -79,7 +79,7 @@ def escaped_character(character: str) -> str:
 
 def escaped_within(text: str) -> str:
     """Return a text with an escape for each character that hides text; tabs, line feeds and joiners stay."""
-    return HIDDEN.sub(_as_escape, text)
+    return text if text.isascii() and text.isprintable() else HIDDEN.sub(_as_escape, text)
 
 
 def _as_escape(found: re.Match[str]) -> str:
