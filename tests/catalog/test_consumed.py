@@ -112,6 +112,9 @@ def _roots(model: DeviceModel) -> Iterator[Place]:
     for kind in ("nodes", "services", "actions"):
         effects = [one.effect for one in getattr(model, kind)]
         yield from ((kind, index, "effect") for index, one in enumerate(effects) if one not in effects[:index])
+    for name, controller in model.controllers.items():
+        stated = (index for index, service in enumerate(controller.services) if service.effect is not None)
+        yield from (("controllers", name, "services", index, "effect") for index in stated)
 
 
 def _texts(spec: Path) -> tuple[str, ...]:

@@ -121,3 +121,11 @@ def test_each_motor_of_an_openarm_has_its_own_firmware(motor: str, firmware: str
 
 def test_a_repeated_gate_gets_an_evidence_folder_of_its_own() -> None:
     assert 'mkdir "$E"' in built("ur5e_pick").texts["gates/promotion.md"]
+
+
+@pytest.mark.parametrize("cell", _WALKED)
+def test_stopping_distance_is_read_where_it_is_published_and_unknown_elsewhere(cell: str) -> None:
+    text = "".join(_gates(cell).values())
+    published = cell == "ur5e_pick"  # UR5e Hardware Manual (2022), p. 65; no other source was found
+    assert ("Read time and distance of a stop of arm" in text) is published
+    assert ("UNKNOWN: time and distance of a stop of" in text) is not published

@@ -114,6 +114,18 @@ class RecoveryFacts(CatalogModel):
     steps: tuple[HumanStep, ...] = Field(min_length=1)
 
 
+class StoppingFacts(CatalogModel):
+    """Where the vendor publishes how long the device takes to stop, and how far it goes.
+
+    Attributes:
+        figures: What is published, such as ``curves for joints 1 to 3 at three payloads``.
+        source: Document with its version, and the page.
+    """
+
+    figures: Text
+    source: Text
+
+
 class SafetyFacts(CatalogModel):
     """The vendor's safety boundary; no software of the cell is part of it.
 
@@ -127,6 +139,7 @@ class SafetyFacts(CatalogModel):
         ended: What people do at the device after its driver has ended.
         watchdog: What the device does when commands stop, and after how long, such as ``20 lost packets in a row stop
             the motion``.
+        stopping: Published times and distances of a stop; absent where no public source has them.
         source: Documents with their versions from which these facts were read.
     """
 
@@ -138,6 +151,7 @@ class SafetyFacts(CatalogModel):
     ending: tuple[HumanStep, ...] = ()
     ended: tuple[HumanStep, ...] = ()
     watchdog: Text | None = None
+    stopping: StoppingFacts | None = None
     source: Text
 
 

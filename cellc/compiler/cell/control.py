@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.cell.entity import ELSEWHERE, Entity
+from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import TARGETS, Target
@@ -63,6 +64,7 @@ class Controller(Entity):
         state_interfaces: full names that it reads.
         package: the ROS package of its plugin.
         declared: what the catalog says of its kind: parameters, topics, services.
+        calls: full name of a service that it answers → what a call does in the world.
         plugin_parameters: names of parameters that the plugin of a device's own controller has besides.
         parameters: everything that goes to its node, dots for nesting, in the types that it declares.
         written_parameters: those of them that stand under ``parameters:`` in the spec.
@@ -80,6 +82,7 @@ class Controller(Entity):
     stand_in: StandIn | None = None
     package: Annotated[str, ELSEWHERE] = ""
     declared: Annotated[ControllerKind | None, ELSEWHERE] = None
+    calls: Annotated[Mapping[str, Effect], ELSEWHERE] = field(default_factory=dict)
     plugin_parameters: Annotated[frozenset[str], ELSEWHERE] = frozenset()
     device: str | None = None
     joints: tuple[str, ...] = ()

@@ -45,6 +45,7 @@ class VendorSafety:
         stop_authority: what stops the device, by its vendor; None where no source says.
         topics: what says in which state the device is, where the cell has the controller that publishes it, each with
             the field that says it; the whole message where that is empty.
+        stopping: which times and distances of a stop are published, and where; None where no public source has them.
         ending, ended: what people do at the device once nothing is claimed, before and after its driver ends.
     """
 
@@ -56,6 +57,7 @@ class VendorSafety:
     modes: tuple[str, ...] = ()
     recovery: tuple[RecoveryProcedure, ...] = ()
     watchdog: str | None = None
+    stopping: tuple[str, str] | None = None
 
     @property
     def recoverable_stops(self) -> tuple[str, ...]:

@@ -40,6 +40,21 @@ def stop_evidence(graph: CellGraph) -> Iterator[Values]:
         yield from ((evidence, gate) for evidence in graph.cell.safety.stop.evidence)
 
 
+def stop_figures(graph: CellGraph) -> Iterator[Values]:
+    """Yield which times and distances of a stop the vendor of an arm publishes, and where."""
+    for device in graph.cell.devices:
+        stopping = device.procedures.safety.stopping
+        if device.kind == "arm" and stopping is not None:
+            yield device.name, *stopping, enabled_in(graph.cell, device)
+
+
+def open_stop_figures(graph: CellGraph) -> Iterator[Values]:
+    """Yield the arms of which no public source says how far they go in a stop."""
+    arms = (device for device in graph.cell.devices if device.kind == "arm")
+    open_ = (device for device in arms if device.procedures.safety.stopping is None)
+    return ((device.name, enabled_in(graph.cell, device)) for device in open_)
+
+
 def speed_controls(graph: CellGraph) -> Iterator[Values]:
     """Yield what slows arms down, what for the first motions, and how people set it."""
     for device in graph.cell.devices:

@@ -15,6 +15,7 @@ from cellc.compiler.cell.device import Device, DeviceJoint
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.link.controller_parameters import bind_parameters
 from cellc.compiler.link.devices import BoundDevice
+from cellc.compiler.link.hardware import effect
 from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import si
 from cellc.compiler.link.tolerances import UNSTATED, Tolerances, bind_tolerances, unknown_joints
@@ -189,6 +190,11 @@ def _controller(
         plugin=plugin.type,
         package=plugin.package,
         declared=kind,
+        calls={
+            service.name.replace("~", f"{place.namespace}/{place.name}"): effect(service.effect, context.distro)
+            for service in kind.services
+            if service.effect is not None
+        },
         plugin_parameters=_plugin_parameters(chosen.own),
         device=written.device,
         joints=interfaces.joints,

@@ -393,4 +393,5 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
             for facts in safety.recovery
         ),
         watchdog=safety.watchdog,
+        stopping=None if safety.stopping is None else (safety.stopping.figures, safety.stopping.source),
     )

@@ -30,7 +30,9 @@ def _moments(cell: Cell) -> Iterator[tuple[TableCell, ...]]:
         hardware = device.control.hardware
         effects = {} if hardware is None else {_words(moment): effect for moment, effect in hardware.effects.items()}
         starts = {f"start of {code(node)}": effect for node, effect in device.control.starts.items()}
-        calls = {f"call of {code(offer.name)}": offer.effect for offer in device.control.offers if offer.effect}
+        offered = ((offer.name, offer.effect) for offer in device.control.offers if offer.effect)
+        answered = (call for owner in cell.controllers if owner.device == device.name for call in owner.calls.items())
+        calls = {f"call of {code(name)}": effect for name, effect in (*offered, *answered)}
         for moment, effect in {**effects, **starts, **calls}.items():
             missing = tuple(f"{_words(need)}: {_words(otherwise)}" for need, otherwise in effect.needs.items())
             direct = hardware is not None and hardware.direct_activation and moment == Moment.ACTIVATE

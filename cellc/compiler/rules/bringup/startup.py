@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import NodeSource
 from cellc.compiler.graph.claims import written_parameters
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
@@ -23,6 +24,21 @@ def credential_in_text(graph: CellGraph) -> Findings:
         if kind is not None:
             message = f"the text holds {kind}"
             yield found(graph, path, message)
+
+
+@rule(Severity.WARNING)
+def unused_credentials(graph: CellGraph) -> Findings:
+    """Yield places of user names and passwords that no driver reads."""
+    for device in graph.cell.devices:
+        path = (*device.path, "connection", "credentials")
+        if path in graph.cell.places.texts and not _logs_in(device):
+            yield found(graph, path, f"the driver of `{device.name}` reads no user name and no password")
+
+
+def _logs_in(device: Device) -> bool:
+    hardware = device.control.hardware
+    values = () if hardware is None else hardware.parameters.get("real", {}).values()
+    return any(word in value for value in values for word in ("{env:", "{yaml:"))
 
 
 _SECRET = re.compile(r"(?i)(^|_|\.)(password|passwd|passphrase|secret|token|api_?key|private_?key|credential)s?$")

@@ -31,9 +31,7 @@ def _moving(cell: Cell) -> Iterator[tuple[str, str]]:
             if offer.effect is not None and offer.effect.motion not in _HARMLESS:
                 yield offer.name, offer.effect.does
     for controller in cell.controllers:
-        for service in () if controller.declared is None else controller.declared.services:
-            if service.effect is not None and service.effect.motion not in _HARMLESS:
-                yield service.name.replace("~", controller.full_name), service.effect.does
+        yield from ((name, call.does) for name, call in controller.calls.items() if call.motion not in _HARMLESS)
 
 
 _HARMLESS = (Motion.NONE, Motion.HOLDS)
