@@ -156,7 +156,19 @@ def _specs(name: str, folder: Path) -> tuple[Path, ...]:
         (folder / str(number)).mkdir()
         text = spec_text(_cells()[name][0].parent.name).replace(_BY_A_PERSON, started)
         others.append(written(folder / str(number), text))
-    return (*_cells()[name], *others)
+    return (*_cells()[name], *others, *_with_every_controller(name, folder))
+
+
+def _with_every_controller(name: str, folder: Path) -> Iterator[Path]:
+    """Yield the first cell with a device, with the controllers of it that answer services and that the cell lacks."""
+    cell = _cells()[name][0].parent.name
+    text, model = spec_text(cell), device_of(name).model
+    called = next(device.name for device in graph_of(spec_of(cell)).cell.devices if device.model == name)
+    lacking = (kind for kind, one in model.controllers.items() if one.services and f"type: {kind}" not in text)
+    lines = "".join(f"    {called}_{kind}: {{type: {kind}, device: {called}}}\n" for kind in lacking)
+    if lines and text.count("  controllers:\n") == 1:
+        (folder / "controllers").mkdir()
+        yield written(folder / "controllers", text.replace("  controllers:\n", f"  controllers:\n{lines}"))
 
 
 @pytest.mark.parametrize("name", _models())
