@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from enum import Enum
+from typing import Any
 
 from cellc.contract.diagnostics.notebook import html_table
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_json
@@ -119,7 +120,12 @@ class AttemptRecord:
 
 def to_json_line(record: AttemptRecord) -> str:
     """Return a record as one line of JSON; floats have the shortest text that reads back to the same value."""
-    return harmless_json(json.dumps(asdict(record), ensure_ascii=False, allow_nan=False, separators=(",", ":")))
+    text = json.dumps(record, default=_by_field, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return harmless_json(text)
+
+
+def _by_field(record: Any) -> dict[str, object]:
+    return {field.name: getattr(record, field.name) for field in fields(record)}
 
 
 def to_json_lines(records: Iterable[AttemptRecord]) -> str:

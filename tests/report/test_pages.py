@@ -56,10 +56,10 @@ def test_a_code_belongs_to_one_stage_or_rule() -> None:
     assert all(re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", code) for code in codes)
 
 
-@pytest.mark.parametrize("code", all_codes())
-def test_heading_of_a_page_is_the_code_and_the_severity_of_its_findings(code: str) -> None:
-    assert PAGES[code].startswith(f"# {code} ({all_codes()[code].value})\n\n")
-    assert page_of(code).title == " ".join(PAGES[code].split("\n\n")[1].split())[:-1]
+def test_heading_of_a_page_is_the_code_and_the_severity_of_its_findings() -> None:
+    for code, severity in all_codes().items():
+        assert PAGES[code].startswith(f"# {code} ({severity.value})\n\n")
+        assert page_of(code).title == " ".join(PAGES[code].split("\n\n")[1].split())[:-1]
 
 
 @pytest.mark.parametrize("code", [code for codes in STAGES.values() for code in codes])

@@ -11,7 +11,12 @@ from cellc.compiler.rules.kit import Rule
 
 
 def module_of(rule: Rule) -> ast.Module:
-    return ast.parse(inspect.getsource(sys.modules[rule.check.__module__]))
+    return _parsed(rule.check.__module__)
+
+
+@cache
+def _parsed(module: str) -> ast.Module:
+    return ast.parse(inspect.getsource(sys.modules[module]))
 
 
 @cache

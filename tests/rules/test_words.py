@@ -14,7 +14,6 @@ from cellc.compiler.rules.run import ALL_RULES
 from tests.rules.examples import Example, diagnose_example
 from tests.rules.sources import lines_of, module_of
 
-RULES = [pytest.param(rule, id=rule.code) for rule in ALL_RULES]
 _REFUSED = re.compile(
     r"\b(?:is|are) (?:due|asked for|allowed)\b|\bnone can\b|(?<![Tt]here )\bis no [a-z]|\bha(?:s|ve) to be\b"
     r"|\bcatalogue|\bcancelled\b"
@@ -49,23 +48,27 @@ def calls_of(rule: Rule) -> Iterator[ast.AST]:
             yield node
 
 
-@pytest.mark.parametrize("rule", RULES)
-def test_words_are_those_of_the_style_sheet(rule: Rule) -> None:
-    assert [match[0] for text in texts(rule) for match in _REFUSED.finditer(text)] == []
+def test_words_are_those_of_the_style_sheet() -> None:
+    found = [(rule.code, word[0]) for rule in ALL_RULES for text in texts(rule) for word in _REFUSED.finditer(text)]
+    assert found == []
 
 
-@pytest.mark.parametrize("rule", RULES)
-def test_fix_is_one_line_that_begins_with_a_verb(rule: Rule) -> None:
-    assert re.match(r"[a-z]+ ", rule.page.fix)
-    assert len(rule.page.fix) <= 140
-    assert not rule.page.fix.startswith(("the ", "a ", "an ", "no ", "it "))
+def test_fix_is_one_line_that_begins_with_a_verb() -> None:
+    fixes = {rule.code: rule.page.fix for rule in ALL_RULES}
+    assert {code: fix for code, fix in fixes.items() if not re.match(r"(?!(?:the|an?|no|it) )[a-z]+ ", fix)} == {}
+    assert {code: fix for code, fix in fixes.items() if len(fix) > 140 or "\n" in fix} == {}
 
 
-@pytest.mark.parametrize("rule", RULES)
-def test_help_that_is_always_the_same_is_the_fix_of_the_page(rule: Rule) -> None:
-    calls = [call for call in calls_of(rule) if isinstance(call, ast.Call)]
-    helps = {ast.unparse(call.args[3]) if len(call.args) > 3 else "" for call in calls}
-    assert not (len(helps) == 1 and next(iter(helps)).startswith(("'", '"'))), helps
+def test_help_that_is_always_the_same_is_the_fix_of_the_page() -> None:
+    helps = {
+        rule.code: {
+            ast.unparse(call.args[3]) if len(call.args) > 3 else ""
+            for call in calls_of(rule)
+            if isinstance(call, ast.Call)
+        }
+        for rule in ALL_RULES
+    }
+    assert {code: one for code, one in helps.items() if len(one) == 1 and next(iter(one)).startswith(("'", '"'))} == {}
 
 
 @pytest.mark.parametrize(

@@ -42,9 +42,15 @@ def annotations_of(kind: type) -> Mapping[str, object]:
 
 def field_names(value: object) -> tuple[str, ...]:
     """Name the fields of an entity, or of a model that the spec and the cell share; none of any other value."""
-    if isinstance(value, StatedModel):
-        return tuple(type(value).model_fields)
-    return tuple(field.name for field in fields(value)) if is_dataclass(value) and not isinstance(value, type) else ()
+    kind: type = type(value)
+    return _field_names(kind)
+
+
+@cache
+def _field_names(kind: type) -> tuple[str, ...]:
+    if issubclass(kind, StatedModel):
+        return tuple(kind.model_fields)
+    return tuple(field.name for field in fields(kind)) if is_dataclass(kind) else ()
 
 
 def shared(of: object, model: type[BaseModel]) -> dict[str, object]:
