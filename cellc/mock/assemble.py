@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import partial
 from math import inf
 
 from cellc.contract.contract import Contract, ContractClock, ContractFrame
 from cellc.contract.devices import ContractSimulatedJoint
 from cellc.contract.entities import ContractEndpoint, Target
-from cellc.contract.transforms import Pose, identity
+from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.bus.network import EdgeName, Network, QosEvent, QosEventKind
 from cellc.mock.bus.qos import hears, middleware_of, task_node
@@ -50,6 +50,7 @@ from cellc.mock.watching import ClaimWatches
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
+from cellc.robot.description.model import Box
 
 
 def joint_state_feeds(
@@ -104,6 +105,15 @@ def stream_edge(contract: Contract, network: Network, topic: str, source: str, s
     return StreamEdge(EdgeName(topic, source, sink), offered, requested, network)
 
 
+def _boxes(folder: GeneratedFolder) -> Iterator[tuple[str, Vector3]]:
+    """Yield the boxes of the scene about their own frames, with their edges in m: parts lie on them."""
+    for link in folder.description.links:
+        frame = folder.contract.frames.get(link.name)
+        for shape in link.collisions if frame is not None and frame.kind == "scene" else ():
+            if isinstance(shape.geometry, Box) and shape.pose == identity():
+                yield link.name, shape.geometry.size
+
+
 def _horizon_s(contract: Contract) -> float:
     """Return for how long transforms are kept."""
     return max([DEFAULT_BUFFER_S, *(frame.buffer_s or 0.0 for frame in contract.frames.values())])
@@ -153,7 +163,7 @@ def assemble(
         start=RealStart(devices, effects, simulation),
         loads=Loads(contract, control, memory.model.robot, memory.model.links),
         world=world,
-        parts=Parts(contract, control, world),
+        parts=Parts(contract, control, world, dict(_boxes(folder))),
         switches=Switches(contract),
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from cellc.contract.contract import Contract, ContractBand, ContractGrasp
 from cellc.contract.devices import ContractGripper
@@ -22,7 +23,11 @@ class Parts:
         slipped_m: how far a held part has slipped between the fingers, by part.
     """
 
-    def __init__(self, contract: Contract, control: ControlStack, world: World) -> None:
+    def __init__(
+        self, contract: Contract, control: ControlStack, world: World, boxes: Mapping[str, Vector3] | None = None
+    ) -> None:
+        """Bind the parts of a cell; ``boxes`` are the edges of the boxes that parts lie on, by their frames."""
+        self._boxes = boxes or {}
         self.held: dict[str, str] = {}
         self.slipped_m: dict[str, float] = {}
         self._contract = contract
@@ -86,7 +91,7 @@ class Parts:
         return self.held.pop(device, None)
 
     def lies(self, name: str, tip: str | None, now_ns: int) -> bool:
-        """Tell whether a part that is let go of lies on something: where it was taken from, or where a goal puts it.
+        """Tell whether a part that is let go of lies on something: where it was taken, at a goal, or on a box.
 
         A goal in a frame that is fixed says that something is there; of a part without a grasp nothing is known.
         """
@@ -100,7 +105,15 @@ class Parts:
             if frames[goal.frame].kind != "dynamic" and self._contract.groups[goal.group].tip_frame == tip
         ]
         back = math.dist(world.object_pose(name, now_ns).position, self._taken_from.get(name, here))
-        return min((back, *(math.dist(here, place) for place in places))) <= GRASP_TOLERANCE_M
+        near = min((back, *(math.dist(here, place) for place in places))) <= GRASP_TOLERANCE_M
+        return near or any(self._is_on(box, here, now_ns) for box in self._boxes)
+
+    def _is_on(self, box: str, here: Vector3, now_ns: int) -> bool:
+        """Tell whether a place is above the top of a box, as near as a part is to the tip that holds it."""
+        in_box = self._world.link_pose(box, now_ns).inverse() @ Pose(here, (0.0, 0.0, 0.0, 1.0))
+        (x, y, z), (length, width, height) = in_box.position, self._boxes[box]
+        above_m = z - height / 2.0
+        return abs(x) <= length / 2.0 and abs(y) <= width / 2.0 and 0.0 <= above_m <= GRASP_TOLERANCE_M
 
     def fall(self, name: str, now_ns: int) -> None:
         """Let a part fall to the ground; how it comes to rest is not played."""

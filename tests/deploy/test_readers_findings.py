@@ -75,7 +75,11 @@ def test_payload_is_asked_for_once_in_the_words_of_its_robot(cell: str) -> None:
 
 
 def test_a_gripper_gets_its_first_goal_when_it_is_claimed() -> None:
-    assert _in_order(_gates("ur5e_pick")["G7"], "Authorize the claims", "Open the gripper with its first goal")
+    claim = "Authorize the claims"
+    assert _in_order(_gates("ur5e_pick")["G7"], claim, "Keep all hands clear", "Open gripper by its first goal")
+    hand = _gates("fr3_hand")["G7"]
+    # fr3_hand states `grip: {force: 20 N}`; the goal of a GripperCommand carries it.
+    assert _in_order(hand, claim, "Open hand by its first goal", "at most 20 N", "max_effort: 20.0")
 
 
 @pytest.mark.parametrize("cell", _WALKED)

@@ -15,6 +15,7 @@ from cellc.mock import load
 from cellc.mock.cell import cell_of
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.folder import GeneratedFolder
+from cellc.mock.parts import Parts
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult
 from tests.cells import generated, there
@@ -154,3 +155,18 @@ def test_each_fault_of_a_part_is_a_case_of_the_campaign(folder: GeneratedFolder)
     ending = cases[FaultKind.WRONG_PART].ending(CLOSE)
     assert ending.outcomes == {AttemptOutcome.GRIP_FAILURE, AttemptOutcome.SUCCEEDED}
     assert not any(case.entry.kind in kinds for case in possible_faults(load(generated("minimal")).folder.contract))
+
+
+@pytest.mark.parametrize(("above_m", "lies"), [(0.01, True), (0.05, False), (-0.01, False)])
+def test_a_part_let_go_of_above_the_top_of_a_box_lies_on_it(
+    folder: GeneratedFolder, above_m: float, lies: bool
+) -> None:
+    _, plant = run(folder, *TAKEN, HOME)
+    tip, now_ns = next(iter(plant.contract.groups.values())).tip_frame, plant.now_ns
+    middle_m = plant.world.link_pose("table", now_ns).position[2]
+    top_m = plant.world.link_pose(tip, now_ns).position[2] - above_m
+    boxes = {"table": (4.0, 4.0, 2.0 * (top_m - middle_m))}
+    parts = Parts(plant.contract, plant.control, plant.world, boxes)
+    parts.take("gripper", "object", 0)
+    assert parts.lies("object", tip, now_ns) is lies
+    assert not Parts(plant.contract, plant.control, plant.world).held

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
+import pytest
+
+from cellc.compiler.emit.contract.devices import devices
 from cellc.contract.devices import ContractSimulatedJoint
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
-from tests.cells import generated
+from tests.cells import compiled, generated, spec_text, written
 
 _JOINT = "gripper_robotiq_85_left_knuckle_joint"
 _CLOSES_S = 0.085 / 0.150
@@ -36,3 +40,16 @@ def test_speed_that_the_spec_states_counts_before_that_of_the_device() -> None:
 
 def test_least_cell_moves_its_arm() -> None:
     assert _took_s(load(generated("minimal")), "move aside") > 0.1
+
+
+def test_jaws_close_at_the_speed_and_with_the_force_of_the_grip(tmp_path: Path) -> None:
+    text, model = spec_text("minimal"), "model: robotiq_2f_85\n"
+    assert text.count(model) == 1
+    graph = compiled(
+        written(tmp_path, text.replace(model, f"{model}    grip: {{speed: 50 mm/s, force: 40 N}}\n"))
+    ).graph
+    gripper = devices(graph.cell)["gripper"].gripper
+    assert gripper is not None
+    assert gripper.max_effort == 40.0
+    # 0.7929 rad in 85 mm at 50 mm/s.
+    assert gripper.max_velocity == pytest.approx(0.7929 / 0.085 * 0.05, rel=1e-3)

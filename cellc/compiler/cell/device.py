@@ -116,7 +116,9 @@ class Gripper:
     Its jaws are ``stroke_m`` apart when open; ``swing`` is the angle between their cranks and the fingers when
     closed, None of jaws that slide.
 
-    ``max_velocity`` is that of the joint as the jaws close at the device's own speed, in rad/s or m/s; None of none.
+    ``max_velocity`` is that of the joint as the jaws close at the stated speed, else at their own, in rad/s or m/s;
+    None of none. ``grip_speed_m_s`` and ``grip_force`` (N) are what the spec states; the hardware can be set from
+    ``min_force`` on, and its jaws move at ``max_speed_m_s``.
     """
 
     joint: str
@@ -127,6 +129,10 @@ class Gripper:
     goal_tolerance: float
     stroke_m: float
     swing: float | None
+    max_speed_m_s: float = 0.0
+    min_force: float | None = None
+    grip_speed_m_s: float | None = None
+    grip_force: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

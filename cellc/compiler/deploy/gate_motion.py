@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.site import FirstMotion
 from cellc.compiler.cell.vendor import SpeedControl
 from cellc.compiler.deploy.bringup import bring_up, phases, releases
@@ -12,7 +13,7 @@ from cellc.compiler.deploy.first_goal import first_goals
 from cellc.compiler.deploy.processes import motion_clients, past_controllers
 from cellc.compiler.deploy.releases import GOAL, Release, move_real, release_once
 from cellc.compiler.formats.escape import shell_word
-from cellc.compiler.formats.numbers import shortest
+from cellc.compiler.formats.numbers import decimal, shortest
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.vocabulary import BringUpPhase, Feature, InterfaceKind, features
 
@@ -91,6 +92,38 @@ def authorized_motion(graph: CellGraph) -> Iterator[Values]:
     named = (f"the {one.name} of {name} at {speed_of(one)}" for name, one in controls if one is not None and one.name)
     slow = " and ".join(named)
     return ((where, command, slow and f", with {slow}") for where, command in move_real(graph.cell))
+
+
+def gripper_goals(graph: CellGraph) -> Iterator[Values]:
+    """Yield the goal that opens each gripper, with the least force that it can be set to, and its command."""
+    for device in graph.cell.devices:
+        gripper = device.gripper
+        for owner in graph.cell.controllers if gripper is not None else ():
+            served = _served(owner)
+            if gripper is None or served is None or gripper.joint not in owner.joints:
+                continue
+            least, position = (
+                gripper.grip_force if gripper.min_force is None else gripper.min_force,
+                decimal(gripper.open),
+            )
+            parallel = "Parallel" in served[1]
+            asked = f"name: [{gripper.joint}], position: [{position}]" if parallel else f"position: {position}"
+            carries = not parallel and least is not None
+            asked += f", max_effort: {decimal(least)}" if carries and least is not None else ""
+            said = (
+                f"at most {shortest(least or 0.0)} N"
+                if carries
+                else "the goal states no force, its driver uses its own"
+            )
+            command = f'ros2 action send_goal {shell_word(served[0])} {served[1]} "{{command: {{{asked}}}}}"'
+            yield device.name, f"{position} {'m' if device.joint(gripper.joint).slides else 'rad'}", said, command
+
+
+def _served(owner: Controller) -> tuple[str, str] | None:
+    """Return action and type of what takes the goals of a controller on the real target; None where nothing does."""
+    if owner.stand_in is not None:
+        return owner.stand_in.action, owner.stand_in.action_type
+    return None if owner.action is None or owner.action_type is None else (owner.action, owner.action_type)
 
 
 def senders(graph: CellGraph) -> Iterator[Values]:

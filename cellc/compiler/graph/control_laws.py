@@ -11,6 +11,7 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import Adapter, CommandLaw
+from cellc.compiler.graph.grips import heaviest_part
 from cellc.contract.control_law import ControlLaw, JointLaw, LinkMass
 from cellc.contract.transforms import Pose, climb
 from cellc.contract.vocabulary import TRAJECTORIES, Distro, Feature, Gravity, Held, Loop, features
@@ -195,9 +196,12 @@ def _part(cell: Cell, device: Device) -> LinkMass | None:
     """Return what the tool holds, at the tip of the device's group; None where nothing says that it is held."""
     payload, names = device.robot.payload, {joint.name for joint in device.joints}
     group = next((group for group in cell.groups if names & set(group.joints)), None)
-    if payload is None or group is None:
+    if group is None:
         return None
-    stated, rest_kg = payload.part_kg, payload.mass_kg - cell.carried_mass_kg(device)
+    stated = None if payload is None else payload.part_kg
+    if stated is None:
+        stated = heaviest_part(cell, (device.name, *device.mount.carries))
+    rest_kg = 0.0 if payload is None else payload.mass_kg - cell.carried_mass_kg(device)
     mass_kg = stated if stated is not None else rest_kg if rest_kg > _ROUNDING_KG else 0.0
     link, pose = _link_of(cell, group.tip_frame)
     return LinkMass(link=link, mass_kg=round(mass_kg, 9), center=pose.position) if mass_kg > 0.0 else None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.motion import CartesianGoal, Rehearsal
-from cellc.compiler.graph.frame_tree import FrameTree
+from cellc.compiler.graph.frame_tree import FrameTree, build_frame_tree
 from cellc.contract.diagnostics import YamlPath
 
 
@@ -18,6 +18,16 @@ def gripped_parts(cell: Cell, frames: FrameTree) -> Mapping[YamlPath, str]:
     here. An object that is observed is a part, whether its width is stated or not.
     """
     return {path: part for rehearsal in cell.rehearsals for path, part in _gripped(cell, frames, rehearsal)}
+
+
+def heaviest_part(cell: Cell, grippers: Collection[str]) -> float | None:
+    """Return the mass of the heaviest part that grippers close on, in kg; None where none is stated."""
+    frames = build_frame_tree(cell)
+    parts = gripped_parts(cell, frames)
+    steps = (step for rehearsal in cell.rehearsals for step in rehearsal.steps if step.name in grippers)
+    taken = (frames.get(parts[step.path]) for step in steps if step.path in parts)
+    grasps = (frame.grasp for frame in taken if frame is not None)
+    return max((grasp.mass_kg for grasp in grasps if grasp is not None and grasp.mass_kg is not None), default=None)
 
 
 def _gripped(cell: Cell, frames: FrameTree, rehearsal: Rehearsal) -> Iterator[tuple[YamlPath, str]]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from cellc.compiler.catalog.device_bring_up import CommissioningStep as CommissioningFacts
 from cellc.compiler.catalog.device_graph import ImageFacts, ViewFacts
-from cellc.compiler.catalog.device_model import DeviceModel, GripperFacts, PackageFacts
+from cellc.compiler.catalog.device_model import DeviceModel, PackageFacts
 from cellc.compiler.catalog.robot_facts import HumanStep
 from cellc.compiler.cell.device import (
     Camera,
@@ -18,7 +18,6 @@ from cellc.compiler.cell.device import (
     DeviceMock,
     DeviceVersions,
     FieldOfView,
-    Gripper,
     LimitShares,
     NetworkNeeds,
     Packages,
@@ -256,32 +255,6 @@ def _taken_on_trust(facts: DeviceModel) -> Iterator[str]:
         yield f"`{code}` of its description is excused: {because}"
     for pair in facts.allowed_collisions:
         yield f"contact of `{pair.links[0]}` and `{pair.links[1]}` is not looked for: {pair.because}"
-
-
-def gripper_of(facts: DeviceModel, prefix: str) -> Gripper | None:
-    """Return the gripper that the device is."""
-    gripper = facts.gripper
-    if gripper is None:
-        return None
-    return Gripper(
-        joint=prefix + gripper.joint,
-        open=gripper.open.si,
-        closed=gripper.closed.si,
-        max_force=gripper.max_force.si,
-        max_velocity=_joint_speed(gripper),
-        goal_tolerance=float(gripper.goal_tolerance.si),
-        stroke_m=gripper.stroke.si,
-        swing=si(gripper.swing),
-    )
-
-
-def _joint_speed(gripper: GripperFacts) -> float | None:
-    """Return the joint speed that corresponds to the speed of the jaws, in rad/s or m/s; None where it has no value.
-
-    Jaw travel is taken as linear in the joint position. The limit in a vendor's URDF differs, and was not measured.
-    """
-    way, stroke = abs(float(gripper.closed.si) - float(gripper.open.si)), gripper.stroke.si
-    return gripper.max_speed.si * way / stroke or None if stroke > 0.0 else None
 
 
 def _exposure_s(facts: DeviceModel, written: DeviceSpec) -> float:

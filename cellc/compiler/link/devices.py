@@ -21,12 +21,12 @@ from cellc.compiler.link.device_facts import (
     device_mock,
     device_sensing,
     device_software,
-    gripper_of,
     limit_shares,
     mounted_on,
     network_needs,
     vendor_procedures,
 )
+from cellc.compiler.link.gripper import gripper_of
 from cellc.compiler.link.hardware import hardware_component
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.kinematics import kinematic_parameters, link_kinematics
@@ -230,7 +230,7 @@ def _device(name: str, found: _Found, mount: Mount, port_shift: int) -> BoundDev
         software=device_software(facts, written),
         robot=robot_controller(facts, written),
         sensing=device_sensing(facts, written, known, prefix),
-        gripper=gripper_of(facts, prefix),
+        gripper=gripper_of(facts, written, prefix),
         limits=device_limits(facts, written),
         procedures=vendor_procedures(facts, written, known, found.distro),
         mock=device_mock(facts, written, prefix, path, joints, found.document),

@@ -8,6 +8,7 @@ from cellc.compiler.spec.base import Day, FrameReference
 from cellc.compiler.spec.quantity import (
     Drift,
     Duration,
+    Force,
     JointDampings,
     JointPosition,
     JointStiffnesses,
@@ -17,6 +18,7 @@ from cellc.compiler.spec.quantity import (
     Ratio,
     RollPitchYaw,
     TimeShift,
+    Velocity,
 )
 from cellc.compiler.spec.robot import CollisionSpec, ImpedanceSpec, PayloadSpec
 from cellc.compiler.spec.tool import ToolConnectorSpec
@@ -210,6 +212,17 @@ class SimulatedJointSpec(StatedModel):
     )
 
 
+class GripSpec(StatedModel):
+    """How a gripper takes a part: no faster and no stronger than its hardware can."""
+
+    speed: Velocity | None = Field(
+        None, description="Speed of one jaw relative to the other; as fast as it can if absent.", examples=["50 mm/s"]
+    )
+    force: Force | None = Field(
+        None, description="Force between its jaws; as strong as it can if absent.", examples=["40 N"]
+    )
+
+
 class DeviceSpec(StatedModel):
     """One device: a catalog entry, where it is mounted, and the exact hardware."""
 
@@ -278,6 +291,9 @@ class DeviceSpec(StatedModel):
         None,
         description="Load set in the arm, tool included.",
         examples=[{"mass": "0.93 kg", "center_of_mass": "0 0 58 mm"}],
+    )
+    grip: GripSpec | None = Field(
+        None, description="Speed and force of a gripper.", examples=[{"speed": "50 mm/s", "force": "40 N"}]
     )
     switching: SwitchingSpec | None = Field(
         None,

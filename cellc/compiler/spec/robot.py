@@ -52,8 +52,8 @@ class PayloadSpec(StatedModel):
     )
     part: Mass | None = Field(
         None,
-        description="Mass of what its tool holds while it is closed, at the tip of its group; "
-        "what `mass` has beyond the tool if absent.",
+        description="Mass of what its tool holds while it is closed, at the tip of its group; if absent the heaviest "
+        "`grasp` that its gripper takes, else what `mass` has beyond the tool.",
         examples=["0.1 kg"],
     )
     load: LoadSpec | None = Field(

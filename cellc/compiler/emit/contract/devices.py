@@ -114,7 +114,7 @@ def contract_gripper(cell: Cell, device: Device) -> ContractGripper | None:
         controller=next(controllers, None),
         open=gripper.open,
         closed=gripper.closed,
-        max_effort=gripper.max_force,
+        max_effort=gripper.max_force if gripper.grip_force is None else gripper.grip_force,
         max_velocity=None if gripper.max_velocity is None else rounded(gripper.max_velocity),
         goal_tolerance=gripper.goal_tolerance,
         stroke_m=gripper.stroke_m,

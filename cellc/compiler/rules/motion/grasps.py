@@ -63,6 +63,28 @@ def part_beyond_stroke(graph: CellGraph) -> Findings:
             yield found(graph, path, message, related=(Related("it closes here", span),))
 
 
+@rule(Severity.ERROR)
+def refused_grip(graph: CellGraph) -> Findings:
+    """Yield speeds and forces of a grip that the hardware of its gripper cannot be set to."""
+    for device in graph.cell.devices:
+        gripper, path = device.gripper, (*device.path, "grip")
+        if gripper is None:
+            if any(graph.cell.text(*path, key) for key in ("speed", "force")):
+                yield found(graph, path, f"`{device.name}` is no gripper, it has no `grip`")
+            continue
+        spans = (
+            ("speed", gripper.grip_speed_m_s, None, gripper.max_speed_m_s, "m/s"),
+            ("force", gripper.grip_force, gripper.min_force, gripper.max_force, "N"),
+        )
+        for key, stated, least, most, unit in spans:
+            if stated is not None and (stated == 0.0 or not (least or 0.0) <= stated <= most):
+                span = (
+                    f"above 0 and at most {most:.4g} {unit}" if least is None else f"{least:.4g} to {most:.4g} {unit}"
+                )
+                message = f"`{key}` of the grip of `{device.name}` must be {span}, got {graph.cell.text(*path, key)}"
+                yield found(graph, (*path, key), message)
+
+
 @rule(Severity.ERROR, assumes=("part-beyond-stroke",))
 def part_like_nothing(graph: CellGraph) -> Findings:
     """Yield tolerances with which fingers that hold a part are where they are without one."""
