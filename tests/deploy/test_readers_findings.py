@@ -79,7 +79,7 @@ def test_a_gripper_gets_its_first_goal_when_it_is_claimed() -> None:
     assert _in_order(_gates("ur5e_pick")["G7"], claim, "Keep all hands clear", "Open gripper by its first goal")
     hand = _gates("fr3_hand")["G7"]
     # fr3_hand states `grip: {force: 20 N}`; the goal of a GripperCommand carries it.
-    assert _in_order(hand, claim, "Open hand by its first goal", "at most 20 N", "max_effort: 20.0")
+    assert _in_order(hand, claim, "Open hand by its first goal", "position 0.04 m, max_effort 20 N")
 
 
 @pytest.mark.parametrize("cell", _WALKED)

@@ -95,28 +95,18 @@ def authorized_motion(graph: CellGraph) -> Iterator[Values]:
 
 
 def gripper_goals(graph: CellGraph) -> Iterator[Values]:
-    """Yield the goal that opens each gripper, with the least force that it can be set to, and its command."""
+    """Yield the goal that opens each gripper, with the least force that it can be set to where its action has one."""
     for device in graph.cell.devices:
         gripper = device.gripper
         for owner in graph.cell.controllers if gripper is not None else ():
             served = _served(owner)
             if gripper is None or served is None or gripper.joint not in owner.joints:
                 continue
-            least, position = (
-                gripper.grip_force if gripper.min_force is None else gripper.min_force,
-                decimal(gripper.open),
-            )
-            parallel = "Parallel" in served[1]
-            asked = f"name: [{gripper.joint}], position: [{position}]" if parallel else f"position: {position}"
-            carries = not parallel and least is not None
-            asked += f", max_effort: {decimal(least)}" if carries and least is not None else ""
-            said = (
-                f"at most {shortest(least or 0.0)} N"
-                if carries
-                else "the goal states no force, its driver uses its own"
-            )
-            command = f'ros2 action send_goal {shell_word(served[0])} {served[1]} "{{command: {{{asked}}}}}"'
-            yield device.name, f"{position} {'m' if device.joint(gripper.joint).slides else 'rad'}", said, command
+            least = gripper.grip_force if gripper.min_force is None else gripper.min_force
+            carries = least is not None and "Parallel" not in served[1]
+            said = f"max_effort {shortest(least or 0.0)} N" if carries else "no force, so that its driver uses its own"
+            unit = "m" if device.joint(gripper.joint).slides else "rad"
+            yield device.name, served[0], f"{decimal(gripper.open)} {unit}", said
 
 
 def _served(owner: Controller) -> tuple[str, str] | None:

@@ -341,7 +341,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "real_claim": (("where", "command"), lambda graph: released(graph, CLAIM, BringUpPhase.CLAIM)),
     "real_motion": (("where", "command", "slow"), authorized_motion),
     "sender": (("node",), senders),
-    "gripper_goal": (("device", "open", "force", "command"), gripper_goals),
+    "gripper_goal": (("device", "action", "open", "force"), gripper_goals),
     "real_action": (("action",), real_actions),
     "cancel": (("action", "seconds", "service"), cancels),
     "pulled": (("device", "does"), pulled),
