@@ -50,6 +50,7 @@ _NOT_OF_AN_ENTITY = frozenset(
 _IN_ORDER = frozenset({"joints", "pipelines", "positions", "steps"})
 """Fields in which the order says something; elsewhere the user may write things in any order."""
 
+_SORTED = json.JSONEncoder(sort_keys=True)
 _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
 _OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
 
@@ -110,8 +111,8 @@ def _as_first_taken(composed: Mapping[str, object], of: Device) -> dict[str, obj
 
 def _unordered(value: object) -> object:
     """Return a list in one order, unless it is one of numbers."""
-    if isinstance(value, list) and not all(isinstance(item, (int, float)) for item in value):
-        return sorted(value, key=lambda one: json.dumps(one, sort_keys=True))
+    if isinstance(value, list) and len(value) > 1 and not all(isinstance(item, (int, float)) for item in value):
+        return sorted(value, key=_SORTED.encode)
     return value
 
 

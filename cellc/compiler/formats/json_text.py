@@ -16,6 +16,7 @@ from cellc.compiler.formats.numbers import positive_zero
 from cellc.contract.diagnostics.unsafe_text import harmless_json
 
 _WIDTH = 120
+_PLAIN = json.JSONEncoder(ensure_ascii=False)
 
 Json = None | bool | int | float | str | Sequence["Json"] | Mapping[str, "Json"]
 
@@ -62,4 +63,4 @@ def _enclosed(start: str, entries: Sequence[str], end: str, before: int, depth: 
 
 
 def _scalar(value: Json) -> str:
-    return harmless_json(json.dumps(positive_zero(value) if isinstance(value, float) else value, ensure_ascii=False))
+    return harmless_json(_PLAIN.encode(positive_zero(value) if isinstance(value, float) else value))
