@@ -13,6 +13,7 @@ import numpy as np
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
 from cellc.contract.transforms import Pose, Vector3, climb
+from cellc.mock.control.interfaces import Array
 from cellc.mock.errors import MockError
 from cellc.mock.world.world import LinkTree, link_tree
 from cellc.robot.description.meshes import absent, without_shapes
@@ -276,11 +277,11 @@ class PlanMemory:
         return answer
 
 
-def _positions_at(motion: TimedTrajectory, at_ns: int) -> Iterator[tuple[str, float]]:
-    """Yield where the joints of a trajectory are, rad or m: on straight lines between its points, then at rest."""
-    times = [point.time_from_start_ns for point in motion.points]
-    for index, joint in enumerate(motion.joints):
-        yield joint, float(np.interp(at_ns, times, [point.positions[index] for point in motion.points]))
+def _ways(motion: TimedTrajectory) -> Iterator[tuple[str, Array, Array]]:
+    """Yield each joint of a trajectory with the times of its points, ns, and its positions there, rad or m."""
+    times = np.array([point.time_from_start_ns for point in motion.points], dtype=np.float64)
+    positions = np.array([point.positions for point in motion.points], dtype=np.float64)
+    yield from ((joint, times, positions[:, index]) for index, joint in enumerate(motion.joints))
 
 
 class MotionPlanner:
@@ -334,9 +335,11 @@ class MotionPlanner:
             positions: of all joints before they begin, rad or m.
         """
         standing = dict(self._independent(positions))
+        ways = [way for motion in motions for way in _ways(motion)]
         scene = build_scene(self._model, self._scene, ())
         for at_ns in range(0, max(motion.duration_ns for motion in motions) + _MEETING_NS, _MEETING_NS):
-            moved = {name: value for motion in motions for name, value in _positions_at(motion, at_ns)}
+            # On straight lines between the points, then at rest.
+            moved = {joint: float(np.interp(at_ns, times, values)) for joint, times, values in ways}
             if scene.collides(self._model.robot.configuration(standing | moved)):
                 return PlanFailure(
                     FailureReason.NO_PATH, f"groups that move together touch {at_ns / 1e9:g} s on their way"

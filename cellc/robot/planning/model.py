@@ -113,7 +113,7 @@ class RobotModel:
         vector: Array = np.array(pinocchio.neutral(self.kinematics), dtype=np.float64)
         for joint in positions:
             self.joint_of(joint)
-        chosen = {joint: positions.get(joint, self.rest_of(joint)) for joint in self.joints}
+        chosen = {joint: self.rest_of(joint) for joint in self.joints if joint not in positions} | dict(positions)
         for joint, value in chosen.items():
             self._set_position(vector, joint, value)
         for mimic in self.mimics:
