@@ -277,7 +277,7 @@ class PlanMemory:
         return answer
 
 
-def _ways(motion: TimedTrajectory) -> Iterator[tuple[str, Array, Array]]:
+def _tracks(motion: TimedTrajectory) -> Iterator[tuple[str, Array, Array]]:
     """Yield each joint of a trajectory with the times of its points, ns, and its positions there, rad or m."""
     times = np.array([point.time_from_start_ns for point in motion.points], dtype=np.float64)
     positions = np.array([point.positions for point in motion.points], dtype=np.float64)
@@ -335,11 +335,11 @@ class MotionPlanner:
             positions: of all joints before they begin, rad or m.
         """
         standing = dict(self._independent(positions))
-        ways = [way for motion in motions for way in _ways(motion)]
+        tracks = [track for motion in motions for track in _tracks(motion)]
         scene = build_scene(self._model, self._scene, ())
         for at_ns in range(0, max(motion.duration_ns for motion in motions) + _MEETING_NS, _MEETING_NS):
             # On straight lines between the points, then at rest.
-            moved = {joint: float(np.interp(at_ns, times, values)) for joint, times, values in ways}
+            moved = {joint: float(np.interp(at_ns, times, values)) for joint, times, values in tracks}
             if scene.collides(self._model.robot.configuration(standing | moved)):
                 return PlanFailure(
                     FailureReason.NO_PATH, f"groups that move together touch {at_ns / 1e9:g} s on their way"
