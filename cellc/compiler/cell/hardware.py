@@ -150,7 +150,7 @@ class HardwareComponent:
     gpios: tuple[InterfaceGroup, ...]
     kinds: Mapping[str, str]
     effects: Mapping[Moment, Effect] = field(default_factory=dict)
-    initial_state: str = "active"
+    initial_state: HardwareState = "active"
     direct_activation: bool = False
     enforce_command_limits: bool | None
     command_timeout_s: float | None = None
@@ -252,7 +252,7 @@ class DeviceControl(Part):
     hardware: HardwareComponent | None = None
     driver: DeviceDriver | None = None
     adapter: Annotated[Adapter | None, STATED] = None
-    initial_state: Annotated[str | None, STATED] = None
+    initial_state: Annotated[HardwareState | None, STATED] = None
     offers: Annotated[tuple[OfferedInterface, ...], ELSEWHERE] = ()
     starts: Annotated[Mapping[str, Effect], ELSEWHERE] = field(default_factory=dict)
     speed_scaling: Annotated[str | None, ELSEWHERE] = None
@@ -261,7 +261,7 @@ class DeviceControl(Part):
     controller_kinds: Annotated[tuple[str, ...], ELSEWHERE] = ()
 
     @property
-    def startup_state(self) -> str:
+    def startup_state(self) -> HardwareState:
         """Lifecycle state in which the controller manager starts its component, on every target."""
         if self.initial_state is not None or self.hardware is None:
             return self.initial_state or "active"

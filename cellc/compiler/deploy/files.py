@@ -26,6 +26,12 @@ REQUIRED_PROGRAM = "scripts/required"
 WATCH_PROGRAM = "scripts/claim_watch"
 """What takes claims from a robot that no longer follows set points."""
 
+OBSERVATION = "config/observe.json"
+"""What runs on each target: the ends of interfaces, states and nodes."""
+
+OBSERVE_PROGRAM, OBSERVE_CHECKS = "scripts/observe", "scripts/observe_checks.py"
+"""What compares that with the running graph, and its comparisons."""
+
 RECORDING = "config/recording_qos.yaml"
 """QoS with which an attempt is recorded."""
 

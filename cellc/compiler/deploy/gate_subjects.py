@@ -9,7 +9,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.drills import claimed, drills, interlocks, pulled
-from cellc.compiler.deploy.ends import ends_on_real, is_late, silent
+from cellc.compiler.deploy.ends import ends_on, is_late, silent
 from cellc.compiler.deploy.files import is_servo
 from cellc.compiler.deploy.gate_loads import loaded_devices, tool_centers, tool_connectors
 from cellc.compiler.deploy.gate_motion import (
@@ -245,9 +245,12 @@ def _reached_devices(graph: CellGraph) -> Iterator[Values]:
 
 def _interfaces(graph: CellGraph) -> Iterator[Values]:
     for interface in _on_real(graph):
-        starts, ends = ends_on_real(graph, interface)
-        command = endpoint_command(graph.cell, interface.kind, interface.name)
-        yield interface.name, ", ".join(starts) or "none", ", ".join(ends) or "none", command
+        starts, ends = (_nodes(side) for side in ends_on(graph, interface, "real"))
+        yield interface.name, starts, ends, endpoint_command(graph.cell, interface.kind, interface.name)
+
+
+def _nodes(side: Mapping[str, str]) -> str:
+    return ", ".join(f"{node} (from {gate} on)" if gate else node for node, gate in side.items()) or "none"
 
 
 def _streams(graph: CellGraph, *, late: bool) -> Iterator[Values]:

@@ -45,6 +45,11 @@ def first_goal_enclave(cell: Cell) -> str:
     return f"/{cell.name}/first_goal"
 
 
+def observe_enclave(cell: Cell) -> str:
+    """Return the enclave of the program that compares the graph with the package, and only looks."""
+    return f"/{cell.name}/observe"
+
+
 def enclaves(cell: Cell) -> Iterator[tuple[str, YamlPath]]:
     """Yield the enclaves, each with the place in the spec that names it."""
     for node in cell.nodes:
@@ -54,5 +59,5 @@ def enclaves(cell: Cell) -> Iterator[tuple[str, YamlPath]]:
         yield manager_enclave(cell, manager), manager.path
         yield spawner_enclave(cell, manager), manager.path
     typed = (people_enclave(cell), commissioning_enclave(cell))
-    for path in (*typed, bring_up_enclave(cell), first_goal_enclave(cell)):
+    for path in (*typed, bring_up_enclave(cell), first_goal_enclave(cell), observe_enclave(cell)):
         yield path, ("cell",)

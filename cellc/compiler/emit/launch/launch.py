@@ -49,7 +49,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     yield _file(plan.header, _CELL, _by_host(cell, plan.hosts) if plan.hosts else _whole(cell, plan))
     for host in plan.hosts:
         yield _file(plan.header, _host_file(host), [*_arguments(cell), *_gate(START), *stages(cell, plan, host)])
-    yield from programs_and_plan(cell, plan)
+    yield from programs_and_plan(graph, plan)
     released = phases(plan.bring_up, "real")
     for release, phase in ((ACTIVATE, BringUpPhase.ACTIVATE), (CLAIM, BringUpPhase.CLAIM)):
         if phase in released:

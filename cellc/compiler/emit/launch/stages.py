@@ -17,8 +17,9 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import Node, NodeSource
 from cellc.compiler.deploy.bringup import phases
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.files import BRING_UP
+from cellc.compiler.deploy.files import BRING_UP, OBSERVATION, OBSERVE_CHECKS
 from cellc.compiler.deploy.first_goal import programs
+from cellc.compiler.deploy.observation import observation
 from cellc.compiler.deploy.processes import started_by_a_person
 from cellc.compiler.emit.launch.processes import (
     TARGET,
@@ -36,6 +37,7 @@ from cellc.compiler.emit.launch.processes import (
 from cellc.compiler.formats.json_text import render
 from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.formats.xml_text import comment, element
+from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.contract.bring_up import CLAIM_WATCH
@@ -152,10 +154,20 @@ def _here(host: str | None, of: str) -> bool:
     return host is None or host == of
 
 
-def programs_and_plan(cell: Cell, plan: Deployment) -> Iterator[Artifact]:
-    """Yield the programs of the package, and the steps that the bring-up takes."""
+def programs_and_plan(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
+    """Yield the programs of the package, the steps that the bring-up takes, and what an observer compares."""
     yield Artifact(BRING_UP, render(plan.bring_up))
-    for path in programs(cell):
-        source = own_text(Path(__file__).with_name(f"{path.rpartition('/')[2]}_program.py"))
-        first, _, rest = source.partition("\n")
+    yield Artifact(OBSERVATION, render(observation(graph, plan.bring_up)))
+    for path in programs(graph.cell):
+        source = own_text(_source_of(path))
+        first, _, rest = source.replace(_CHECKS, Path(OBSERVE_CHECKS).stem).partition("\n")
         yield Artifact(path, f"{first}\n{plan.header.commented('#')}{rest}", executable=True)
+
+
+_CHECKS = "cellc.compiler.emit.launch.observe_checks"
+"""In the package it is beside the program that imports it."""
+
+
+def _source_of(path: str) -> Path:
+    name = path.rpartition("/")[2]
+    return Path(__file__).with_name(name if name.endswith(".py") else f"{name}_program.py")

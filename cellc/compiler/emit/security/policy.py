@@ -30,6 +30,7 @@ from cellc.compiler.emit.security.rights import (
     manager_client,
     manager_process,
     node_profiles,
+    observer,
     people,
     rights_of_kinds,
     sender,
@@ -42,6 +43,7 @@ from cellc.compiler.graph.enclaves import (
     enclave_of,
     first_goal_enclave,
     manager_enclave,
+    observe_enclave,
     people_enclave,
     spawner_enclave,
 )
@@ -92,6 +94,7 @@ def _enclaves(cell: Cell, plan: BringUp) -> Iterator[tuple[str, tuple[Profile, .
     yield bring_up_enclave(cell), tuple(bring_up_process(cell, plan))
     if senders := tuple(sender(cell, f"/{NODE}", goal.action, goal.topic) for goal in first_goals(cell)):
         yield first_goal_enclave(cell), senders
+    yield observe_enclave(cell), (observer(cell),)
     yield people_enclave(cell), tuple(people(cell))
     yield commissioning_enclave(cell), tuple(people(cell, Kind.COMMISSIONING))
 

@@ -65,6 +65,7 @@ class Kind(str, Enum):
     CONTROLLER = "controller"
     HARDWARE_COMPONENT = "hardware_component"
     BRING_UP = "bring_up"
+    OBSERVER = "observer"
     PEOPLE = "people"
     RECORDER = "recorder"
     RVIZ = "rviz"
@@ -86,7 +87,8 @@ class Profile:
 
 def rights_of_kinds(cell: Cell, plan: BringUp) -> dict[Kind, Rights]:
     """Return the rights that each kind gives."""
-    node, looking = _rights(cell.implied.node), _of_people(cell)
+    node, looking = _rights(cell.implied.node), _of_observer(cell)
+    moving = tuple(f"{node.full_name}/change_state" for node in motion_clients(cell) if node.lifecycle)
     return {
         Kind.NODE: node,
         Kind.NODE_WITHOUT_PARAMETERS: node._replace(reply=()),
@@ -97,7 +99,8 @@ def rights_of_kinds(cell: Cell, plan: BringUp) -> dict[Kind, Rights]:
         ),
         Kind.HARDWARE_COMPONENT: _rights(cell.implied.component),
         Kind.BRING_UP: _of_bring_up(cell, plan),
-        Kind.PEOPLE: looking,
+        Kind.OBSERVER: looking,
+        Kind.PEOPLE: Rights(request=moving),
         Kind.RECORDER: _of_recorder(cell, looking),
         Kind.RVIZ: _of_rviz(cell),
         Kind.COMMISSIONING: _of_commissioning(cell),
@@ -277,26 +280,28 @@ def people(cell: Cell, *more: Kind) -> Iterator[Profile]:
     """
     for name in _TYPED:
         recorder = (Kind.RECORDER,) if name == _RECORDER else ()
-        yield _profile(cell, f"/{name}", Kind.NODE, Kind.PEOPLE, *recorder, *more)
+        yield _profile(cell, f"/{name}", Kind.NODE, Kind.OBSERVER, Kind.PEOPLE, *recorder, *more)
     for name in _RVIZ if plans(cell) else _RVIZ[:1]:
-        yield _profile(cell, f"/{name}", Kind.NODE, Kind.PEOPLE, Kind.RVIZ, *more)
+        yield _profile(cell, f"/{name}", Kind.NODE, Kind.OBSERVER, Kind.PEOPLE, Kind.RVIZ, *more)
 
 
-def _of_people(cell: Cell) -> Rights:
-    """Return the rights to read everything, and to activate the managed nodes that move.
+def observer(cell: Cell) -> Profile:
+    """Return the rights of the program that compares the graph with the package: it asks for parameters besides."""
+    read = tuple(f"{node.full_name}/get_parameters" for node in cell.nodes)
+    read += tuple(f"{controller.full_name}/get_parameters" for controller in cell.controllers)
+    return Profile("/observe", (Kind.NODE_WITHOUT_PARAMETERS, Kind.OBSERVER), Rights(request=read))
 
-    A shell may not publish, call an action or switch a controller.
-    """
+
+def _of_observer(cell: Cell) -> Rights:
+    """Return the rights to read everything: without any to publish, call an action or switch a controller."""
     topics = (interface.name for interface in cell.interfaces if interface.kind is InterfaceKind.TOPIC)
     actions = (interface.name for interface in cell.interfaces if interface.kind is InterfaceKind.ACTION)
     hidden = (f"{name}/_action/{part}" for name in actions for part in ("feedback", "status"))
     managers = (f"{manager.node}/{name}" for manager in cell.managers for name in _LISTED)
     managed = (f"{node.full_name}/{text}" for node in cell.nodes if node.lifecycle for text in _LOOKED_AT)
-    moving = (f"{node.full_name}/change_state" for node in motion_clients(cell) if node.lifecycle)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
     return Rights(
-        subscribe=(*topics, *hidden, "/rosout", "/tf", "/tf_static"),
-        request=(*managers, *managed, *moving, *described),
+        subscribe=(*topics, *hidden, "/rosout", "/tf", "/tf_static"), request=(*managers, *managed, *described)
     )
 
 

@@ -1,0 +1,82 @@
+"""What runs on each target once the cell is launched, before a person releases a claim: what an observer compares."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import ControllerManager
+from cellc.compiler.deploy.ends import ends_on
+from cellc.compiler.deploy.readiness import components_of
+from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.enclaves import observe_enclave
+from cellc.contract.bring_up import CLAIM_WATCH, BringUp, ControllerProof, HardwareProof, LifecycleProof, ManagedState
+from cellc.contract.entities import HardwareState, Target
+from cellc.contract.observation import Observation, ObservedEnds, ObservedManager, ObservedTarget
+from cellc.contract.vocabulary import BringUpPhase, Feature, features
+
+
+def observation(graph: CellGraph, plan: BringUp) -> Observation:
+    """Return what runs on both targets."""
+    targets = {target: _on(graph, plan, target) for target in ("mock", "real")}
+    return Observation(enclave=observe_enclave(graph.cell), **targets)
+
+
+def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
+    cell = graph.cell
+    taken = [step for step in plan.steps(target) if target == "mock" or step.phase is BringUpPhase.START]
+    shown = [proof for step in taken for proof in step.effect]
+    lifecycle: dict[str, ManagedState] = {node.full_name: "inactive" for node in cell.nodes if node.lifecycle}
+    lifecycle |= {proof.node: proof.state for proof in shown if isinstance(proof, LifecycleProof)}
+    ends = {each.name: ends_on(graph, each, target) for each in cell.interfaces if target in each.targets}
+    return ObservedTarget(
+        nodes=tuple(sorted(set(_nodes(cell, plan, target)))),
+        inside={
+            node.full_name: tuple(inner.full_name for inner in node.inside)
+            for node in cell.nodes
+            if node.inside and (target == "real" or not node.real_only)
+        },
+        ends={name: ObservedEnds(sources=dict(sides[0]), sinks=dict(sides[1])) for name, sides in ends.items()},
+        states={
+            manager.node: ObservedManager(
+                hardware=dict(_components(cell, manager, target))
+                | {
+                    each.component: each.state
+                    for each in shown
+                    if isinstance(each, HardwareProof) and each.manager == manager.node
+                },
+                controllers={each.name: "inactive" for each in manager.controllers if target in each.targets}
+                | {
+                    each.controller: each.state
+                    for each in shown
+                    if isinstance(each, ControllerProof) and each.manager == manager.node
+                },
+            )
+            for manager in cell.managers
+        },
+        lifecycle=lifecycle,
+    )
+
+
+def _components(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[tuple[str, HardwareState]]:
+    for device in components_of(cell, manager, target):
+        if device.control.hardware is not None:
+            yield device.control.hardware.name, device.control.startup_state
+
+
+def _nodes(cell: Cell, plan: BringUp, target: Target) -> Iterator[str]:
+    """Yield the full name of every node on a target."""
+    for node in cell.nodes:
+        if target == "real" or not node.real_only:
+            yield node.full_name
+    for manager in cell.managers:
+        yield from (controller.full_name for controller in manager.controllers if target in controller.targets)
+        for device in components_of(cell, manager, target):
+            if device.control.hardware is None:
+                continue
+            bare = [node.full_name.rpartition("/")[2] for node in device.control.hardware.nodes]
+            if Feature.HARDWARE_NODES in features(cell.distro):
+                bare.append(device.control.hardware.name.lower().replace("/", "_"))
+            yield from (f"{manager.namespace}/{name}" for name in bare)
+    if plan.watches and target == "real":
+        yield CLAIM_WATCH

@@ -1,0 +1,398 @@
+#!/usr/bin/env python3
+"""Compares what ``observe`` saw of a running graph with what the package states; it imports nothing of ROS."""
+
+from __future__ import annotations
+
+import math
+import re
+from array import array
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fnmatch import fnmatchcase
+from itertools import pairwise
+from typing import Any
+from xml.etree.ElementTree import Element
+
+PASSED, FAILED, UNKNOWN = "PASSED", "FAILED", "UNKNOWN"
+# Programs that people start beside a cell, and nodes that libraries add: they serve and command nothing of a cell.
+BESIDE = re.compile(
+    r".*/(_.*|observe|bring_up\w*|rosbag2_\w+|tf2_\w+|transform_listener_impl_\w+|launch_ros_\d+|rviz\w*)"
+)
+SLOW = 0.9  # a stream may have this share of its rate, and no less
+FUTURE_S = 0.001  # a stamp may be this far in the future: clocks of two computers differ
+STANDING = 0.002  # rad or m: noise of a joint that stands
+FIXED_M, FIXED_RAD = 1e-4, math.radians(0.01)  # by this much a fixed transform may differ: both are rounded
+CLAIMED_FROM = "G7"  # gates before it claim nothing and move nothing
+SHOWN = 4  # problems that a line names; it counts the others
+SIDES = {"topic": ("publishers", "subscribers"), "service": ("server", "clients"), "action": ("server", "clients")}
+OFFERED = {("best_effort", "reliable"), ("volatile", "transient_local")}  # what is offered, for which more is requested
+VALUES = {1: "bool_value", 2: "integer_value", 3: "double_value", 4: "string_value", 5: "byte_array_value"}
+VALUES |= {6: "bool_array_value", 7: "integer_array_value", 8: "double_array_value", 9: "string_array_value"}
+NOT_SET = 0  # rcl_interfaces/msg/ParameterType
+
+
+@dataclass(frozen=True)
+class Line:
+    """One comparison."""
+
+    part: str
+    subject: str
+    verdict: str
+    expected: str
+    seen: str
+
+
+@dataclass(frozen=True)
+class End:
+    """A publisher, subscriber, server or client; the QoS of topics alone is seen."""
+
+    node: str
+    type: str = ""
+    reliability: str = ""
+    durability: str = ""
+
+
+Ends = tuple[Sequence[End], Sequence[End]]
+
+
+@dataclass
+class Stream:
+    """What arrived on one topic.
+
+    Attributes:
+        arrivals: one entry a message, s of a clock that is never set.
+        ages: at arrival on this computer's clock, s, where messages have stamps.
+        joints: lowest and highest position of each joint, rad or m.
+    """
+
+    arrivals: array[float] = field(default_factory=lambda: array("d"))
+    ages: array[float] = field(default_factory=lambda: array("d"))
+    frames: set[str] = field(default_factory=set)
+    joints: dict[str, tuple[float, float]] = field(default_factory=dict)
+    newest_s: float = 0.0
+    backward: int = 0
+    not_finite: int = 0
+
+    def take(self, arrived_s: float, now_s: float, stamp: tuple[float, str] | None) -> None:
+        """Note a message; `stamp` has the seconds and the frame of its header."""
+        self.arrivals.append(arrived_s)
+        if stamp is not None:
+            self.ages.append(now_s - stamp[0])
+            self.frames.add(stamp[1])
+            self.backward += stamp[0] < self.newest_s
+            self.newest_s = max(self.newest_s, stamp[0])
+
+    def take_joints(self, names: Iterable[str], positions: Iterable[float]) -> None:
+        """Note the positions of joints."""
+        for name, position in zip(names, positions, strict=False):
+            self.not_finite += not math.isfinite(position)
+            low, high = self.joints.get(name, (position, position))
+            self.joints[name] = min(low, position), max(high, position)
+
+
+@dataclass
+class Seen:
+    """A graph as it was seen.
+
+    Attributes:
+        ends: of each interface, publishers or servers, and subscribers or clients.
+        answers: of each service that was asked; None where it gave none.
+        uninstalled: types of interfaces that are not installed here.
+        moving: parents of each child on ``/tf``.
+        fixed: parent, position and quaternion of each child on ``/tf_static``.
+    """
+
+    nodes: list[str] = field(default_factory=list)
+    ends: dict[str, Ends] = field(default_factory=dict)
+    answers: dict[str, Any] = field(default_factory=dict)
+    uninstalled: set[str] = field(default_factory=set)
+    streams: dict[str, Stream] = field(default_factory=dict)
+    moving: dict[str, set[str]] = field(default_factory=dict)
+    fixed: dict[str, set[tuple[str, tuple[float, ...], tuple[float, ...]]]] = field(default_factory=dict)
+    listened_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class Package:
+    """What the package states for one target.
+
+    Attributes:
+        contract: ``contract.json``.
+        plan: ``config/observe.json``, of the target.
+        description: the robot of the URDF.
+        parameters: of each node, by its full name, as its file has them.
+    """
+
+    contract: Any
+    plan: Any
+    description: Element
+    parameters: Mapping[str, Mapping[str, Any]]
+
+
+def comparisons(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Yield every comparison at a gate."""
+    for part in (nodes, endpoints, streams, joints, transforms, control, lifecycle, parameters, description):
+        yield from part(package, seen, gate)
+
+
+def judged(part: str, subject: str, expected: str, problems: Sequence[str], seen: str = "") -> Line:
+    """Return a line that fails on any problem."""
+    if not problems:
+        return Line(part, subject, PASSED, expected, seen or expected)
+    more = [f"and {len(problems) - SHOWN} more"] if len(problems) > SHOWN else []
+    return Line(part, subject, FAILED, expected, "; ".join([*problems[:SHOWN], *more]))
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names in their order, as people read them."""
+    return ", ".join(sorted(names)) or "none"
+
+
+def nodes(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare which nodes run: one of a name, and none that the package does not start."""
+    several = [f"{node} runs {number} times" for node, number in Counter(seen.nodes).items() if number > 1]
+    yield judged("graph", "node names", "each once", several)
+    known = set(package.plan["nodes"])
+    other = {node for node in seen.nodes if owner(node, package.plan) not in known and not BESIDE.fullmatch(node)}
+    yield Line("graph", "nodes beside the package", UNKNOWN if other else PASSED, "none", listed(other))
+
+
+def owner(node: str, plan: Any) -> str:
+    """Return the node in whose process a library made a node; else the node itself."""
+    owners = (each for each, patterns in plan["inside"].items() if any(fnmatchcase(node, text) for text in patterns))
+    return node if node in plan["nodes"] else next(owners, node)
+
+
+def endpoints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare who is at each interface: nodes, types, QoS, and whether both sides match."""
+    for name, sides in package.plan["ends"].items():
+        interface = package.contract["interfaces"][name]
+        found = [
+            [replace(end, node=owner(end.node, package.plan)) for end in ends] for ends in seen.ends.get(name, ((), ()))
+        ]
+        for side, words, ends in zip(("sources", "sinks"), SIDES[interface["kind"]], found, strict=True):
+            wanted, there = sides[side], {end.node for end in ends if not BESIDE.fullmatch(end.node)}
+            needed = {node for node, since in wanted.items() if since <= gate}
+            problems = [f"{node} is missing" for node in sorted(needed - there)]
+            problems += [f"{node} is not declared" for node in sorted(there - wanted.keys())]
+            problems += [problem for end in ends if end.node in wanted for problem in _other_kind(interface, side, end)]
+            yield judged("graph", f"{name}, {words}", listed(needed), problems, listed(there))
+        unmatched = [problem for writer in found[0] for reader in found[1] for problem in _unmatched(writer, reader)]
+        if unmatched:
+            yield judged("graph", f"{name}, QoS", "publishers offer what subscribers request", unmatched)
+
+
+def _other_kind(interface: Any, side: str, end: End) -> Iterator[str]:
+    if end.type and end.type != interface["type"]:
+        yield f"{end.node} has type {end.type}, expected {interface['type']}"
+    stated = next((each["qos"] for each in interface.get(side, ()) if each["full_name"] == end.node), None)
+    for policy, found in (("reliability", end.reliability), ("durability", end.durability)):
+        if stated is not None and found and found != stated[policy]:
+            yield f"{end.node} has {policy} {found}, expected {stated[policy]}"
+
+
+def _unmatched(writer: End, reader: End) -> Iterator[str]:
+    for offered, requested in ((writer.reliability, reader.reliability), (writer.durability, reader.durability)):
+        if (offered, requested) in OFFERED:
+            yield f"{writer.node} offers {offered}, {reader.node} requests {requested}"
+
+
+def streams(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare rate, age, order and frame of each topic with a rate."""
+    for name, interface in package.contract["interfaces"].items():
+        sources = package.plan["ends"].get(name, {"sources": {}})["sources"]
+        if interface.get("rate_hz") is None or not any(since <= gate for since in sources.values()):
+            continue
+        bound, wanted = interface.get("max_age_s"), interface["rate_hz"]
+        expected = f"{wanted:g} Hz" + ("" if bound is None else f", at most {bound:g} s old")
+        if interface["type"] in seen.uninstalled:
+            yield Line("flow", name, UNKNOWN, expected, f"{interface['type']} is not installed here")
+            continue
+        stream = seen.streams.get(name, Stream())
+        rate = len(stream.arrivals) / seen.listened_s if seen.listened_s else 0.0
+        oldest, early = max(stream.ages, default=0.0), sum(age < -FUTURE_S for age in stream.ages)
+        problems = [] if rate >= SLOW * wanted else [f"{rate:.4g} Hz"]
+        problems += [f"{oldest:.4g} s old"] if bound is not None and oldest > bound else []
+        problems += [f"{early} stamps in the future"] if early else []
+        problems += [f"{stream.backward} stamps before an earlier one"] if stream.backward else []
+        frame = interface.get("frame") or ""
+        problems += [f"frame {each}, expected {frame}" for each in sorted(stream.frames - {frame}) if frame]
+        yield judged("flow", name, expected, problems, f"{rate:.4g} Hz, {gaps(stream)}, at most {oldest:.4g} s old")
+
+
+def gaps(stream: Stream) -> str:
+    """Return the middle, the 99th percentile and the longest of the times between messages."""
+    ordered = sorted(later - earlier for earlier, later in pairwise(stream.arrivals))
+    if not ordered:
+        return "no gap"
+    places = ((len(ordered) // 2, "p50"), (min(len(ordered) - 1, len(ordered) * 99 // 100), "p99"), (-1, "longest"))
+    return "gaps " + ", ".join(f"{ordered[place] * 1e3:.4g} ms {name}" for place, name in places)
+
+
+def joints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare joint states: complete, finite, within limits, and standing where nothing is claimed."""
+    found = {name: ends for stream in seen.streams.values() for name, ends in stream.joints.items()}
+    controllers = (
+        each for manager in package.contract["managers"].values() for each in manager["controllers"].values()
+    )
+    wanted = {joint for each in controllers for joint in each["joints"]}
+    problems = [f"{joint} is missing" for joint in sorted(wanted - found.keys())]
+    problems += ["a position is no number"] if any(stream.not_finite for stream in seen.streams.values()) else []
+    for joint, limits in package.contract["joint_limits"].items():
+        low, high = found.get(joint, (0.0, 0.0))
+        if joint in found and (low < limits.get("lower", -math.inf) or high > limits.get("upper", math.inf)):
+            problems.append(f"{joint} is beyond its limits, at {low:.4f} to {high:.4f}")
+    yield judged("flow", "joint states", f"{len(wanted)} joints within their limits", problems, f"{len(found)} joints")
+    if gate < CLAIMED_FROM:
+        moved = [f"{joint} moved by {high - low:.4f}" for joint, (low, high) in found.items() if high - low > STANDING]
+        line = judged("flow", "motion", "every joint stands", moved)
+        yield line if found else Line("flow", "motion", UNKNOWN, "every joint stands", "no joint states")
+
+
+def transforms(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare transforms with the description: each child is published once, below its parent, at its place."""
+    missing, other = (
+        [],
+        [f"{child} is on /tf and on /tf_static" for child in sorted(seen.moving.keys() & seen.fixed.keys())],
+    )
+    for joint in package.description.iterfind("joint"):
+        parent, child = (_attribute(joint.find(end), "link", "") for end in ("parent", "child"))
+        fixed = joint.get("type") == "fixed"
+        if child not in (seen.fixed if fixed else seen.moving):
+            missing.append(f"{child} is missing")
+        if not fixed:
+            parents = seen.moving.get(child, set()) - {parent}
+            other += [f"{child} is below {each}, expected {parent}" for each in sorted(parents)]
+            continue
+        found = seen.fixed.get(child, set())
+        other += [f"{child} has {len(found)} different transforms"] if len(found) > 1 else []
+        other += [problem for each in sorted(found) if (problem := _misplaced(joint, parent, child, each))]
+    yield judged("tf", "frames of the description", "all are published", missing)
+    yield judged("tf", "parents and fixed transforms", "as in the description", other)
+
+
+def _misplaced(joint: Element, parent: str, child: str, found: tuple[str, Sequence[float], Sequence[float]]) -> str:
+    if found[0] != parent:
+        return f"{child} is below {found[0]}, expected {parent}"
+    xyz, rpy = (
+        [float(text) for text in _attribute(joint.find("origin"), name, "0 0 0").split()] for name in ("xyz", "rpy")
+    )
+    away = math.dist(xyz, found[1])
+    turned = 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(quaternion(rpy), found[2], strict=True)))))
+    if away <= FIXED_M and turned <= FIXED_RAD:
+        return ""
+    return f"{child} is {away * 1e3:.2f} mm and {math.degrees(turned):.2f} deg from its place"
+
+
+def _attribute(element: Element | None, name: str, fallback: str) -> str:
+    return fallback if element is None else element.get(name, fallback)
+
+
+def quaternion(rpy: Sequence[float]) -> tuple[float, float, float, float]:
+    """Return x, y, z, w of rotations about the fixed axes x, y and z, rad, as URDF has them."""
+    (sr, cr), (sp, cp), (sy, cy) = ((math.sin(angle / 2.0), math.cos(angle / 2.0)) for angle in rpy)
+    x, y = sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy
+    return x, y, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy
+
+
+def control(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare hardware components and controllers: states, types and claims."""
+    for manager in package.contract["managers"].values():
+        node = f"{manager['namespace'].rstrip('/')}/controller_manager"
+        states, declared = package.plan["states"][node], manager["controllers"]
+        hardware = seen.answers.get(f"{node}/list_hardware_components")
+        expected = listed(f"{name} {state}" for name, state in states["hardware"].items())
+        if hardware is None:
+            yield Line("control", f"{node}, hardware", UNKNOWN, expected, "no answer")
+        elif gate < CLAIMED_FROM:
+            found = {each.name: each.state.label for each in hardware.component}
+            yield judged("control", f"{node}, hardware", expected, differences(states["hardware"], found))
+        answer = seen.answers.get(f"{node}/list_controllers")
+        wanted = states["controllers"]
+        if gate >= CLAIMED_FROM:
+            wanted = {name: "active" if declared[name]["active"] else state for name, state in wanted.items()}
+        expected = listed(f"{name} {state}" for name, state in wanted.items())
+        if answer is None:
+            yield Line("control", f"{node}, controllers", UNKNOWN, expected, "no answer")
+            continue
+        problems = differences(wanted, {each.name: each.state for each in answer.controller})
+        for each in answer.controller:
+            problems += _claims(each, declared[each.name]) if each.name in declared else []
+        yield judged("control", f"{node}, controllers", expected, problems)
+
+
+def _claims(found: Any, declared: Any) -> Iterator[str]:
+    if found.type != declared["plugin"]:
+        yield f"{found.name} is a {found.type}, expected {declared['plugin']}"
+    claims = set(declared["command_interfaces"]) if found.state == "active" else set()
+    if set(found.claimed_interfaces) != claims:
+        yield f"{found.name} claims {listed(found.claimed_interfaces)}, expected {listed(claims)}"
+
+
+def differences(wanted: Mapping[str, str], found: Mapping[str, str]) -> list[str]:
+    """Return what is missing, not declared or in another state."""
+    missing = [f"{name} is missing" for name in wanted if name not in found]
+    more = [f"{name} is not declared" for name in found if name not in wanted]
+    other = [
+        f"{name} is {found[name]}, expected {state}"
+        for name, state in wanted.items()
+        if found.get(name, state) != state
+    ]
+    return missing + more + other
+
+
+def lifecycle(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare the states of managed nodes."""
+    for node, state in package.plan["lifecycle"].items():
+        answer = seen.answers.get(f"{node}/get_state")
+        found = "no answer" if answer is None else answer.current_state.label
+        verdict = UNKNOWN if answer is None else PASSED if found == state else FAILED
+        yield Line("control", f"{node}, lifecycle", verdict, state, found)
+
+
+def parameters(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare the parameters of each running node with its file."""
+    for node, written in package.parameters.items():
+        if node not in seen.nodes:
+            continue
+        answer, expected = seen.answers.get(f"{node}/get_parameters"), f"{len(written)} values of its file"
+        if answer is None:
+            yield Line("parameters", node, UNKNOWN, expected, "no answer")
+            continue
+        values = [getattr(each, VALUES[each.type]) if each.type != NOT_SET else None for each in answer.values]
+        pairs = zip(written.items(), values, strict=False)
+        problems = [
+            f"{name} is {value}, expected {stated}" for (name, stated), value in pairs if not same(stated, value)
+        ]
+        yield judged("parameters", node, expected, problems)
+
+
+def same(written: Any, found: Any) -> bool:
+    """Return whether a value is the written one: numbers by their size, lists by their entries, no number unset."""
+    if isinstance(written, (list, tuple)):
+        return found is not None and len(written) == len(found) and all(map(same, written, found))
+    if isinstance(written, (int, float)) and isinstance(found, (int, float)):
+        return math.isclose(written, found, rel_tol=1e-9)
+    return bool(written == found)
+
+
+def description(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
+    """Compare the description that runs with that of the package, but for elements that a launch fills in."""
+    running, written = seen.answers.get("robot_description"), Counter(_below(package.description, ""))
+    if running is None:
+        yield Line("parameters", "robot_description", UNKNOWN, "that of the package", "no description was published")
+        return
+    filled = {place for place, text in written if "$(" in text}
+    differing = (written - (found := Counter(_below(running, ""))), "without"), (found - written, "with")
+    problems = [f"{word} {place} {text}" for more, word in differing for place, text in more if place not in filled]
+    yield judged("parameters", "robot_description", "that of the package", problems)
+
+
+def _below(element: Element, above: str) -> Iterator[tuple[str, str]]:
+    """Yield each element with its attributes and text, but for the file of a mesh, which a launch resolves."""
+    place = f"{above}/{element.tag}" + (f"[{element.get('name')}]" if element.get("name") else "")
+    attributes = [f"{name}={text}" for name, text in sorted(element.attrib.items()) if name != "filename"]
+    yield place, " ".join([*attributes, (element.text or "").strip()])
+    for child in element:
+        yield from _below(child, place)

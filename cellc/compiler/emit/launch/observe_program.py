@@ -1,0 +1,312 @@
+#!/usr/bin/env python3
+"""Compares the running graph with this package, and only looks: it publishes, sets, commands and starts nothing.
+
+    observe --package FOLDER [--gate G3|G4|G7] [--target real|mock] [--for SECONDS] [--evidence FOLDER]
+
+It reads the ends of every interface, listens to every topic with a rate and to the transforms, and asks controller
+managers, managed nodes and parameters, by four services that change nothing. Each line is PASSED, FAILED or UNKNOWN,
+with what is expected and what is seen. Nodes that a later gate starts need not run. Ctrl-C ends the listening; what
+was seen until then is compared. Exit status: 0 all passed, 1 a line failed or is unknown, 2 usage.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import struct
+import sys
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict
+from functools import partial
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from cellc.compiler.emit.launch.observe_checks import (
+    FAILED,
+    PASSED,
+    End,
+    Ends,
+    Line,
+    Package,
+    Seen,
+    Stream,
+    comparisons,
+)
+
+# The only services that are asked: none changes anything.
+READS = {
+    "list_controllers": "controller_manager_msgs/srv/ListControllers",
+    "list_hardware_components": "controller_manager_msgs/srv/ListHardwareComponents",
+    "get_state": "lifecycle_msgs/srv/GetState",
+    "get_parameters": "rcl_interfaces/srv/GetParameters",
+}
+DISCOVERY_S, ANSWER_S = 3.0, 3.0
+TRANSFORMS, DESCRIPTION = "tf2_msgs/msg/TFMessage", "std_msgs/msg/String"
+EACH = 10  # of joint states one in so many is read whole; of the others the stamp
+
+
+def stamp_of(data: bytes) -> tuple[float, str]:
+    """Return stamp, s, and frame of a serialized message that begins with a header: CDR, as DDS sends it."""
+    order = "<" if data[1] & 1 else ">"
+    seconds, nanoseconds, length = struct.unpack_from(f"{order}iII", data, 4)
+    return seconds + nanoseconds / 1e9, data[16 : 16 + max(0, length - 1)].decode("utf-8", "replace")
+
+
+def loaded(kind: str) -> Any:
+    """Return the class of an interface type such as ``std_msgs/msg/Bool``; None where it is not installed."""
+    package, part, name = kind.split("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{part}"), name)
+    except (ImportError, AttributeError):
+        return None
+
+
+def deserialized(data: bytes, kind: Any) -> Any:
+    from rclpy.serialization import deserialize_message
+
+    return deserialize_message(data, kind)
+
+
+class Graph:
+    """One node that looks."""
+
+    def __init__(self, enclave: str) -> None:
+        import rclpy
+
+        rclpy.init(args=["--ros-args", "--enclave", enclave])
+        self._rclpy = rclpy
+        self._node = rclpy.create_node("observe", start_parameter_services=False, enable_rosout=False)
+
+    def close(self) -> None:
+        self._node.destroy_node()
+        self._rclpy.try_shutdown()
+
+    def wait(self, until_s: float) -> None:
+        """Handle messages until an instant of the monotonic clock."""
+        while (left := until_s - time.monotonic()) > 0:
+            self._rclpy.spin_once(self._node, timeout_sec=min(left, 0.5))
+
+    def nodes(self) -> list[str]:
+        """Return the full name of every node, as often as it runs."""
+        return [f"{home.rstrip('/')}/{name}" for name, home in self._node.get_node_names_and_namespaces()]
+
+    def ends(self, name: str, kind: str) -> Ends:
+        """Return who publishes or serves an interface, and who subscribes or calls."""
+        if kind == "topic":
+            return self._publishers(name), self._subscribers(name)
+        if kind == "action":  # its types are those of hidden services
+            servers, clients = self._publishers(f"{name}/_action/status"), self._subscribers(f"{name}/_action/status")
+            return [End(end.node) for end in servers], [End(end.node) for end in clients]
+        serving, calling = [], []
+        for bare, home in set(self._node.get_node_names_and_namespaces()):
+            full = f"{home.rstrip('/')}/{bare}"
+            served = self._node.get_service_names_and_types_by_node(bare, home)
+            called = self._node.get_client_names_and_types_by_node(bare, home)
+            serving += [End(full, types[0]) for each, types in served if each == name]
+            calling += [End(full, types[0]) for each, types in called if each == name]
+        return serving, calling
+
+    def _publishers(self, topic: str) -> list[End]:
+        return [_end(info) for info in self._node.get_publishers_info_by_topic(topic)]
+
+    def _subscribers(self, topic: str) -> list[End]:
+        return [_end(info) for info in self._node.get_subscriptions_info_by_topic(topic)]
+
+    def listen(self, topic: str, kind: Any, take: Callable[[bytes], None], *, latched: bool = False) -> None:
+        """Subscribe to serialized messages with the least QoS, or to the last message of a latched topic."""
+        from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+        qos = QoSProfile(
+            depth=100,
+            reliability=ReliabilityPolicy.RELIABLE if latched else ReliabilityPolicy.BEST_EFFORT,
+            durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+        )
+        self._node.create_subscription(kind, topic, take, qos, raw=True)
+
+    def ask(self, service: str, **fields: Any) -> Any:
+        """Return the answer of a service that changes nothing; None where it gives none."""
+        kind = loaded(READS[service.rpartition("/")[2]])
+        if kind is None:
+            return None
+        client = self._node.create_client(kind, service)
+        try:
+            if not client.wait_for_service(ANSWER_S):
+                return None
+            future = client.call_async(kind.Request(**fields))
+            self._rclpy.spin_until_future_complete(self._node, future, timeout_sec=ANSWER_S)
+            return future.result() if future.done() else None
+        finally:
+            self._node.destroy_client(client)
+
+
+def _end(info: Any) -> End:
+    qos, home = info.qos_profile, info.node_namespace.rstrip("/")
+    return End(f"{home}/{info.node_name}", info.topic_type, qos.reliability.name.lower(), qos.durability.name.lower())
+
+
+class Listener:
+    """Takes messages into what is seen."""
+
+    def __init__(self, seen: Seen) -> None:
+        self._seen = seen
+
+    def stream(self, topic: str, kind: Any, data: bytes) -> None:
+        stream = self._seen.streams.setdefault(topic, Stream())
+        stamped = next(iter(kind.get_fields_and_field_types()), "") == "header"
+        stream.take(time.monotonic(), time.time(), stamp_of(data) if stamped else None)
+        if kind.__name__ == "JointState" and len(stream.arrivals) % EACH == 1:
+            message = deserialized(data, kind)
+            stream.take_joints(message.name, message.position)
+
+    def moving(self, kind: Any, data: bytes) -> None:
+        for each in deserialized(data, kind).transforms:
+            self._seen.moving.setdefault(each.child_frame_id, set()).add(each.header.frame_id)
+
+    def fixed(self, kind: Any, data: bytes) -> None:
+        for each in deserialized(data, kind).transforms:
+            at, turned = each.transform.translation, each.transform.rotation
+            place = (at.x, at.y, at.z), (turned.x, turned.y, turned.z, turned.w)
+            self._seen.fixed.setdefault(each.child_frame_id, set()).add((each.header.frame_id, *place))
+
+    def description(self, kind: Any, data: bytes) -> None:
+        self._seen.answers["robot_description"] = ElementTree.fromstring(deserialized(data, kind).data)
+
+
+def look(graph: Any, package: Package, for_s: float) -> Seen:
+    """Listen, then read the graph and ask."""
+    seen = Seen()
+    subscribe(graph, package, seen)
+    begin_s = time.monotonic() + DISCOVERY_S
+    try:
+        graph.wait(begin_s)
+        seen.streams.clear()
+        for left_s in range(int(for_s), 0, -10):
+            print(f"listening, {left_s} s left", flush=True)
+            graph.wait(min(begin_s + for_s, begin_s + for_s - left_s + 10))
+        graph.wait(begin_s + for_s)
+    except KeyboardInterrupt:
+        print("listening was ended", flush=True)
+    seen.listened_s = max(0.0, time.monotonic() - begin_s)
+    seen.nodes = graph.nodes()
+    for name in package.plan["ends"]:
+        seen.ends[name] = graph.ends(name, package.contract["interfaces"][name]["kind"])
+    for node in package.plan["states"]:
+        for service in ("list_controllers", "list_hardware_components"):
+            seen.answers[f"{node}/{service}"] = graph.ask(f"{node}/{service}")
+    for node in package.plan["lifecycle"]:
+        seen.answers[f"{node}/get_state"] = graph.ask(f"{node}/get_state")
+    for node in sorted(package.parameters.keys() & set(seen.nodes)):
+        seen.answers[f"{node}/get_parameters"] = graph.ask(
+            f"{node}/get_parameters", names=list(package.parameters[node])
+        )
+    return seen
+
+
+def subscribe(graph: Any, package: Package, seen: Seen) -> None:
+    """Listen to every topic with a rate, to transforms and to the description."""
+    listener = Listener(seen)
+    for name, interface in package.contract["interfaces"].items():
+        if interface.get("rate_hz") is not None:
+            kind = loaded(interface["type"])
+            if kind is None:
+                seen.uninstalled.add(interface["type"])
+            else:
+                graph.listen(name, kind, partial(listener.stream, name, kind))
+    if kind := loaded(TRANSFORMS):
+        graph.listen("/tf", kind, partial(listener.moving, kind))
+        graph.listen("/tf_static", kind, partial(listener.fixed, kind), latched=True)
+    if kind := loaded(DESCRIPTION):
+        graph.listen("/robot_description", kind, partial(listener.description, kind), latched=True)
+
+
+def read_package(folder: Path, target: str) -> Package:
+    """Read what the package states for a target."""
+    contract = json.loads((folder / "contract.json").read_text(encoding="utf-8"))
+    plan = json.loads((folder / "config/observe.json").read_text(encoding="utf-8"))
+    description = ElementTree.parse(folder / contract["files"][f"urdf_{target}"]).getroot()
+    written: dict[str, dict[str, Any]] = {}
+    for file in sorted((folder / "config").rglob("*.yaml")):
+        other = {"real": ".mock", "mock": ".real"}[target]
+        for node, values in read_parameters(file) if not file.stem.endswith(other) else ():
+            written.setdefault(node, {}).update(values)
+    return Package(contract, {"enclave": plan["enclave"], **plan[target]}, description, written)
+
+
+def read_parameters(file: Path) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield the parameters of each node that a file names; a pattern of names is left out."""
+    import yaml
+
+    def sections(name: str, part: Any) -> Iterator[tuple[str, Mapping[str, Any]]]:
+        for key, inner in part.items() if isinstance(part, dict) else ():
+            if key == "ros__parameters":
+                yield name, dict(values("", inner))
+            else:
+                yield from sections(f"{name}/{key.strip('/')}", inner)
+
+    def values(above: str, part: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+        for key, inner in part.items():
+            if isinstance(inner, dict):
+                yield from values(f"{above}{key}.", inner)
+            else:
+                yield f"{above}{key}", inner
+
+    found = sections("", yaml.safe_load(file.read_text(encoding="utf-8")))
+    return ((node, read) for node, read in found if "*" not in node)
+
+
+def write(lines: Sequence[Line], folder: Path, attempt: Mapping[str, Any]) -> None:
+    """Write the report, for programs and for people, beside those of other attempts."""
+    place = folder / f"observe-{attempt['gate']}-{attempt['attempt_id']}"
+    content = {**attempt, "lines": [asdict(line) for line in lines]}
+    with place.with_suffix(".json").open("x", encoding="utf-8") as file:
+        json.dump(content, file, indent=1)
+    head = [f"# {attempt['cell']} at {attempt['gate']}, {attempt['target']}, {attempt['configuration_id']}", ""]
+    rows = ["| verdict | part | subject | expected | seen |", "|---|---|---|---|---|"]
+    for line in lines:
+        cells = (line.verdict, line.part, line.subject, line.expected, line.seen)
+        rows.append("| " + " | ".join(escaped(text) for text in cells) + " |")
+    with place.with_suffix(".md").open("x", encoding="utf-8") as file:
+        file.write("\n".join([*head, *rows, ""]))
+    print(f"wrote {place}.json and .md", flush=True)
+
+
+def escaped(text: str) -> str:
+    """Return text of a node as one line without control characters, and without marks of Markdown."""
+    plain = "".join(letter if letter.isprintable() else "?" for letter in text)
+    return "".join(f"\\{letter}" if letter in "|<>`[]*_\\" else letter for letter in plain)
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Look, compare, print and write; return the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--package", type=Path, required=True, metavar="FOLDER", help="share folder of this package")
+    parser.add_argument("--gate", choices=("G3", "G4", "G7"), default="G4", help="what must run by then (default: G4)")
+    parser.add_argument("--target", choices=("real", "mock"), default="real", help="hardware (default: real)")
+    parser.add_argument("--for", type=float, default=30.0, dest="for_s", metavar="SECONDS", help="default: 30")
+    parser.add_argument("--evidence", type=Path, metavar="FOLDER", help="folder of this attempt's evidence")
+    read = parser.parse_args(arguments)
+    package = read_package(read.package, read.target)
+    graph = Graph(package.plan["enclave"])
+    try:
+        seen = look(graph, package, read.for_s)
+    finally:
+        graph.close()
+    lines = list(comparisons(package, seen, read.gate))
+    for line in lines:
+        text = f"{line.verdict:8}{line.part:11}{line.subject}: {line.seen}"
+        print(text if line.verdict == PASSED else f"{text} (expected: {line.expected})".replace("\n", " "), flush=True)
+    if read.evidence is not None:
+        contract, begun = package.contract, time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
+        attempt = {"attempt_id": begun, "cell": contract["cell"], "configuration_id": contract["configuration_id"]}
+        write(lines, read.evidence, {**attempt, "gate": read.gate, "target": read.target, "seconds": seen.listened_s})
+    failed = sum(line.verdict == FAILED for line in lines)
+    unknown = sum(line.verdict not in (FAILED, PASSED) for line in lines)
+    print(f"{len(lines)} compared: {failed} failed, {unknown} unknown", flush=True)
+    return 1 if failed or unknown else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,44 @@
+"""``config/observe.json``: what must run on each target, for the program that compares it with the running graph.
+
+Types, QoS, rates and ages are in ``contract.json``; values of parameters in their files.
+"""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from cellc.contract.base import ContractModel
+from cellc.contract.bring_up import ManagedState
+from cellc.contract.entities import HardwareState
+
+
+class ObservedEnds(ContractModel):
+    """Both sides of an interface: full name of a node → gate that starts it, empty where the first launch does."""
+
+    sources: dict[str, str] = Field(description="Publishers or servers.")
+    sinks: dict[str, str] = Field(description="Subscribers or clients.")
+
+
+class ObservedManager(ContractModel):
+    """Components and controllers before a person releases a claim; on the mock after all steps of the bring-up."""
+
+    hardware: dict[str, HardwareState] = Field(description="State of each hardware component.")
+    controllers: dict[str, ManagedState] = Field(description="State of each controller.")
+
+
+class ObservedTarget(ContractModel):
+    """What runs on a target."""
+
+    nodes: tuple[str, ...] = Field(description="Full names of all nodes, those that a later gate starts among them.")
+    inside: dict[str, tuple[str, ...]] = Field(description="Patterns of further nodes in the process of a node.")
+    ends: dict[str, ObservedEnds] = Field(description="By interface.")
+    states: dict[str, ObservedManager] = Field(description="By full name of a controller manager.")
+    lifecycle: dict[str, ManagedState] = Field(description="State of each managed node.")
+
+
+class Observation(ContractModel):
+    """The file."""
+
+    enclave: str = Field(description="SROS2 enclave of the program.")
+    mock: ObservedTarget = Field(description="On the mock.")
+    real: ObservedTarget = Field(description="On the real target.")
