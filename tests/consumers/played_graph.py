@@ -110,7 +110,9 @@ class Played:
                     if node in self.nodes:
                         self.end(name, interface, kind, side, node, stated.get(node))
         if self.wrong == "second_publisher":
-            name = next(each for each, facts in self.contract["interfaces"].items() if facts["type"].endswith("JointState"))
+            name = next(
+                each for each, facts in self.contract["interfaces"].items() if facts["type"].endswith("JointState")
+            )
             self.nodes["/robot_state_publisher"].create_publisher(loaded("sensor_msgs/msg/JointState"), name, 10)
 
     def end(self, name: str, interface: Any, kind: Any, side: str, node: str, qos: Any) -> None:
@@ -131,7 +133,7 @@ class Played:
             status = loaded("action_msgs/msg/GoalStatusArray")
             latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             make = owner.create_publisher if side == "sources" else partial(owner.create_subscription, callback=print)
-            make(status, f"{name}/_action/status", **({"qos_profile": latched}))
+            make(status, f"{name}/_action/status", qos_profile=latched)
 
     def publish(self, name: str, interface: Any, kind: Any, publisher: Any) -> None:
         """Say what a topic with a rate says, in its rate."""
@@ -169,7 +171,7 @@ class Played:
     def position(self, joint: str) -> float:
         """Return a position within the limits of a joint."""
         limits = self.contract["joint_limits"].get(joint, {})
-        low, high = limits.get("lower", 0.0), limits.get("upper", 0.0)
+        low, high = (float(limits.get(end, 0.0)) for end in ("lower", "upper"))
         return high + 0.1 if self.wrong == "beyond" and "upper" in limits else (low + high) / 2.0
 
     def transforms(self) -> None:
@@ -177,11 +179,15 @@ class Played:
         kind, stamped = loaded("tf2_msgs/msg/TFMessage"), loaded("geometry_msgs/msg/TransformStamped")
         node = self.nodes["/robot_state_publisher"]
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        topics = {True: node.create_publisher(kind, "/tf_static", latched), False: node.create_publisher(kind, "/tf", 100)}
+        topics = {
+            True: node.create_publisher(kind, "/tf_static", latched),
+            False: node.create_publisher(kind, "/tf", 100),
+        }
         messages = {True: kind(), False: kind()}
         for joint in ElementTree.fromstring(self.description).iterfind("joint"):
             parent, child, origin = joint.find("parent"), joint.find("child"), joint.find("origin")
-            assert parent is not None and child is not None
+            assert parent is not None
+            assert child is not None
             each = stamped(child_frame_id=child.get("link"))
             each.header.frame_id = "world" if self.wrong == f"parent:{child.get('link')}" else parent.get("link")
             xyz, rpy = (
@@ -196,15 +202,20 @@ class Played:
         topics[True].publish(messages[True])
         self.says.append((0.05, partial(topics[False].publish, messages[False])))
         described = node.create_publisher(loaded("std_msgs/msg/String"), "/robot_description", latched)
-        text = self.description.replace("<mass value=", "<mass value=1", 1) if self.wrong == "mass" else self.description
+        text = (
+            self.description.replace("<mass value=", "<mass value=1", 1) if self.wrong == "mass" else self.description
+        )
         described.publish(loaded("std_msgs/msg/String")(data=text))
 
     def managers(self) -> None:
         """Answer for controller managers and managed nodes."""
         services = ("ListControllers", "ListHardwareComponents")
         listing, parts = (loaded(f"controller_manager_msgs/srv/{name}") for name in services)
-        states = {each: loaded(f"controller_manager_msgs/msg/{each}") for each in ("ControllerState", "HardwareComponentState")}
-        for key, manager in self.contract["managers"].items():
+        states = {
+            each: loaded(f"controller_manager_msgs/msg/{each}")
+            for each in ("ControllerState", "HardwareComponentState")
+        }
+        for manager in self.contract["managers"].values():
             name = f"{manager['namespace'].rstrip('/')}/controller_manager"
             if name not in self.nodes:
                 continue

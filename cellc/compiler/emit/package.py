@@ -29,6 +29,8 @@ _ALWAYS = ("ros2launch", "xacro")
 _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
 # What the program of the bring-up imports: it asks the controller managers and managed nodes, and hears transforms.
 _BRING_UP = ("controller_manager_msgs", "lifecycle_msgs", "rcl_interfaces", "rclpy", "tf2_msgs")
+# What the program that observes imports besides; the first is a key of rosdep.
+_OBSERVE = ("python3-yaml", "std_msgs")
 # What acknowledges claims, and what ends them where a robot no longer follows.
 _WATCH = ("action_msgs", "std_srvs")
 # What the commands of the gates call; the keys of rosdep.
@@ -103,7 +105,7 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     """Return package names in alphabetical order, so that a new device shows as new lines alone."""
     controllers = (controller.package for controller in cell.controllers)
     hardware = (device.software.packages.driver for device in cell.devices if device.control.hardware is not None)
-    names = {*_ALWAYS, *_BRING_UP, *_GATES, *(node.package for node in cell.nodes)}
+    names = {*_ALWAYS, *_BRING_UP, *_OBSERVE, *_GATES, *(node.package for node in cell.nodes)}
     names |= {name for name in (*controllers, *hardware, *(part.package for part in installed_parts(cell))) if name}
     names |= {package for device in cell.devices for package in share_folders(device)}
     programs_of = (program for device in cell.devices for program in device.site.programs)

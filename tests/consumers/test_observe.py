@@ -1,0 +1,435 @@
+"""The program that compares the running graph with the package: what it calls right, and what it names as wrong."""
+
+from __future__ import annotations
+
+import ast
+import json
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+from xml.etree.ElementTree import fromstring
+
+import numpy as np
+import pytest
+from rosbags.typesys import Stores, get_typestore
+
+from cellc.compiler.emit.launch import observe_program
+from cellc.compiler.emit.launch.observe_checks import (
+    FAILED,
+    PASSED,
+    UNKNOWN,
+    End,
+    Line,
+    Package,
+    Seen,
+    Stream,
+    comparisons,
+    quaternion,
+)
+from tests.cells import EVERY_CELL, built
+from tests.consumers.matrix import build, every_build
+from tests.consumers.permissions import permissions, policy_of
+from tests.emit.cells import contract_data
+
+_FOR_S = 10.0
+
+
+def package_of(cell: str, target: str, folder: Path) -> Package:
+    """Return a package as the program reads it."""
+    for path, text in built(cell).texts.items():
+        if path.startswith(("config", "urdf")) or path == "contract.json":
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_text(text, encoding="utf-8")
+    return observe_program.read_package(folder, target)
+
+
+def right(package: Package, gate: str) -> Seen:
+    """Return the graph that the files of a package describe."""
+    seen = Seen(listened_s=_FOR_S)
+    seen.nodes = [name for name in package.plan["nodes"] if "*" not in name]
+    for name, sides in package.plan["ends"].items():
+        interface = package.contract["interfaces"][name]
+        seen.ends[name] = (ends(interface, "sources", sides, gate), ends(interface, "sinks", sides, gate))
+        rate = interface.get("rate_hz")
+        if rate is not None and any(since <= gate for since in sides["sources"].values()):
+            stream = seen.streams.setdefault(name, Stream())
+            for number in range(int(rate * _FOR_S)):
+                stream.take(number / rate, 100.0 + number / rate, (100.0 + number / rate, interface.get("frame") or ""))
+            if interface["type"] == "sensor_msgs/msg/JointState":
+                stream.take_joints(*zip(*positions(package), strict=True))
+    described(package, seen)
+    answered(package, seen, gate)
+    return seen
+
+
+def ends(interface: Any, side: str, sides: Any, gate: str) -> list[End]:
+    """Return the ends of one side that run at a gate."""
+    qos = {each["full_name"]: each["qos"] for each in interface.get(side, ())}
+    return [
+        End(node, interface["type"], *(qos.get(node, {}).get(policy, "") for policy in ("reliability", "durability")))
+        for node, since in sides[side].items()
+        if since <= gate
+    ]
+
+
+def positions(package: Package) -> Iterator[tuple[str, float]]:
+    """Yield every joint that a controller has, in the middle of its range."""
+    for manager in package.contract["managers"].values():
+        for joint in sorted({joint for each in manager["controllers"].values() for joint in each["joints"]}):
+            limits = package.contract["joint_limits"].get(joint, {})
+            yield joint, (limits.get("lower", 0.0) + limits.get("upper", 0.0)) / 2.0
+
+
+def described(package: Package, seen: Seen) -> None:
+    """See the transforms and the text of the description; rotations by products of one about each axis."""
+    seen.answers["robot_description"] = package.description
+    for joint in package.description.iterfind("joint"):
+        parent, child = (joint.find(end).get("link", "") for end in ("parent", "child"))  # type: ignore[union-attr]
+        if joint.get("type") != "fixed":
+            seen.moving[child] = {parent}
+            continue
+        origin = joint.find("origin")
+        xyz, rpy = ("0 0 0", "0 0 0") if origin is None else (origin.get("xyz", "0 0 0"), origin.get("rpy", "0 0 0"))
+        place = tuple(map(float, xyz.split())), quaternion([*map(float, rpy.split())])
+        seen.fixed[child] = {(parent, *place)}
+
+
+def answered(package: Package, seen: Seen, gate: str) -> None:
+    """Answer as the managers, the managed nodes and the parameters of the package."""
+    for manager in package.contract["managers"].values():
+        node = f"{manager['namespace'].rstrip('/')}/controller_manager"
+        stated, controllers = package.plan["states"][node], []
+        for name, state in stated["controllers"].items():
+            facts = manager["controllers"][name]
+            state = "active" if gate == "G7" and facts["active"] else state
+            claims = facts["command_interfaces"] if state == "active" else []
+            made = SimpleNamespace(name=name, state=state, type=facts["plugin"], claimed_interfaces=[*claims])
+            controllers.append(made)
+        seen.answers[f"{node}/list_controllers"] = SimpleNamespace(controller=controllers)
+        labels = {name: SimpleNamespace(label=state) for name, state in stated["hardware"].items()}
+        parts = [SimpleNamespace(name=name, state=label) for name, label in labels.items()]
+        seen.answers[f"{node}/list_hardware_components"] = SimpleNamespace(component=parts)
+    for node, state in package.plan["lifecycle"].items():
+        seen.answers[f"{node}/get_state"] = SimpleNamespace(current_state=SimpleNamespace(label=state))
+    for node, written in package.parameters.items():
+        seen.answers[f"{node}/get_parameters"] = SimpleNamespace(values=[*map(parameter, written.values())])
+
+
+def parameter(value: Any) -> Any:
+    """Return a value as rcl_interfaces/msg/ParameterValue has it; the numbers are those of ParameterType."""
+    first = value[0] if isinstance(value, list) else value
+    kinds = ((bool, 1, "bool"), (int, 2, "integer"), (float, 3, "double"), (str, 4, "string"))
+    number, word = next((number, word) for kind, number, word in kinds if isinstance(first, kind))
+    listed = isinstance(value, list)
+    return SimpleNamespace(**{"type": number + 5 * listed, f"{word}{'_array' if listed else ''}_value": value})
+
+
+@pytest.mark.parametrize("gate", ["G4", "G7"])
+@pytest.mark.parametrize("target", ["mock", "real"])
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_the_graph_of_the_package_passes(cell: str, target: str, gate: str, tmp_path: Path) -> None:
+    package = package_of(cell, target, tmp_path)
+    lines = list(comparisons(package, right(package, gate), gate))
+    assert [line for line in lines if line.verdict != PASSED] == []
+    assert {line.part for line in lines} == {"graph", "flow", "tf", "control", "parameters"}
+
+
+def _gone(seen: Seen, name: str, side: int) -> None:
+    sides = [*seen.ends[name]]
+    sides[side] = sides[side][1:]
+    seen.ends[name] = (sides[0], sides[1])
+
+
+def _more(seen: Seen, name: str, side: int, end: End) -> None:
+    sides = [*seen.ends[name]]
+    sides[side] = [*sides[side], end]
+    seen.ends[name] = (sides[0], sides[1])
+
+
+def _other(seen: Seen, name: str, side: int, **fields: str) -> None:
+    sides = [*seen.ends[name]]
+    sides[side] = [replace(sides[side][0], **fields), *sides[side][1:]]
+    seen.ends[name] = (sides[0], sides[1])
+
+
+def _controller(seen: Seen, name: str, **fields: Any) -> None:
+    listed = seen.answers["/controller_manager/list_controllers"].controller
+    vars(next(each for each in listed if each.name == name)).update(fields)
+
+
+def _moved(seen: Seen, child: str, by_m: float) -> None:
+    ((parent, at, turned),) = seen.fixed[child]
+    seen.fixed[child] = {(parent, (at[0] + by_m, *at[1:]), turned)}
+
+
+def _turned(seen: Seen, child: str) -> None:
+    ((parent, at, _),) = seen.fixed[child]
+    seen.fixed[child] = {(parent, at, quaternion((0.0, 0.0, 2.0)))}
+
+
+def _set(seen: Seen, node: str, place: int, value: Any) -> None:
+    seen.answers[f"{node}/get_parameters"].values[place] = parameter(value)
+
+
+def _stream(seen: Seen, name: str, late_s: float = 0.0, every: int = 1, frame: str | None = None) -> None:
+    before, seen.streams[name] = seen.streams[name], Stream()
+    for number, (arrived_s, age_s) in enumerate(zip(before.arrivals, before.ages, strict=True)):
+        if number % every == 0:
+            stamp = (1000.0 + arrived_s - age_s, next(iter(before.frames)) if frame is None else frame)
+            seen.streams[name].take(arrived_s, 1000.0 + arrived_s + late_s, stamp)
+    seen.streams[name].joints = before.joints
+
+
+_TRAJECTORY = "/arm_trajectory/follow_joint_trajectory"
+_STATES, _POSE = "/joint_states", "/object_pose"
+_WRONGS: dict[str, tuple[Callable[[Seen], object], str, str]] = {
+    "no publisher": (lambda seen: _gone(seen, _STATES, 0), "/joint_states, publishers", "/joint_states is missing"),
+    "no subscriber": (lambda seen: _gone(seen, _STATES, 1), "/joint_states, subscribers", "is missing"),
+    "a second publisher": (
+        lambda seen: _more(seen, _STATES, 0, End("/other", "sensor_msgs/msg/JointState", "reliable", "volatile")),
+        "/joint_states, publishers",
+        "/other is not declared",
+    ),
+    "a second commander": (
+        lambda seen: _more(seen, _TRAJECTORY, 1, End("/script")),
+        f"{_TRAJECTORY}, clients",
+        "/script is not declared",
+    ),
+    "a second server": (lambda seen: _more(seen, _TRAJECTORY, 0, End("/b")), f"{_TRAJECTORY}, server", "/b is not"),
+    "no server": (lambda seen: _gone(seen, _TRAJECTORY, 0), f"{_TRAJECTORY}, server", "/arm_trajectory is missing"),
+    "another type": (
+        lambda seen: _other(seen, _POSE, 0, type="geometry_msgs/msg/Pose"),
+        "/object_pose, publishers",
+        "has type geometry_msgs/msg/Pose, expected geometry_msgs/msg/PoseStamped",
+    ),
+    "less reliable": (
+        lambda seen: _other(seen, _POSE, 0, reliability="best_effort"),
+        "/object_pose, publishers",
+        "has reliability best_effort, expected reliable",
+    ),
+    "not latched": (
+        lambda seen: _other(seen, "/tf_static", 0, durability="volatile"),
+        "/tf_static, publishers",
+        "has durability volatile, expected transient_local",
+    ),
+    "ends that do not match": (
+        lambda seen: _other(seen, "/tf_static", 0, durability="volatile"),
+        "/tf_static, QoS",
+        "/robot_state_publisher offers volatile, /move_group requests transient_local",
+    ),
+    "two nodes of a name": (lambda seen: seen.nodes.append("/perception"), "node names", "/perception runs 2 times"),
+    "too slow": (lambda seen: _stream(seen, _STATES, every=2), "/joint_states", "250 Hz"),
+    "too old": (lambda seen: _stream(seen, _POSE, late_s=0.5), "/object_pose", "0.5 s old"),
+    "in the future": (lambda seen: _stream(seen, _POSE, late_s=-0.5), "/object_pose", "100 stamps in the future"),
+    "another frame": (
+        lambda seen: _stream(seen, _POSE, frame="world"),
+        "/object_pose",
+        "frame world, expected camera_color_optical_frame",
+    ),
+    "back in time": (
+        lambda seen: seen.streams[_POSE].take(11.0, 100.0, (99.9, "camera_color_optical_frame")),
+        "/object_pose",
+        "1 stamps before an earlier one",
+    ),
+    "nothing": (lambda seen: seen.streams.pop(_POSE), "/object_pose", "0 Hz"),
+    "a joint is missing": (
+        lambda seen: seen.streams[_STATES].joints.pop("arm_elbow_joint"),
+        "joint states",
+        "arm_elbow_joint is missing",
+    ),
+    "beyond a limit": (
+        lambda seen: seen.streams[_STATES].take_joints(["arm_elbow_joint"], [3.5]),
+        "joint states",
+        "arm_elbow_joint is beyond its limits",
+    ),
+    "no number": (
+        lambda seen: seen.streams[_STATES].take_joints(["arm_elbow_joint"], [math.nan]),
+        "joint states",
+        "a position is no number",
+    ),
+    "a joint moves": (
+        lambda seen: seen.streams[_STATES].take_joints(["arm_elbow_joint"], [0.01]),
+        "motion",
+        "arm_elbow_joint moved by 0.0100",
+    ),
+    "a frame is missing": (lambda seen: seen.fixed.pop("tcp"), "frames of the description", "tcp is missing"),
+    "a moving frame is missing": (
+        lambda seen: seen.moving.pop("arm_wrist_3_link"),
+        "frames of the description",
+        "arm_wrist_3_link is missing",
+    ),
+    "two authorities": (
+        lambda seen: seen.fixed["tcp"].add(("arm_tool0", (0.0, 0.0, 0.2), (0.0, 0.0, 0.0, 1.0))),
+        "parents and fixed transforms",
+        "tcp has 2 different transforms",
+    ),
+    "fixed and moving": (
+        lambda seen: seen.moving.update(tcp={"arm_tool0"}),
+        "parents and fixed transforms",
+        "tcp is on /tf and on /tf_static",
+    ),
+    "another place": (
+        lambda seen: _moved(seen, "tcp", 0.003),
+        "parents and fixed transforms",
+        "tcp is 3.00 mm and 0.00 deg from its place",
+    ),
+    "another turn": (lambda seen: _turned(seen, "tcp"), "parents and fixed transforms", "tcp is 0.00 mm and "),
+    "another parent": (
+        lambda seen: seen.moving.update(arm_forearm_link={"world"}),
+        "parents and fixed transforms",
+        "arm_forearm_link is below world, expected arm_upper_arm_link",
+    ),
+    "a claim before its gate": (
+        lambda seen: _controller(seen, "arm_trajectory", state="active"),
+        "/controller_manager, controllers",
+        "arm_trajectory is active, expected inactive",
+    ),
+    "a broadcaster that is inactive": (
+        lambda seen: _controller(seen, "joint_states", state="inactive"),
+        "/controller_manager, controllers",
+        "joint_states is inactive, expected active",
+    ),
+    "another controller": (
+        lambda seen: _controller(seen, "arm_trajectory", type="joint_trajectory_controller/JointTrajectoryController"),
+        "/controller_manager, controllers",
+        "expected ur_controllers/ScaledJointTrajectoryController",
+    ),
+    "a claim of another": (
+        lambda seen: _controller(seen, "joint_states", claimed_interfaces=["arm_elbow_joint/position"]),
+        "/controller_manager, controllers",
+        "joint_states claims arm_elbow_joint/position, expected none",
+    ),
+    "hardware in another state": (
+        lambda seen: setattr(
+            seen.answers["/controller_manager/list_hardware_components"].component[0].state, "label", "inactive"
+        ),
+        "/controller_manager, hardware",
+        "is inactive, expected active",
+    ),
+    "a managed node that is inactive": (
+        lambda seen: setattr(seen.answers["/perception/get_state"].current_state, "label", "inactive"),
+        "/perception, lifecycle",
+        "inactive",
+    ),
+    "another parameter": (
+        lambda seen: _set(seen, "/controller_manager", 0, 125),
+        "/controller_manager",
+        "update_rate is 125",
+    ),
+    "another description": (
+        lambda seen: seen.answers.update(robot_description=fromstring('<robot name="ur5e_pick"/>')),
+        "robot_description",
+        "without /robot[ur5e_pick]/link[world]",
+    ),
+}
+
+
+@pytest.mark.parametrize("wrong", _WRONGS)
+def test_each_wrong_is_named_in_its_line(wrong: str, tmp_path: Path) -> None:
+    package = package_of("ur5e_pick", "real", tmp_path)
+    seen = right(package, "G4")
+    change, subject, words = _WRONGS[wrong]
+    change(seen)
+    failed = [line for line in comparisons(package, seen, "G4") if line.verdict != PASSED]
+    assert [line for line in failed if (line.subject, line.verdict) == (subject, FAILED) and words in line.seen], failed
+    assert len(failed) <= 2
+
+
+@pytest.mark.parametrize("service", ["list_controllers", "list_hardware_components", "get_state", "get_parameters"])
+def test_what_is_not_answered_is_unknown(service: str, tmp_path: Path) -> None:
+    package = package_of("ur5e_pick", "real", tmp_path)
+    seen = right(package, "G4")
+    asked = [name for name in seen.answers if name.endswith(f"/{service}")]
+    seen.answers |= dict.fromkeys(asked)
+    lines = [line for line in comparisons(package, seen, "G4") if line.verdict != PASSED]
+    assert {(line.verdict, line.seen) for line in lines} == {(UNKNOWN, "no answer")}
+    assert len(lines) == len(asked)
+
+
+def test_nodes_that_nobody_declared_and_types_that_are_not_installed_are_unknown(tmp_path: Path) -> None:
+    package = package_of("ur5e_pick", "real", tmp_path)
+    seen = right(package, "G4")
+    seen.nodes += ["/joystick", "/_ros2cli_1234", "/move_group_private_94", "/rviz2"]
+    seen.uninstalled.add("geometry_msgs/msg/PoseStamped")
+    lines = [line for line in comparisons(package, seen, "G4") if line.verdict != PASSED]
+    assert [(line.verdict, line.subject, line.seen) for line in lines] == [
+        (UNKNOWN, "nodes beside the package", "/joystick"),
+        (UNKNOWN, "/object_pose", "geometry_msgs/msg/PoseStamped is not installed here"),
+    ]
+
+
+def test_what_a_later_gate_starts_is_due_from_then_on(tmp_path: Path) -> None:
+    package = package_of("ur5e_pick", "real", tmp_path)
+    early = right(package, "G4")
+    lines = [line for line in comparisons(package, early, "G7") if line.verdict == FAILED]
+    named = {name for line in lines for name in ("/task is missing", "arm_trajectory is inactive") if name in line.seen}
+    assert named == {"/task is missing", "arm_trajectory is inactive"}
+
+
+def test_stamp_and_frame_are_read_from_a_serialized_message() -> None:
+    store = get_typestore(Stores.ROS2_JAZZY)
+    time, header, joints = (
+        store.types[name]
+        for name in (
+            "builtin_interfaces/msg/Time",
+            "std_msgs/msg/Header",
+            "sensor_msgs/msg/JointState",
+        )
+    )
+    stamped = header(stamp=time(sec=1_700_000_000, nanosec=250_000_000), frame_id="camera_frame")
+    nothing = np.zeros(0)
+    message = joints(header=stamped, name=["a"], position=np.ones(1), velocity=nothing, effort=nothing)
+    data = bytes(store.serialize_cdr(message, "sensor_msgs/msg/JointState"))
+    assert observe_program.stamp_of(data) == (1_700_000_000.25, "camera_frame")
+    other_order = bytes(store.serialize_cdr(message, "sensor_msgs/msg/JointState", little_endian=False))
+    assert observe_program.stamp_of(other_order) == (1_700_000_000.25, "camera_frame")
+
+
+_LOOKS = {"create_subscription", "create_client", "create_node", "destroy_node", "destroy_client", "call_async"}
+
+
+def test_the_program_makes_nothing_that_could_change_a_graph() -> None:
+    source = built("ur5e_pick").texts["scripts/observe"]
+    called = {node.attr for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Attribute)}
+    assert {name for name in called if re.match("create_|destroy_|call|publish|send|set_parameters", name)} == _LOOKS
+    assert "ActionClient" not in source
+    # What is called is on the list; each of them answers, and changes nothing.
+    assert {kind.split("/")[2] for kind in observe_program.READS.values()} == {
+        "ListControllers",
+        "ListHardwareComponents",
+        "GetState",
+        "GetParameters",
+    }
+
+
+@every_build
+def test_its_enclave_may_look_and_nothing_else(cell: str, distro: str) -> None:
+    texts = build(cell, distro).texts
+    enclave = json.loads(texts["config/observe.json"])["enclave"]
+    (profile,) = policy_of(texts).findall(f".//enclave[@path='{enclave}']/profiles/profile")
+    said = {topic.text for topics in profile.findall("topics[@publish='ALLOW']") for topic in topics}
+    assert said <= {"/rosout", "/parameter_events"}
+    assert not [tag for tag in profile if tag.tag == "actions" or tag.get("reply")]
+    asked = {(name.text or "").rpartition("/")[2] for tag in profile.findall("services") for name in tag}
+    read = {*observe_program.READS, "list_hardware_interfaces", "get_available_transitions"}
+    assert asked <= read
+    may = permissions(texts)[enclave]
+    for one in contract_data(texts["contract.json"])["interfaces"]:
+        assert (
+            may.allow("subscribe", one) or contract_data(texts["contract.json"])["interfaces"][one]["kind"] != "topic"
+        )
+
+
+def test_words_of_a_node_are_text_in_the_report(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    line = Line("graph", "/x", FAILED, "none", "a|b\n# <script>\x1b[31m")
+    attempt = {"attempt_id": "1", "cell": "c", "configuration_id": "cfg", "gate": "G4", "target": "real"}
+    observe_program.write([line], tmp_path, attempt)
+    report = (tmp_path / "observe-G4-1.md").read_text(encoding="utf-8")
+    assert "| FAILED | graph | /x | none | a\\|b?# \\<script\\>?\\[31m |" in report
+    assert json.loads((tmp_path / "observe-G4-1.json").read_text(encoding="utf-8"))["lines"][0]["seen"] == line.seen
+    with pytest.raises(FileExistsError):  # evidence is never replaced
+        observe_program.write([line], tmp_path, attempt)

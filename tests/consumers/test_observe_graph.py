@@ -1,0 +1,94 @@
+"""The generated observer in a real graph: nodes of rclpy play the cell as the package states it, and otherwise."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cells import ROOT, built
+
+_PLAYED = ROOT / "tests/consumers/played_graph.py"
+_MESSAGES = ["rclpy", "controller_manager_msgs", "sensor_msgs", "tf2_msgs", "std_msgs", "yaml"]
+for _name in _MESSAGES:
+    pytest.importorskip(_name)
+
+_RATE_HZ = 50.0
+"""Nodes in Python are no faster beside other work: rates above are played, and asked for, at this one."""
+
+_WRONGS = {
+    "missing:/joint_states": "/joint_states, publishers",
+    "second_publisher": "/joint_states, publishers",
+    "qos:/joint_states": "/joint_states, publishers",
+    "stranger": "nodes beside the package",
+    "twin": "node names",
+    "silent:/object_pose": "/object_pose",
+    "late:/joint_states": "/joint_states",
+    "future:/joint_states": "/joint_states",
+    "joint": "joint states",
+    "moving": "motion",
+    "nan": "joint states",
+    "beyond": "joint states",
+    "parent:tcp": "parents and fixed transforms",
+    "moved:tcp": "parents and fixed transforms",
+    "frame:tcp": "frames of the description",
+    "mass": "robot_description",
+    "parameter": "",
+    "state:arm_trajectory": "/controller_manager, controllers",
+    "type:arm_trajectory": "/controller_manager, controllers",
+    "hardware:arm_hardware": "/controller_manager, hardware",
+    "lifecycle:/perception": "/perception, lifecycle",
+}
+
+
+@pytest.fixture(name="package", scope="module")
+def package_fixture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A package whose interfaces have types that are installed here, at rates that Python plays."""
+    folder = tmp_path_factory.mktemp("package")
+    for path, text in built("ur5e_pick").texts.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text, encoding="utf-8")
+    contract = json.loads((folder / "contract.json").read_text(encoding="utf-8"))
+    plan = json.loads((folder / "config/observe.json").read_text(encoding="utf-8"))
+    for name, interface in list(contract["interfaces"].items()):
+        if interface["type"].startswith(("ur_", "moveit_", "control_msgs/action/Parallel")):
+            del contract["interfaces"][name]
+            for target in ("mock", "real"):
+                plan[target]["ends"].pop(name, None)
+        elif interface.get("rate_hz", 0.0) > _RATE_HZ:
+            interface["rate_hz"] = _RATE_HZ
+        if "max_age_s" in interface:
+            interface["max_age_s"] = 0.5
+    (folder / "contract.json").write_text(json.dumps(contract), encoding="utf-8")
+    (folder / "config/observe.json").write_text(json.dumps(plan), encoding="utf-8")
+    return folder
+
+
+def _observed(package: Path, wrong: str, evidence: Path) -> tuple[int, dict[str, str]]:
+    """Return the exit status, and the verdict of each subject that did not pass."""
+    env = {**os.environ, "ROS_DOMAIN_ID": str(10 + os.getpid() % 90), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    player = [sys.executable, str(_PLAYED), str(package), "real", wrong]
+    with subprocess.Popen(player, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=env, text=True) as played:
+        assert played.stdout is not None
+        assert played.stdout.readline() == "plays\n"
+        program = [sys.executable, str(package / "scripts/observe"), "--package", str(package)]
+        ended = subprocess.run([*program, "--for", "3", "--evidence", str(evidence)], env=env, check=False)
+        played.communicate("")
+    (report,) = evidence.glob("*.json")
+    lines = json.loads(report.read_text(encoding="utf-8"))["lines"]
+    return ended.returncode, {line["subject"]: line["verdict"] for line in lines if line["verdict"] != "PASSED"}
+
+
+def test_the_right_graph_passes(package: Path, tmp_path: Path) -> None:
+    assert _observed(package, "", tmp_path) == (0, {})
+
+
+@pytest.mark.parametrize("wrong", _WRONGS)
+def test_each_wrong_is_named(package: Path, wrong: str, tmp_path: Path) -> None:
+    code, failed = _observed(package, wrong, tmp_path)
+    assert code == 1
+    assert _WRONGS[wrong] in failed or not _WRONGS[wrong]
