@@ -202,9 +202,8 @@ class Played:
         topics[True].publish(messages[True])
         self.says.append((0.05, partial(topics[False].publish, messages[False])))
         described = node.create_publisher(loaded("std_msgs/msg/String"), "/robot_description", latched)
-        text = (
-            self.description.replace("<mass value=", "<mass value=1", 1) if self.wrong == "mass" else self.description
-        )
+        heavier = self.description.replace('<mass value="', '<mass value="1', 1)
+        text = {"mass": heavier, "no XML": "<robot"}.get(self.wrong, self.description)
         described.publish(loaded("std_msgs/msg/String")(data=text))
 
     def managers(self) -> None:

@@ -37,6 +37,7 @@ _WRONGS = {
     "moved:tcp": "parents and fixed transforms",
     "frame:tcp": "frames of the description",
     "mass": "robot_description",
+    "no XML": "robot_description",
     "parameter": "",
     "state:arm_trajectory": "/controller_manager, controllers",
     "type:arm_trajectory": "/controller_manager, controllers",

@@ -187,6 +187,8 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     "scripts/claim_watch": (python,),
     "scripts/first_goal": (python,),
     "scripts/installed_versions": (python,),
+    "scripts/observe": (python,),
+    "scripts/observe_checks.py": (python,),
     "scripts/required": (python,),
 }
 

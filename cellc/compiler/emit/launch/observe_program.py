@@ -49,8 +49,12 @@ EACH = 10  # of joint states one in so many is read whole; of the others the sta
 
 
 def stamp_of(data: bytes) -> tuple[float, str]:
-    """Return stamp, s, and frame of a serialized message that begins with a header: CDR, as DDS sends it."""
-    order = "<" if data[1] & 1 else ">"
+    """Return stamp, s, and frame of a serialized message that begins with a header: CDR, as DDS sends it.
+
+    Raises:
+        struct.error: the message is too short for it.
+    """
+    order = "<" if data[1:2] > b"\0" else ">"
     seconds, nanoseconds, length = struct.unpack_from(f"{order}iII", data, 4)
     return seconds + nanoseconds / 1e9, data[16 : 16 + max(0, length - 1)].decode("utf-8", "replace")
 
@@ -172,7 +176,11 @@ class Listener:
             self._seen.fixed.setdefault(each.child_frame_id, set()).add((each.header.frame_id, *place))
 
     def description(self, kind: Any, data: bytes) -> None:
-        self._seen.answers["robot_description"] = ElementTree.fromstring(deserialized(data, kind).data)
+        try:
+            robot = ElementTree.fromstring(deserialized(data, kind).data)
+        except ElementTree.ParseError as error:
+            robot = ElementTree.Element(f"no XML: {error}")
+        self._seen.answers["robot_description"] = robot
 
 
 def look(graph: Any, package: Package, for_s: float) -> Seen:
