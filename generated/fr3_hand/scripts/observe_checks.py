@@ -29,7 +29,7 @@ FIXED_M, FIXED_RAD = 1e-4, math.radians(0.01)  # by this much a fixed transform 
 CLAIMED_FROM = "G7"  # gates before it claim nothing and move nothing
 SHOWN = 4  # problems that a line names; it counts the others
 SIDES = {"topic": ("publishers", "subscribers"), "service": ("server", "clients"), "action": ("server", "clients")}
-OFFERED = {("best_effort", "reliable"), ("volatile", "transient_local")}  # what is offered, for which more is requested
+OFFERED = {("best_effort", "reliable"), ("volatile", "transient_local")}  # offered, and requested in vain
 VALUES = {1: "bool_value", 2: "integer_value", 3: "double_value", 4: "string_value", 5: "byte_array_value"}
 VALUES |= {6: "bool_array_value", 7: "integer_array_value", 8: "double_array_value", 9: "string_array_value"}
 NOT_SET = 0  # rcl_interfaces/msg/ParameterType
@@ -64,8 +64,8 @@ class Stream:
     """What arrived on one topic.
 
     Attributes:
-        arrivals: one entry a message, s of a clock that is never set.
-        ages: at arrival on this computer's clock, s, where messages have stamps.
+        arrivals: one entry a message, s since 1970 on this computer's clock.
+        ages: at arrival, s, where messages have stamps.
         joints: lowest and highest position of each joint, rad or m.
     """
 
@@ -77,11 +77,11 @@ class Stream:
     backward: int = 0
     not_finite: int = 0
 
-    def take(self, arrived_s: float, now_s: float, stamp: tuple[float, str] | None) -> None:
+    def take(self, arrived_s: float, stamp: tuple[float, str] | None) -> None:
         """Note a message; `stamp` has the seconds and the frame of its header."""
         self.arrivals.append(arrived_s)
         if stamp is not None:
-            self.ages.append(now_s - stamp[0])
+            self.ages.append(arrived_s - stamp[0])
             self.frames.add(stamp[1])
             self.backward += stamp[0] < self.newest_s
             self.newest_s = max(self.newest_s, stamp[0])
@@ -118,14 +118,7 @@ class Seen:
 
 @dataclass(frozen=True)
 class Package:
-    """What the package states for one target.
-
-    Attributes:
-        contract: ``contract.json``.
-        plan: ``config/observe.json``, of the target.
-        description: the robot of the URDF.
-        parameters: of each node, by its full name, as its file has them.
-    """
+    """What ``contract.json``, ``config/observe.json``, the URDF and parameter files state for one target."""
 
     contract: Any
     plan: Any
@@ -148,7 +141,6 @@ def judged(part: str, subject: str, expected: str, problems: Sequence[str], seen
 
 
 def listed(names: Iterable[str]) -> str:
-    """Return names in their order, as people read them."""
     return ", ".join(sorted(names)) or "none"
 
 
@@ -204,8 +196,7 @@ def _unmatched(writer: End, reader: End) -> Iterator[str]:
 def streams(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     """Compare rate, age, order and frame of each topic with a rate."""
     for name, interface in package.contract["interfaces"].items():
-        sources = package.plan["ends"].get(name, {"sources": {}})["sources"]
-        if interface.get("rate_hz") is None or not any(since <= gate for since in sources.values()):
+        if interface.get("rate_hz") is None or not is_due(package, name, gate):
             continue
         bound, wanted = interface.get("max_age_s"), interface["rate_hz"]
         expected = f"{wanted:g} Hz" + ("" if bound is None else f", at most {bound:g} s old")
@@ -224,6 +215,12 @@ def streams(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
         yield judged("flow", name, expected, problems, f"{rate:.4g} Hz, {gaps(stream)}, at most {oldest:.4g} s old")
 
 
+def is_due(package: Package, name: str, gate: str) -> bool:
+    """Return whether something publishes a topic at a gate."""
+    sources = package.plan["ends"].get(name, {"sources": {}})["sources"]
+    return any(since <= gate for since in sources.values())
+
+
 def gaps(stream: Stream) -> str:
     """Return the middle, the 99th percentile and the longest of the times between messages."""
     ordered = sorted(later - earlier for earlier, later in pairwise(stream.arrivals))
@@ -239,7 +236,9 @@ def joints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     controllers = (
         each for manager in package.contract["managers"].values() for each in manager["controllers"].values()
     )
-    wanted = {joint for each in controllers for joint in each["joints"]}
+    states = [name for name, each in package.contract["interfaces"].items() if each["type"].endswith("/JointState")]
+    due = all(is_due(package, name, gate) for name in states)  # else some joints are not read yet
+    wanted = {joint for each in controllers for joint in each["joints"] if due}
     problems = [f"{joint} is missing" for joint in sorted(wanted - found.keys())]
     problems += ["a position is no number"] if any(stream.not_finite for stream in seen.streams.values()) else []
     for joint, limits in package.contract["joint_limits"].items():
@@ -249,16 +248,14 @@ def joints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     yield judged("flow", "joint states", f"{len(wanted)} joints within their limits", problems, f"{len(found)} joints")
     if gate < CLAIMED_FROM:
         moved = [f"{joint} moved by {high - low:.4f}" for joint, (low, high) in found.items() if high - low > STANDING]
-        line = judged("flow", "motion", "every joint stands", moved)
-        yield line if found else Line("flow", "motion", UNKNOWN, "every joint stands", "no joint states")
+        unseen = Line("flow", "motion", UNKNOWN, "no joint moves", "no joint states")
+        yield unseen if due and not found else judged("flow", "motion", "no joint moves", moved)
 
 
 def transforms(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     """Compare transforms with the description: each child is published once, below its parent, at its place."""
-    missing, other = (
-        [],
-        [f"{child} is on /tf and on /tf_static" for child in sorted(seen.moving.keys() & seen.fixed.keys())],
-    )
+    both = sorted(seen.moving.keys() & seen.fixed.keys())
+    missing, other = [], [f"{child} is on /tf and on /tf_static" for child in both]
     for joint in package.description.iterfind("joint"):
         parent, child = (_attribute(joint.find(end), "link", "") for end in ("parent", "child"))
         fixed = joint.get("type") == "fixed"
@@ -283,9 +280,8 @@ def _misplaced(joint: Element, parent: str, child: str, found: tuple[str, Sequen
     )
     away = math.dist(xyz, found[1])
     turned = 2.0 * math.acos(min(1.0, abs(sum(a * b for a, b in zip(quaternion(rpy), found[2], strict=True)))))
-    if away <= FIXED_M and turned <= FIXED_RAD:
-        return ""
-    return f"{child} is {away * 1e3:.2f} mm and {math.degrees(turned):.2f} deg from its place"
+    off = f"{child} is {away * 1e3:.2f} mm and {math.degrees(turned):.2f} deg from its place"
+    return off if away > FIXED_M or turned > FIXED_RAD else ""
 
 
 def _attribute(element: Element | None, name: str, fallback: str) -> str:
@@ -293,7 +289,7 @@ def _attribute(element: Element | None, name: str, fallback: str) -> str:
 
 
 def quaternion(rpy: Sequence[float]) -> tuple[float, float, float, float]:
-    """Return x, y, z, w of rotations about the fixed axes x, y and z, rad, as URDF has them."""
+    """Return x, y, z, w of rotations about the fixed axes x, y and z, rad."""
     (sr, cr), (sp, cp), (sy, cy) = ((math.sin(angle / 2.0), math.cos(angle / 2.0)) for angle in rpy)
     x, y = sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy
     return x, y, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy

@@ -61,8 +61,8 @@ class Stream:
     """What arrived on one topic.
 
     Attributes:
-        arrivals: one entry a message, s of a clock that is never set.
-        ages: at arrival on this computer's clock, s, where messages have stamps.
+        arrivals: one entry a message, s since 1970 on this computer's clock.
+        ages: at arrival, s, where messages have stamps.
         joints: lowest and highest position of each joint, rad or m.
     """
 
@@ -74,11 +74,11 @@ class Stream:
     backward: int = 0
     not_finite: int = 0
 
-    def take(self, arrived_s: float, now_s: float, stamp: tuple[float, str] | None) -> None:
+    def take(self, arrived_s: float, stamp: tuple[float, str] | None) -> None:
         """Note a message; `stamp` has the seconds and the frame of its header."""
         self.arrivals.append(arrived_s)
         if stamp is not None:
-            self.ages.append(now_s - stamp[0])
+            self.ages.append(arrived_s - stamp[0])
             self.frames.add(stamp[1])
             self.backward += stamp[0] < self.newest_s
             self.newest_s = max(self.newest_s, stamp[0])

@@ -44,6 +44,7 @@ READS = {
     "get_parameters": "rcl_interfaces/srv/GetParameters",
 }
 DISCOVERY_S, ANSWER_S = 3.0, 3.0
+POLL_S = 0.01  # at 1 kHz a tenth of the queue fills in it
 TRANSFORMS, DESCRIPTION = "tf2_msgs/msg/TFMessage", "std_msgs/msg/String"
 EACH = 10  # of joint states one in so many is read whole; of the others the stamp
 
@@ -83,15 +84,27 @@ class Graph:
         rclpy.init(args=["--ros-args", "--enclave", enclave])
         self._rclpy = rclpy
         self._node = rclpy.create_node("observe", start_parameter_services=False, enable_rosout=False)
+        self._subscriptions: list[tuple[Any, Callable[[bytes, float], None]]] = []
 
     def close(self) -> None:
         self._node.destroy_node()
         self._rclpy.try_shutdown()
 
     def wait(self, until_s: float) -> None:
-        """Handle messages until an instant of the monotonic clock."""
-        while (left := until_s - time.monotonic()) > 0:
-            self._rclpy.spin_once(self._node, timeout_sec=min(left, 0.5))
+        """Take messages until an instant of the monotonic clock; an executor would take five times as long for each."""
+        while time.monotonic() < until_s:
+            for subscription, take in self._subscriptions:
+                with subscription.handle:
+                    while (taken := subscription.handle.take_message(subscription.msg_type, True)) is not None:
+                        received_ns = taken[1].get("received_timestamp") if isinstance(taken[1], dict) else 0
+                        take(taken[0], received_ns / 1e9 if received_ns else time.time())
+            time.sleep(POLL_S)
+
+    def stop_listening(self) -> None:
+        """End all subscriptions."""
+        for subscription, _ in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+        self._subscriptions.clear()
 
     def nodes(self) -> list[str]:
         """Return the full name of every node, as often as it runs."""
@@ -119,7 +132,7 @@ class Graph:
     def _subscribers(self, topic: str) -> list[End]:
         return [_end(info) for info in self._node.get_subscriptions_info_by_topic(topic)]
 
-    def listen(self, topic: str, kind: Any, take: Callable[[bytes], None], *, latched: bool = False) -> None:
+    def listen(self, topic: str, kind: Any, take: Callable[[bytes, float], None], *, latched: bool = False) -> None:
         """Subscribe to serialized messages with the least QoS, or to the last message of a latched topic."""
         from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
@@ -128,7 +141,8 @@ class Graph:
             reliability=ReliabilityPolicy.RELIABLE if latched else ReliabilityPolicy.BEST_EFFORT,
             durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
         )
-        self._node.create_subscription(kind, topic, take, qos, raw=True)
+        subscription = self._node.create_subscription(kind, topic, take, qos, raw=True)
+        self._subscriptions.append((subscription, take))
 
     def ask(self, service: str, **fields: Any) -> Any:
         """Return the answer of a service that changes nothing; None where it gives none."""
@@ -157,25 +171,24 @@ class Listener:
     def __init__(self, seen: Seen) -> None:
         self._seen = seen
 
-    def stream(self, topic: str, kind: Any, data: bytes) -> None:
+    def stream(self, topic: str, kind: Any, stamped: bool, data: bytes, received_s: float) -> None:
         stream = self._seen.streams.setdefault(topic, Stream())
-        stamped = next(iter(kind.get_fields_and_field_types()), "") == "header"
-        stream.take(time.monotonic(), time.time(), stamp_of(data) if stamped else None)
+        stream.take(received_s, stamp_of(data) if stamped else None)
         if kind.__name__ == "JointState" and len(stream.arrivals) % EACH == 1:
             message = deserialized(data, kind)
             stream.take_joints(message.name, message.position)
 
-    def moving(self, kind: Any, data: bytes) -> None:
+    def moving(self, kind: Any, data: bytes, received_s: float) -> None:
         for each in deserialized(data, kind).transforms:
             self._seen.moving.setdefault(each.child_frame_id, set()).add(each.header.frame_id)
 
-    def fixed(self, kind: Any, data: bytes) -> None:
+    def fixed(self, kind: Any, data: bytes, received_s: float) -> None:
         for each in deserialized(data, kind).transforms:
             at, turned = each.transform.translation, each.transform.rotation
             place = (at.x, at.y, at.z), (turned.x, turned.y, turned.z, turned.w)
             self._seen.fixed.setdefault(each.child_frame_id, set()).add((each.header.frame_id, *place))
 
-    def description(self, kind: Any, data: bytes) -> None:
+    def description(self, kind: Any, data: bytes, received_s: float) -> None:
         try:
             robot = ElementTree.fromstring(deserialized(data, kind).data)
         except ElementTree.ParseError as error:
@@ -198,6 +211,7 @@ def look(graph: Any, package: Package, for_s: float) -> Seen:
     except KeyboardInterrupt:
         print("listening was ended", flush=True)
     seen.listened_s = max(0.0, time.monotonic() - begin_s)
+    graph.stop_listening()
     seen.nodes = graph.nodes()
     for name in package.plan["ends"]:
         seen.ends[name] = graph.ends(name, package.contract["interfaces"][name]["kind"])
@@ -222,7 +236,8 @@ def subscribe(graph: Any, package: Package, seen: Seen) -> None:
             if kind is None:
                 seen.uninstalled.add(interface["type"])
             else:
-                graph.listen(name, kind, partial(listener.stream, name, kind))
+                stamped = next(iter(kind.get_fields_and_field_types()), "") == "header"
+                graph.listen(name, kind, partial(listener.stream, name, kind, stamped))
     if kind := loaded(TRANSFORMS):
         graph.listen("/tf", kind, partial(listener.moving, kind))
         graph.listen("/tf_static", kind, partial(listener.fixed, kind), latched=True)
