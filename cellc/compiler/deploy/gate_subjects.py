@@ -9,7 +9,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.drills import claimed, drills, interlocks, pulled
-from cellc.compiler.deploy.ends import ends_on, is_late, silent
+from cellc.compiler.deploy.ends import is_late
 from cellc.compiler.deploy.files import is_servo
 from cellc.compiler.deploy.gate_loads import loaded_devices, tool_centers, tool_connectors
 from cellc.compiler.deploy.gate_motion import (
@@ -50,7 +50,7 @@ from cellc.compiler.deploy.gate_states import (
     without_speed_control,
 )
 from cellc.compiler.deploy.labels import said_around
-from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, is_adapter
+from cellc.compiler.deploy.processes import description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, start_mock, start_real
@@ -146,34 +146,6 @@ def _joint_states(graph: CellGraph) -> Iterator[Interface]:
     return (interface for interface in _on_real(graph) if interface.type == JOINT_STATE_TYPE and interface.sinks)
 
 
-def _idle_joint_states(graph: CellGraph) -> Iterator[Values]:
-    """Yield the joint states that arrive before a person activates hardware, as streams."""
-    names = {interface.name for interface in _joint_states(graph)}
-    return (values for values in _streams(graph, late=False) if values[0] in names)
-
-
-def _late_readers(graph: CellGraph) -> Iterator[Values]:
-    late = graph.once(silent)
-    return ((controller.full_name,) for controller in graph.cell.controllers if controller.full_name in late)
-
-
-def _components(graph: CellGraph) -> Iterator[Values]:
-    """Yield the startup state of each component of the real target, and who sets it."""
-    for manager in graph.cell.managers:
-        for device in map(graph.cell.device, manager.devices):
-            if device.control.hardware is not None and "real" in device.control.hardware.targets:
-                whose = "vendor default" if device.control.initial_state is None else "set in the spec"
-                yield device.control.hardware.name, device.control.startup_state, whose
-
-
-def _managed_nodes(graph: CellGraph) -> Iterator[Values]:
-    for node in graph.cell.nodes:
-        if node.lifecycle:
-            waits = asks_for_motion(graph.cell, node) or is_adapter(graph.cell, node)
-            later = waits or node.full_name in graph.once(silent)
-            yield node.full_name, "inactive" if later else "active"
-
-
 def _servo(graph: CellGraph) -> Iterator[Values]:
     """Yield what MoveIt Servo commands, what starts it, and the command that shows the ends of its topic."""
     servo = graph.cell.servo
@@ -243,22 +215,10 @@ def _reached_devices(graph: CellGraph) -> Iterator[Values]:
             yield device.host, device.device, device.nic or "not stated", device.text
 
 
-def _interfaces(graph: CellGraph) -> Iterator[Values]:
+def _late_streams(graph: CellGraph) -> Iterator[Values]:
+    """Yield the topics with a rate that wait for hardware that a person activates."""
     for interface in _on_real(graph):
-        starts, ends = (_nodes(side) for side in ends_on(graph, interface, "real"))
-        yield interface.name, starts, ends, endpoint_command(graph.cell, interface.kind, interface.name)
-
-
-def _nodes(side: Mapping[str, str]) -> str:
-    return ", ".join(f"{node} (from {gate} on)" if gate else node for node, gate in side.items()) or "none"
-
-
-def _streams(graph: CellGraph, *, late: bool) -> Iterator[Values]:
-    """Yield the topics with a rate: those of the start, or those that wait for hardware that a person activates."""
-    for interface in _on_real(graph):
-        if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None:
-            if is_late(graph, interface) is not late:
-                continue
+        if interface.rate_hz is not None and interface.kind is InterfaceKind.TOPIC and is_late(graph, interface):
             # What is measured is the sum of all sources, and the interface has the rate of the slowest manager.
             several = f" or more ({len(interface.sources)} sources)" if len(interface.sources) > 1 else ""
             age = (
@@ -269,10 +229,10 @@ def _streams(graph: CellGraph, *, late: bool) -> Iterator[Values]:
             yield interface.name, f"{shortest(interface.rate_hz)} Hz{several}, at most {_SLOWER} less", age
 
 
-def _groups(graph: CellGraph, *, late: bool) -> Iterator[Values]:
-    """Yield the ends of planning groups: of those whose joints show from the start on, or only later."""
+def _late_groups(graph: CellGraph) -> Iterator[Values]:
+    """Yield the ends of planning groups whose joints do not show from the start on."""
     for group in graph.cell.groups:
-        if is_shown_late(graph.cell, group.base_link, group.tip_frame) is late:
+        if is_shown_late(graph.cell, group.base_link, group.tip_frame):
             yield group.tip_frame, group.base_link
 
 
@@ -302,12 +262,9 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "success": (("rehearsal", "share", "confidence"), _success),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
     "manager": (("manager",), lambda graph: ((manager.node,) for manager in graph.cell.managers)),
-    "component": (("component", "state", "whose"), _components),
     "mock_action": (("action",), _mock_actions),
     "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),
     "joint_states": (("topic",), lambda graph: ((interface.name,) for interface in _joint_states(graph))),
-    "idle_joint_states": (_STREAM, _idle_joint_states),
-    "managed_node": (("node", "state"), _managed_nodes),
     "stopping_device": (("device", "states", "command", "gate"), stopping_devices),
     "ready_states": (("device", "states"), ready_states),
     "variables": (("device", "names", "command"), variables),
@@ -355,13 +312,9 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "card": (("card", "address", "carries"), _cards),
     "reached_device": (("host", "device", "card", "address"), _reached_devices),
     "device": (("device", "serial", "firmware", "safety"), identities),
-    "interface": (("interface", "starts", "ends", "command"), _interfaces),
-    "stream": (_STREAM, lambda graph: _streams(graph, late=False)),
-    "late_stream": (_STREAM, lambda graph: _streams(graph, late=True)),
-    "late_reader": (("controller",), _late_readers),
+    "late_stream": (_STREAM, _late_streams),
     "bounded_clock": (("host", "offset"), bounded_clocks),
-    "group": (("tip", "base"), lambda graph: _groups(graph, late=False)),
-    "late_group": (("tip", "base"), lambda graph: _groups(graph, late=True)),
+    "late_group": (("tip", "base"), _late_groups),
     "described_node": (("node",), lambda graph: _each(description_nodes(graph.cell))),
 }
 _OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")

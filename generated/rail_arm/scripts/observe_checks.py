@@ -22,7 +22,7 @@ PASSED, FAILED, UNKNOWN = "PASSED", "FAILED", "UNKNOWN"
 BESIDE = re.compile(
     r".*/(_.*|observe|bring_up\w*|rosbag2_\w+|tf2_\w+|transform_listener_impl_\w+|launch_ros_\d+|rviz\w*)"
 )
-SLOW = 0.9  # a stream may have this share of its rate, and no less
+SLOW = 0.95  # a stream may have this share of its rate, and no less
 FUTURE_S = 0.001  # a stamp may be this far in the future: clocks of two computers differ
 STANDING = 0.002  # rad or m: noise of a joint that stands
 FIXED_M, FIXED_RAD = 1e-4, math.radians(0.01)  # by this much a fixed transform may differ: both are rounded

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Compares the running graph with this package, and only looks: it publishes, sets, commands and starts nothing.
 
-    observe --package FOLDER [--gate G3|G4|G7] [--target real|mock] [--for SECONDS] [--evidence FOLDER]
+    observe --package FOLDER [--gate L3|L4|L5|G3|G4|G7] [--target real|mock] [--for SECONDS] [--evidence FOLDER]
 
 It reads the ends of every interface, listens to every topic with a rate and to the transforms, and asks controller
 managers, managed nodes and parameters, by four services that change nothing. Each line is PASSED, FAILED or UNKNOWN,
-with what is expected and what is seen. Nodes that a later gate starts need not run. Ctrl-C ends the listening; what
-was seen until then is compared. Exit status: 0 all passed, 1 a line failed or is unknown, 2 usage.
+with what is expected and what is seen. Nodes that a later gate starts need not run. Layers L3 to L5 have one part each:
+graph, flow, tf. Ctrl-C ends the listening; what was seen until then is compared. Exit status: 0 all passed, 1 a line
+failed or is unknown, 2 usage.
 """
 
 from __future__ import annotations
@@ -46,6 +47,7 @@ READS = {
 DISCOVERY_S, ANSWER_S = 3.0, 3.0
 POLL_S = 0.01  # at 1 kHz a tenth of the queue fills in it
 TRANSFORMS, DESCRIPTION = "tf2_msgs/msg/TFMessage", "std_msgs/msg/String"
+PARTS = {"L3": "graph", "L4": "flow", "L5": "tf"}  # what a layer asks for; gates ask for all
 EACH = 10  # of joint states one in so many is read whole; of the others the stamp
 
 
@@ -306,7 +308,7 @@ def main(arguments: Sequence[str]) -> int:
     """Look, compare, print and write; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--package", type=Path, required=True, metavar="FOLDER", help="share folder of this package")
-    parser.add_argument("--gate", choices=("G3", "G4", "G7"), default="G4", help="what must run by then (default: G4)")
+    parser.add_argument("--gate", choices=(*PARTS, "G3", "G4", "G7"), default="G4", help="default: G4")
     parser.add_argument("--target", choices=("real", "mock"), default="real", help="hardware (default: real)")
     parser.add_argument("--for", type=float, default=30.0, dest="for_s", metavar="SECONDS", help="default: 30")
     parser.add_argument("--evidence", type=Path, metavar="FOLDER", help="folder of this attempt's evidence")
@@ -317,7 +319,8 @@ def main(arguments: Sequence[str]) -> int:
         seen = look(graph, package, read.for_s)
     finally:
         graph.close()
-    lines = list(comparisons(package, seen, read.gate))
+    lines = list(comparisons(package, seen, read.gate if read.gate not in PARTS else "G3"))
+    lines = [line for line in lines if line.part == PARTS.get(read.gate, line.part)]
     for line in lines:
         text = f"{line.verdict:8}{line.part:11}{line.subject}: {line.seen}"
         print(text if line.verdict == PASSED else f"{text} (expected: {line.expected})".replace("\n", " "), flush=True)
