@@ -158,9 +158,9 @@ def test_node_that_needs_a_transform_over_joints_waits_for_their_hardware(tmp_pa
         assert (own["activate_perception"], phases["activate_perception"]) == ("start", "activate")
         assert list(phases).index("activate_perception") > list(phases).index("observe_arm_again")
         assert list(_refused(files, target)) == []
-    checklist = files["gates/promotion.md"]
-    idle, enabled = (checklist.split(f"\n## {gate} ")[1].split("\n## ")[0] for gate in ("G4", "G5"))
-    assert "Check that /perception is inactive" in idle
-    assert "Check that controller /joint_states is inactive, as an exception" in idle
-    assert "topic echo --once /joint_states" not in idle
+    real = json.loads(files["config/observe.json"])["real"]
+    assert real["lifecycle"] == {"/perception": "inactive"}
+    assert real["states"]["/controller_manager"]["controllers"]["joint_states"] == "inactive"
+    assert real["ends"]["/joint_states"]["sources"] == {"/joint_states": "G5"}
+    enabled = files["gates/promotion.md"].split("\n## G5")[1].split("\n## ")[0]
     assert "Check that `/joint_states` arrives at 500 Hz, at most 5 % less" in enabled

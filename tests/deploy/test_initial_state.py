@@ -32,10 +32,9 @@ def test_the_controller_manager_is_told_both_lists(built: Compiled) -> None:
     }
 
 
-def test_the_gate_says_whose_wish_each_state_is(built: Compiled) -> None:
-    gate = built.texts["gates/promotion.md"].replace("\\", "")
-    assert "hardware component arm_hardware is inactive (set in the spec)" in gate
-    assert "hardware component gripper_hardware is unconfigured (vendor default)" in gate
+def test_the_stated_state_is_observed_before_a_person_activates_it(built: Compiled) -> None:
+    states = json.loads(built.texts["config/observe.json"])["real"]["states"]["/controller_manager"]["hardware"]
+    assert states == {"arm_hardware": "inactive", "gripper_hardware": "unconfigured"}
 
 
 def test_a_person_activates_it_before_anything_claims(built: Compiled) -> None:

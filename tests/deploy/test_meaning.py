@@ -15,6 +15,7 @@ import pytest
 
 from cellc.compiler.deploy.bringup import bring_up
 from cellc.compiler.deploy.gate_subjects import ROWS
+from cellc.compiler.deploy.observation import observation
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import BringUpStep
 from tests.cells import CORPUS, ROOT, graph_of
@@ -35,6 +36,23 @@ def _graph(spec: str) -> CellGraph:
 def test_rows_of_a_subject(spec: str, subject: str) -> None:
     rows = [[str(value) for value in row] for row in ROWS[subject](_graph(spec))]
     assert rows == [list(map(str, row)) for row in MEANT[spec]["rows"][subject]]
+
+
+@pytest.mark.parametrize("spec", [spec for spec, told in MEANT.items() if "observed" in told])
+def test_what_an_observer_finds_on_the_real_target(spec: str) -> None:
+    graph = _graph(spec)
+    real = observation(graph, bring_up(graph.cell)).real
+    found = {
+        "component": [[name, state] for each in real.states.values() for name, state in each.hardware.items()],
+        "managed_node": [[name, state] for name, state in real.lifecycle.items()],
+        "interface": [[name, _told(ends.sources), _told(ends.sinks)] for name, ends in real.ends.items()],
+    }
+    meant = MEANT[spec]["observed"]
+    assert {kind: found[kind] for kind in meant} == meant
+
+
+def _told(side: Mapping[str, str]) -> str:
+    return ", ".join(f"{node} (from {gate} on)" if gate else node for node, gate in side.items()) or "none"
 
 
 def test_other_subjects_of_the_complete_cell_are_empty() -> None:

@@ -115,5 +115,5 @@ def test_gates_of_an_adapter_read_it_before_it_is_claimed() -> None:
     page = built("hybrid_sdk").texts["gates/promotion.md"]
     launched = page.index("Authorize the hardware launch again")
     read = page.index("Check that the adapter reads and publishes")
-    idle = page.index("Check that /arm is inactive")
-    assert launched < read < idle < page.index("Authorize the claims")
+    assert launched < read < page.index("--gate G4") < page.index("Authorize the claims")
+    assert json.loads(built("hybrid_sdk").texts["config/observe.json"])["real"]["lifecycle"]["/arm"] == "inactive"

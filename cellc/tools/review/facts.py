@@ -33,7 +33,7 @@ from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatte
 from cellc.tools.review.rights import COMMON, POLICY, rights
 from cellc.tools.review.units import shown
 
-CONTRACT, MANIFEST = "contract.json", "manifest.json"
+CONTRACT, MANIFEST, OBSERVATION = "contract.json", "manifest.json", "config/observe.json"
 _MIDDLEWARE = re.compile(r"middleware/(.+)\.sh")
 _EXPORT = re.compile(r"^export (\w+)=(.*)$", re.MULTILINE)
 OF_SPEC = ("spec", "area", "frame", "device", "excused")
@@ -97,7 +97,8 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
     gates = contract.gates or (_model(files, GATES, Gates) if GATES in files else None)
     named = contract.files
     real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
-    read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up, POLICY, COMMON}
+    # What an observer compares follows from the contract, the bring-up and the catalog; an edit by hand is told as one.
+    read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up, OBSERVATION, POLICY, COMMON}
     leaves: dict[Path, Leaf] = {}
     for facts in (
         _of_contract(contract),
