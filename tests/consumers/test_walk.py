@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 from typing import Any
@@ -72,16 +73,15 @@ def test_every_gate_leaves_evidence_of_its_own(cell: str, distro: str) -> None:
 
 @every_build
 def test_every_interface_of_the_real_target_has_the_ends_of_the_contract(cell: str, distro: str) -> None:
-    line = re.compile(r"^- \[ \] Check the endpoints of `(\S+)`: (.+) → (.+)$", re.MULTILINE)
-    stated = line.findall(sections(cell, distro)["L3"])
+    assert f"observe --package generated/{cell} --gate L3 " in sections(cell, distro)["L3"]
+    observed = json.loads(build(cell, distro).texts["config/observe.json"])["real"]["ends"]
     promised = contract_data(build(cell, distro).texts["contract.json"])["interfaces"]
     ends = {name: (_on_real(one["sources"]), _on_real(one["sinks"])) for name, one in promised.items()}
     there = {name: sides for name, sides in ends.items() if sides[0] or not promised[name]["sources"]}
-    assert [name for name, _, _ in stated] == list(there)
-    for name, starts, stops in stated:
-        sources, sinks = there[name]
-        assert set(starts.split(", ")) == (sources or {"none"}), name
-        assert sinks <= {one.split(" (")[0] for one in stops.split(", ")}, name  # drivers and planners come beside
+    assert list(observed) == list(there)
+    for name, sides in observed.items():
+        assert set(sides["sources"]) == there[name][0], name
+        assert there[name][1] <= set(sides["sinks"]), name  # drivers and planners come beside
 
 
 def _on_real(ends: list[dict[str, Any]]) -> set[str]:
@@ -95,7 +95,8 @@ def test_what_is_read_is_kept_and_what_is_started_is_not(cell: str, distro: str)
             assert ("| tee -a" in block) != bool(re.search(r"^  ros2 (launch|bag record)", block)), block
             # What a command says of its failure is evidence too: nothing reaches the file without it.
             if "| tee" in block:
-                written = re.sub(r'ros2 bag info "\$E/G\d-bag"', "", block)  # what the gate itself has recorded
+                # What the gate itself has recorded, and the report that the observer writes beside it.
+                written = re.sub(r'ros2 bag info "\$E/G\d-bag"| --evidence "\$E" 2', "", block)
                 assert len(_KEPT.findall(block)) == block.count("| tee") == written.count("$E"), block
                 assert not re.search("[<>]", _KEPT.sub("", block)), block
 

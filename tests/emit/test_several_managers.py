@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shlex
 from functools import lru_cache
 from pathlib import Path
@@ -121,6 +122,5 @@ def test_network_gate_looks_at_each_description_and_knows_that_sources_add_up() 
     for side in ("left", "right"):
         asked = f"ros2 service call /{side}/description_publisher/get_parameters rcl_interfaces/srv/GetParameters"
         assert f'{asked} "names: [robot_description]" | grep -o "plugin.[[:alnum:]_]*/[[:alnum:]_:]*"' in gates
-    assert (
-        "`/joint_states` arrives at 500 Hz or more (2 sources), at most 5 % less, no sample older than 0.1 s" in gates
-    )
+    # The slower manager publishes at 500 Hz; what is observed is the sum of both, and may not be less.
+    assert json.loads(_artifacts()["contract.json"])["interfaces"]["/joint_states"]["rate_hz"] == 500.0

@@ -14,6 +14,7 @@ _DOORS = {
     "cellc/compiler/source/events.py": "event by event, of which `compose.py` refuses the first that is too much",
     "cellc/robot/description/yaml_values.py": "depth, aliases, values and numbers are bounded before anything is built",
     "cellc/mock/control/parameters/file.py": "aliases and depth are refused as rcl refuses them",
+    "cellc/compiler/emit/launch/observe_program.py": "on the robot it has no cellc; it reads files of its package",
     "cellc/compiler/verify/read_back.py": "what cellc itself has just written",
 }
 

@@ -24,12 +24,12 @@ BESIDE = re.compile(
 )
 SLOW = 0.95  # a stream may have this share of its rate, and no less
 FUTURE_S = 0.001  # a stamp may be this far in the future: clocks of two computers differ
-STANDING = 0.002  # rad or m: noise of a joint that stands
+STANDING = 0.002  # rad or m: noise of a joint at rest
 FIXED_M, FIXED_RAD = 1e-4, math.radians(0.01)  # by this much a fixed transform may differ: both are rounded
 CLAIMED_FROM = "G7"  # gates before it claim nothing and move nothing
 SHOWN = 4  # problems that a line names; it counts the others
 SIDES = {"topic": ("publishers", "subscribers"), "service": ("server", "clients"), "action": ("server", "clients")}
-OFFERED = {("best_effort", "reliable"), ("volatile", "transient_local")}  # offered, and requested in vain
+OFFERED = {("best_effort", "reliable"), ("volatile", "transient_local")}  # offered, and requested without a match
 VALUES = {1: "bool_value", 2: "integer_value", 3: "double_value", 4: "string_value", 5: "byte_array_value"}
 VALUES |= {6: "bool_array_value", 7: "integer_array_value", 8: "double_array_value", 9: "string_array_value"}
 NOT_SET = 0  # rcl_interfaces/msg/ParameterType
@@ -196,7 +196,7 @@ def _unmatched(writer: End, reader: End) -> Iterator[str]:
 def streams(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     """Compare rate, age, order and frame of each topic with a rate."""
     for name, interface in package.contract["interfaces"].items():
-        if interface.get("rate_hz") is None or not is_due(package, name, gate):
+        if interface.get("rate_hz") is None or not is_published(package, name, gate):
             continue
         bound, wanted = interface.get("max_age_s"), interface["rate_hz"]
         expected = f"{wanted:g} Hz" + ("" if bound is None else f", at most {bound:g} s old")
@@ -215,7 +215,7 @@ def streams(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
         yield judged("flow", name, expected, problems, f"{rate:.4g} Hz, {gaps(stream)}, at most {oldest:.4g} s old")
 
 
-def is_due(package: Package, name: str, gate: str) -> bool:
+def is_published(package: Package, name: str, gate: str) -> bool:
     """Return whether something publishes a topic at a gate."""
     sources = package.plan["ends"].get(name, {"sources": {}})["sources"]
     return any(since <= gate for since in sources.values())
@@ -237,7 +237,7 @@ def joints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
         each for manager in package.contract["managers"].values() for each in manager["controllers"].values()
     )
     states = [name for name, each in package.contract["interfaces"].items() if each["type"].endswith("/JointState")]
-    due = all(is_due(package, name, gate) for name in states)  # else some joints are not read yet
+    due = all(is_published(package, name, gate) for name in states)  # else some joints are not read yet
     wanted = {joint for each in controllers for joint in each["joints"] if due}
     problems = [f"{joint} is missing" for joint in sorted(wanted - found.keys())]
     problems += ["a position is no number"] if any(stream.not_finite for stream in seen.streams.values()) else []
