@@ -97,7 +97,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
     gates = contract.gates or (_model(files, GATES, Gates) if GATES in files else None)
     named = contract.files
     real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
-    # What an observer compares follows from the contract, the bring-up and the catalog; the manifest shows an edit by hand.
+    # What an observer compares follows from contract, bring-up and catalog; the manifest shows an edit by hand.
     read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up, OBSERVATION, POLICY, COMMON}
     leaves: dict[Path, Leaf] = {}
     for facts in (
