@@ -116,15 +116,16 @@ def build(spec: str | Path, output: str | Path = "generated", *, force: bool = F
     return Outcome(report.value, (*findings, *report.diagnostics))
 
 
-def load_mock(folder: str | Path, *, edited: bool = False) -> MockCell:
+def load_mock(folder: str | Path, *, edited: bool = False, stage: str = "") -> MockCell:
     """Load a generated folder, whose rehearsals ``run(name)`` executes.
 
     Args:
         edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
+        stage: the stage of commissioning that motion is planned in, such as ``10``; the last where it is empty.
 
     Raises:
         MockError: the folder cannot be executed; the message names the file and the reason.
     """
     from cellc.mock import load
 
-    return load(Path(folder), edited=edited)
+    return load(Path(folder), edited=edited, stage=stage)

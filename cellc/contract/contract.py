@@ -39,6 +39,11 @@ class ContractFiles(ContractModel):
     )
     rehearsals: InnerPath = Field(description="What the mock executes.")
     bring_up: InnerPath = Field(description="Steps from processes to motion, of the mock and of the real target.")
+    stages: dict[str, InnerPath] = Field(
+        default_factory=dict,
+        description="Parameters that cap planned motion in each stage of commissioning, by its percentage in order; "
+        "the mock plays the last unless another is asked for.",
+    )
     packages: tuple[BesidePath, ...] = Field(
         (), description="Folders beside this one in which packages of meshes lie, relative to that of the spec."
     )

@@ -22,6 +22,7 @@ def partly_executed(files: ContractFiles) -> Mapping[str, str]:
         files.urdf_mock: "limits of joints, which the planner takes from `contract.json`; masses, efforts, looks",
         UNCERTAINTY_FILE: "it but one of a sweep",
         files.bring_up: "the steps of the real target without a rehearsal of it",
+        **dict.fromkeys(files.stages.values(), "limits of straight lines and of servoing, and stages but one"),
     }
     return shown if files.srdf is None else {**shown, files.srdf: "groups, end effectors, poses: as in `contract.json`"}
 

@@ -22,7 +22,7 @@ from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
 from cellc.mock.faults.registry import Injection, any_started, build_fault
-from cellc.mock.folder import GeneratedFolder, read_folder
+from cellc.mock.folder import GeneratedFolder, in_stage, read_folder
 from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Reality
@@ -269,8 +269,8 @@ class MockCell:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """How the folder differs from its manifest, and which links have no collision mesh, one line each."""
-        return (*self._folder.notes, *self._unseen_notes())
+        """How the folder differs from its manifest, its stage, and which links lack a collision mesh, one line each."""
+        return (*self._folder.notes, *self._folder.staged, *self._unseen_notes())
 
     def _unseen_notes(self) -> Iterator[str]:
         """Yield the links whose meshes are not there: those first that move, for they may hit anything."""
@@ -326,27 +326,24 @@ class MockCell:
         return _Run(self._folder, self._memory, entry, seed, watch, known, snapshots).result()
 
 
-def load(folder: Path, *, edited: bool = False) -> MockCell:
+def load(folder: Path, *, edited: bool = False, stage: str = "") -> MockCell:
     """Load a generated folder.
 
     Args:
         edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
+        stage: the stage of commissioning that motion is planned in; the last where it is empty.
 
     Raises:
         MockError: the folder cannot be executed, or a file was edited that is not; names it and why.
     """
-    return cell_of(read_to_run(folder, edited=edited))
+    return cell_of(read_to_run(folder, edited=edited, stage=stage))
 
 
-def read_to_run(folder: Path, *, edited: bool = False) -> GeneratedFolder:
-    """Read a generated folder as `load` does, with notes on what is odd about it, before any model is built.
-
-    Raises:
-        MockError: as `load`.
-    """
+def read_to_run(folder: Path, *, edited: bool = False, stage: str = "") -> GeneratedFolder:
+    """Read a generated folder as `load` does, with notes on what is odd about it, before any model is built."""
     read = read_to_show(folder, edited=edited)
     refuse_not_executed(read)
-    return read
+    return in_stage(read, folder, stage) if stage else read
 
 
 def read_to_show(folder: Path, *, edited: bool = False) -> GeneratedFolder:
@@ -370,7 +367,12 @@ def cell_of(folder: GeneratedFolder) -> MockCell:
         folder,
         PlanMemory(
             build_motion_model(
-                folder.contract, folder.urdf, folder.description, folder.allowed_collisions, folder.mesh_roots
+                folder.contract,
+                folder.urdf,
+                folder.description,
+                folder.allowed_collisions,
+                folder.mesh_roots,
+                folder.capped_by,
             )
         ),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -51,6 +51,8 @@ class GeneratedFolder:
         listed: paths of all files of the manifest.
         uncertainty: what sweeps draw; None where the cell says nothing of it.
         mesh_roots: folders beside which the packages of meshes may lie, as at the build.
+        stages: text of the parameters of each stage of commissioning, by its percentage in order.
+        stage: the one that is planned in; the last where it is empty.
     """
 
     contract: Contract
@@ -67,6 +69,19 @@ class GeneratedFolder:
     listed: tuple[str, ...]
     mesh_roots: tuple[Path, ...] = ()
     uncertainty: Uncertainty | None = None
+    stages: dict[str, str] = field(default_factory=dict)
+    stage: str = ""
+
+    @property
+    def capped_by(self) -> tuple[str, str]:
+        """Name and text of the file with the limits that motion is planned in; empty where no stage has some."""
+        percent = self.stage or next(reversed(self.stages), "")
+        return (self.contract.files.stages[percent], self.stages[percent]) if percent else ("", "")
+
+    @property
+    def staged(self) -> tuple[str, ...]:
+        """One line on the stage, where another than the last may be meant."""
+        return (f"motion is planned in stage {self.stage} % of commissioning",) if self.stage else ()
 
     @property
     def edited(self) -> bool:
@@ -119,7 +134,16 @@ def read_folder(folder: Path, *, edited: bool = False) -> GeneratedFolder:
         listed=tuple(manifest.files),
         mesh_roots=_mesh_roots(folder, contract),
         uncertainty=_read_model(folder, UNCERTAINTY_FILE, Uncertainty) if UNCERTAINTY_FILE in manifest.files else None,
+        stages={percent: read_text(folder, path) for percent, path in contract.files.stages.items()},
     )
+
+
+def in_stage(read: GeneratedFolder, folder: Path, stage: str) -> GeneratedFolder:
+    """Return a folder whose motion is planned in a stage of commissioning; raise MockError where it has none such."""
+    if stage not in read.stages:
+        known = ", ".join(read.stages) or "none"
+        raise MockError(folder.as_posix(), f"has no stage `{stage}` of commissioning; its stages are: {known}")
+    return replace(read, stage=stage)
 
 
 def _mesh_roots(folder: Path, contract: Contract) -> tuple[Path, ...]:
@@ -328,7 +352,7 @@ def differences(folder: Path, contract: Contract, manifest: Manifest) -> tuple[t
 def named_files(contract: Contract) -> Iterator[str]:
     """Yield the files beside it that a contract has executed."""
     files = contract.files
-    yield from (files.rehearsals, files.urdf_mock, files.bring_up, *files.parameters.values())
+    yield from (files.rehearsals, files.urdf_mock, files.bring_up, *files.parameters.values(), *files.stages.values())
     if files.srdf is not None:
         yield files.srdf
 

@@ -127,11 +127,12 @@ def test_launch_starts_each_process_once_and_real_hardware_behind_its_gate() -> 
         ("demo", "bring_up", None, real),
         ("demo", "bring_up", real, None),
     ]
-    (gate,) = (one for one in launch.iterfind("arg") if one.get("if"))
+    first, gate = (one for one in launch.iterfind("arg") if one.get("if"))
+    assert (first.get("name"), first.get("default"), first.get("if")) == ("stage", "10", real)
     assert (gate.get("name"), gate.get("default"), gate.get("if")) == ("confirm_real", None, real)
     assert [choice.get("value") for choice in gate] == ["I_HAVE_PASSED_GATES_G0_TO_G2"]
-    defaults = {one.get("name"): one.get("default") for one in launch.iterfind("arg") if one is not gate}
-    assert defaults == {"target": "mock", "confirm_real": "no", "arm_address": "192.168.56.101"}
+    defaults = {one.get("name"): one.get("default") for one in launch.iterfind("arg") if one.get("if") is None}
+    assert defaults == {"target": "mock", "confirm_real": "no", "stage": "100", "arm_address": "192.168.56.101"}
     (mover,) = _xml("complete", "launch/move.launch.xml").iterfind("node")
     assert (mover.get("pkg"), mover.get("name")) == ("cell_tasks", "task")
     spawner = launch.find("node[@exec='spawner']")

@@ -14,7 +14,7 @@ DRAWN = {"node_graph.py", "responsibility_graph.py", "rviz.py"}
 STATED = {
     "contract/uncertainty.py": {3, 8},  # ISO 9283, and the three axes
     "middleware/profiles.py": {7447},  # the port that Zenoh has by default
-    "moveit.py": {0.005, 0.01, 0.1, 0.2, 0.25, 0.5, 1.2, 4, 5, 6},  # what the setup assistant of MoveIt writes
+    "moveit.py": {0.005, 0.01, 0.1, 0.2, 0.5, 1.2, 4, 5, 6},  # what the setup assistant of MoveIt writes
 }
 """Numbers of a standard, or of the program that reads the file, by module."""
 

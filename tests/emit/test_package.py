@@ -63,11 +63,12 @@ def test_artifacts_are_the_same_under_any_hash_seed() -> None:
 def test_launch_refers_to_files_of_the_package(cell: str) -> None:
     artifacts = artifacts_of(cell)
     text = artifacts["launch/cell.launch.xml"]
-    paths = set(re.findall(rf"\$\(find-pkg-share {cell}\)/((?:\$\(var target\)|[^\"') ])+)", text))
+    paths = set(re.findall(rf"\$\(find-pkg-share {cell}\)/((?:\$\(var (?:target|stage)\)|[^\"') ])+)", text))
     assert paths
     for path in paths:
         for target in ("mock", "real"):
-            assert path.replace("$(var target)", target) in artifacts
+            for stage in ("10", "25", "50", "100"):
+                assert path.replace("$(var target)", target).replace("$(var stage)", stage) in artifacts
 
 
 def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
@@ -83,7 +84,7 @@ def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
     kept = {*drivers, "ur5e_pick"}
     others = [node for node in launch.findall("node") if node.get("pkg") not in kept and node not in spawners]
     assert {node.get("if") for node in others} == {None}
-    (gate,) = (argument for argument in launch.findall("arg") if argument.get("if") == only_real)
+    gate = next(argument for argument in launch.findall("arg[@name='confirm_real']") if argument.get("if") == only_real)
     assert gate.get("default") is None
     assert len(gate.findall("choice")) == 1
 
@@ -91,7 +92,7 @@ def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
 def test_launch_arguments_are_described_and_target_is_mock_by_default() -> None:
     launch = ElementTree.fromstring(artifacts_of("ur5e_pick")["launch/cell.launch.xml"])
     arguments = {argument.attrib["name"]: argument for argument in launch.findall("arg") if argument.get("if") is None}
-    assert sorted(arguments) == ["arm_address", "confirm_real", "target"]
+    assert sorted(arguments) == ["arm_address", "confirm_real", "stage", "target"]
     assert all(argument.get("description") for argument in arguments.values())
     assert arguments["target"].get("default") == "mock"
     assert [choice.get("value") for choice in arguments["target"].findall("choice")] == ["mock", "real"]

@@ -34,6 +34,7 @@ _ALLOWED = (
     "ros2 launch ",
     "ros2 lifecycle get ",
     "ros2 node list",
+    "ros2 param get ",
     "ros2 pkg xml -t version ",
     "ros2 run minimal observe ",  # tests/consumers/test_observe.py: it makes nothing that could change a graph
     "ros2 run tf2_ros tf2_",

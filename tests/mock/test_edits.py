@@ -144,7 +144,7 @@ def test_every_generated_file_is_executed_or_refused_or_read_by_people_alone(nam
     files = read.contract.files
     # docs/mock.md, "What it reads".
     executed = {"contract.json", "config/uncertainty.json", files.rehearsals, files.urdf_mock, files.bring_up}
-    executed |= {*files.parameters.values(), *filter(None, (files.srdf,))}
+    executed |= {*files.parameters.values(), *files.stages.values(), *filter(None, (files.srdf,))}
     assert {*not_executed(whole)} == {
         one for one in read.listed if one not in executed and not one.endswith(FOR_PEOPLE)
     }

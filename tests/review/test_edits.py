@@ -38,6 +38,16 @@ STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, 
 CANCELED = "canceled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: canceled, within: 200 ms}"
 
 
+def _tips(*speeds: float) -> str:
+    """Return the rows of the audit that say how fast a tip is at most in each stage, in m/s."""
+    rows = (
+        f"| {percent} % | manipulator {speed} m/s | {0.25 * percent / 100:.3g} m/s | {percent / 100:g} of each limit | "
+        f"`config/commissioning/stage_{percent}.yaml` |"
+        for percent, speed in zip((10, 25, 50), speeds, strict=True)
+    )
+    return " / ".join((*rows, "and 1 more"))
+
+
 def _first_goal(by: float, seconds: float) -> str:
     """Return the node of the first goal: to either side half of what is allowed, in half of the timeout."""
     # docs.universal-robots.com, UR5e: all joints turn 360 deg to both sides; the elbow 180 deg in ur_description.
@@ -180,6 +190,9 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz -133.3 491.9 1114.9 mm, rpy 180 0 -90 deg | moves 721 mm, turns 90 deg",
             "review network | control_pc | ROS_DOMAIN_ID | 42 -> 43 | breaks",
+            # A fifth more than 6.055 m/s: 90 deg/s at 1.212, 1.212, 0.787, 0.372 and 0.273 m from the axes.
+            f"review documents | audit.md | 4 lines (not classified) | {_tips(0.61, 1.6, 3.1)} -> "
+            f"{_tips(0.73, 1.9, 3.7)}",
             f"safe limits | {ARM} | acceleration | 143.2394 deg/s^2 -> 114.5916 deg/s^2 | -20 %",
         ],
     ),

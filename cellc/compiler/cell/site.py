@@ -106,6 +106,16 @@ class Recovery:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class RiskAssessment:
+    """What the risk assessment allows, m/s, m and N; None of what it does not state."""
+
+    document: str
+    velocity: float | None
+    reach: float | None
+    force: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Safety:
     """The safety boundary, which cellc names and never implements."""
 
@@ -115,6 +125,9 @@ class Safety:
     recovery: Annotated[Recovery, Graded(ReviewArea.SAFETY, rule=Rule.DANGEROUS, ordered=False)] = field(
         default_factory=Recovery
     )
+    risk_assessment: Annotated[
+        RiskAssessment | None, Graded(ReviewArea.SAFETY, "what the risk assessment allows", Rule.DANGEROUS)
+    ] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,11 +160,32 @@ class FirstMotion(Entity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Commissioning:
+    """Caps of planned motion.
+
+    Args:
+        velocity, acceleration: shares of the limits of every joint, 1 where the spec states a speed of the tip instead.
+        tip_speed: what no path may give the tip of a group, m/s; None where a share is stated.
+        reach: largest distance of a tip from the base of its group, m.
+        force: largest grip force, N.
+        stages: shares of velocity and acceleration, in order.
+    """
+
+    velocity: float
+    acceleration: float
+    tip_speed: float | None = None
+    reach: float | None = None
+    force: float | None = None
+    stages: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Bringup:
-    """The gates by name, in order, and the first motion of each device that has one."""
+    """The gates by name, in order, the first motion of each device that has one, and the caps of planned motion."""
 
     gates: Annotated[tuple[str, ...], Graded(ReviewArea.GATES, rule=Rule.LOST)] = (*PROMOTION_GATES, *NETWORK_GATES)
     first_motions: tuple[FirstMotion, ...] = ()
+    caps: Commissioning | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

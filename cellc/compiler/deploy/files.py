@@ -5,6 +5,7 @@ from __future__ import annotations
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager
 from cellc.compiler.cell.interface import Node, NodeSource
+from cellc.compiler.graph.commissioning import percent
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import TARGETS
 
@@ -64,6 +65,9 @@ SERVO = "config/moveit/servo.yaml"
 SENSORS = "config/moveit/sensors_3d.yaml"
 """What feeds the occupancy map of move_group, where the cell has one."""
 
+COMMISSIONING = "config/commissioning/"
+"""Caps of planned motion, a file for each stage; the last that a node is given."""
+
 FIRST_GOAL_PROGRAM = "scripts/first_goal"
 """What sends the one small goal before an application is started."""
 
@@ -94,6 +98,17 @@ def parameter_files(cell: Cell, target: str) -> tuple[str, ...]:
     sensors = () if cell.octomap is None else (SENSORS,)
     files = (*PARAMETER_FILES, *sensors)
     return tuple(moveit_controllers_file(cell, target) if file == CONTROLLERS else file for file in files)
+
+
+def stage_file(percent: str) -> str:
+    """Return the path of the caps of a stage, or of what a substitution makes of it."""
+    return f"{COMMISSIONING}stage_{percent}.yaml"
+
+
+def stage_files(cell: Cell) -> dict[str, str]:
+    """Return the path of the caps of each stage, by its percentage; none where nothing reads them."""
+    caps = cell.bringup.caps
+    return {percent(share): stage_file(percent(share)) for share in caps.stages} if caps and plans(cell) else {}
 
 
 def servo_files(cell: Cell) -> tuple[str, ...]:
@@ -147,3 +162,8 @@ def is_servo(cell: Cell, node: Node) -> bool:
 def is_planner(node: Node) -> bool:
     """Tell whether a node is MoveIt's move_group, which reads these files."""
     return node.is_planner
+
+
+def is_capped(cell: Cell, node: Node) -> bool:
+    """Tell whether a node is given the caps of a stage."""
+    return bool(stage_files(cell)) and (is_planner(node) or is_servo(cell, node))

@@ -9,6 +9,7 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.site import FirstMotion
 from cellc.compiler.cell.vendor import SpeedControl
 from cellc.compiler.deploy.bringup import bring_up, phases, releases
+from cellc.compiler.deploy.files import stage_files
 from cellc.compiler.deploy.first_goal import first_goals
 from cellc.compiler.deploy.processes import motion_clients, past_controllers
 from cellc.compiler.deploy.releases import GOAL, Release, move_real, release_once
@@ -141,6 +142,37 @@ def released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterato
     if phase in phases(plan, "real"):
         for device in releases(plan, phase) or ("",):
             yield f"{device}: " if device else "", release_once(graph.cell, release, device)
+
+
+def first_stage(graph: CellGraph) -> Iterator[Values]:
+    """Yield the stage of commissioning in which the cell starts on real hardware."""
+    return iter(_stages(graph)[:1])
+
+
+def later_stages(graph: CellGraph) -> Iterator[Values]:
+    """Yield the stages after it."""
+    return iter(_stages(graph)[1:])
+
+
+def _stages(graph: CellGraph) -> list[Values]:
+    """Return each stage with its file, the cap of one joint, and the command that shows it."""
+    rows = list[Values]()
+    for percent, file in stage_files(graph.cell).items():
+        joint, node = graph.cell.groups[0].joints[0], graph.cell.planners[0].full_name
+        parameter = f"robot_description_planning.joint_limits.{joint}.max_velocity"
+        command = f"timeout 30 ros2 param get {shell_word(node)} {shell_word(parameter)}"
+        rows.append((percent, file, joint, command))
+    return rows
+
+
+def risk_assessment(graph: CellGraph) -> Iterator[Values]:
+    """Yield the document of the risk assessment with its figures, where it states one."""
+    assessed = graph.cell.safety.risk_assessment
+    named = {"velocity": "tool speed", "reach": "reach", "force": "grip force"}
+    texts = {word: graph.cell.text("safety", "risk_assessment", name) for name, word in named.items()}
+    figures = ", ".join(f"{word} {text}" for word, text in texts.items() if text)
+    if assessed is not None and figures:
+        yield assessed.document, figures
 
 
 def cancels(graph: CellGraph) -> Iterator[Values]:

@@ -8,6 +8,7 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.emit import (
     cell_picture,
+    commissioning,
     description,
     frames,
     gates,
@@ -31,6 +32,7 @@ EMITTERS: tuple[Callable[[CellGraph, Deployment], Iterator[Artifact]], ...] = (
     package.emit,
     description.emit,
     moveit.emit,
+    commissioning.emit,
     rviz.emit,
     parameters.emit,
     frames.emit,

@@ -31,6 +31,7 @@ from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.parameter_file import ANY_NODE, NodeParameters, parameter_file
 from cellc.compiler.formats.yaml_text import Tree, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.commissioning import LINEAR_M_S, LINEAR_M_S2, TURNING_RAD_S
 from cellc.compiler.graph.control_laws import start_outside
 from cellc.compiler.link.control import TRAJECTORY_ACTION
 from cellc.compiler.link.hardware import JOINT_STATES
@@ -149,13 +150,12 @@ def _move_group(cell: Cell) -> Parameters:
 
 
 def _cartesian_limits() -> Parameters:
-    # 0.25 m/s is the reduced speed of ISO 10218-1; the others are own choices that reach it within half a second.
     prefix = "robot_description_planning.cartesian_limits"
     return {
-        f"{prefix}.max_trans_vel": 0.25,
-        f"{prefix}.max_trans_acc": 0.5,
-        f"{prefix}.max_trans_dec": -0.5,
-        f"{prefix}.max_rot_vel": 0.5,
+        f"{prefix}.max_trans_vel": LINEAR_M_S,
+        f"{prefix}.max_trans_acc": LINEAR_M_S2,
+        f"{prefix}.max_trans_dec": -LINEAR_M_S2,
+        f"{prefix}.max_rot_vel": TURNING_RAD_S,
     }
 
 

@@ -18,6 +18,7 @@ from cellc.compiler.deploy.bringup import phases
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import (
+    COMMISSIONING,
     FIRST_GOAL_PROGRAM,
     NETWORK_CHECKLIST,
     OBSERVE_PROGRAM,
@@ -28,6 +29,7 @@ from cellc.compiler.deploy.files import (
     VERSIONS_PROGRAM,
     WATCH_PROGRAM,
     plans,
+    stage_files,
 )
 from cellc.compiler.deploy.first_goal import programs
 from cellc.compiler.deploy.gates import Gate
@@ -54,6 +56,7 @@ _FILES = (
     ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
     (RVIZ, "RViz configuration, display only: `rviz2 -d` with it"),
     ("config/moveit/", "the SRDF and the other parameters of move_group, with `config/joint_limits.yaml`"),
+    (COMMISSIONING, "caps of planned motion, a file for each stage: `stage:=` of the launch chooses one"),
     ("middleware/", "environment and profile of each host; source it before you start anything there"),
     ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
     ("launch/cell.launch.xml", "starts the cell; on real hardware it stops before claims and motion"),
@@ -218,6 +221,8 @@ def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
 def _present(cell: Cell, plan: Deployment, name: str) -> bool:
     if name == "config/moveit/":
         return bool(cell.groups)
+    if name == COMMISSIONING:
+        return bool(stage_files(cell))
     if name == "middleware/":
         return bool(cell.hosts)
     if name in (REQUIRED_PROGRAM, FIRST_GOAL_PROGRAM, WATCH_PROGRAM, _GOAL):

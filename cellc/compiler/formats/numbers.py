@@ -23,6 +23,12 @@ def decimal(value: float) -> str:
     return (mantissa if "." in mantissa else f"{mantissa}.0") + exponent + power
 
 
+def at_most(bound: float) -> str:
+    """Return an upper bound with two digits, never below it: a small change of what it follows from shows rarely."""
+    step = 10.0 ** (math.floor(math.log10(bound)) - 1) if bound > 0.0 else 1.0
+    return f"{math.ceil(round(bound / step, 6)) * step:.2g}"
+
+
 def rounded(value: float) -> float:
     """Return a computed length or angle without its rounding noise: a picometer or picoradian is exact enough."""
     return positive_zero(round(value, 12))

@@ -17,11 +17,13 @@ from cellc.compiler.cell.site import (
     Calibration,
     CalibrationFile,
     Clock,
+    Commissioning,
     FirstMotion,
     Host,
     NetworkCard,
     Recording,
     Recovery,
+    RiskAssessment,
     Safety,
     Target,
 )
@@ -30,7 +32,7 @@ from cellc.compiler.source.document import Node, SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import StampSpec
 from cellc.compiler.spec.hosts import ClockSpec
-from cellc.compiler.spec.safety import FirstMotionSpec
+from cellc.compiler.spec.safety import CommissioningSpec, FirstMotionSpec, RiskAssessmentSpec
 from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.entities import Kpis
 from cellc.contract.pins import day_of
@@ -121,7 +123,15 @@ def bind_safety(spec: CellSpec, devices: tuple[Device, ...]) -> Safety:
             owner=recovery.owner,
             observer=recovery.observer,
         ),
+        risk_assessment=_risk_assessment(spec.safety.risk_assessment),
     )
+
+
+def _risk_assessment(written: RiskAssessmentSpec | None) -> RiskAssessment | None:
+    if written is None:
+        return None
+    velocity, reach, force = map(si, (written.velocity, written.reach, written.force))
+    return RiskAssessment(document=written.document, velocity=velocity, reach=reach, force=force)
 
 
 def bind_bringup(spec: CellSpec, places: Places) -> Bringup:
@@ -135,6 +145,23 @@ def bind_bringup(spec: CellSpec, places: Places) -> Bringup:
     return Bringup(
         gates=(*PROMOTION_GATES, *NETWORK_GATES) if gates == "standard" else tuple(gates),
         first_motions=tuple(_first_motion(motion, at, places) for motion, at in stated),
+        caps=_caps(spec.bringup.commissioning),
+    )
+
+
+_STAGES = (0.1, 0.25, 0.5, 1.0)
+
+
+def _caps(written: CommissioningSpec | None) -> Commissioning | None:
+    if written is None:
+        return None
+    return Commissioning(
+        velocity=1.0 if written.velocity.linear else written.velocity.si,
+        acceleration=written.acceleration.si,
+        tip_speed=written.velocity.si if written.velocity.linear else None,
+        reach=si(written.reach),
+        force=si(written.force),
+        stages=_STAGES if written.stages is None else written.stages.si,
     )
 
 

@@ -269,6 +269,10 @@ DataRate = Annotated[Quantity, QuantityType((DATA_RATE,), "1 Gbit/s", least=1.0)
 Mass = Annotated[Quantity, QuantityType((MASS,), "0.9 kg", least=0.0)]
 Ratio = Annotated[Quantity, QuantityType((RATIO,), "50 %")]
 Share = Annotated[Quantity, QuantityType((RATIO,), "100 %", least=0.0, most=1.0)]
+# Of what may move at all: a cap of nothing lets nothing move.
+Cap = Annotated[Quantity, QuantityType((RATIO,), "50 %", least=0.001)]
+SpeedCap = Annotated[Quantity, QuantityType((VELOCITY, RATIO), "250 mm/s", least=0.001)]
+Stages = Annotated[QuantityVector, QuantityType((RATIO,), "10 25 50 100 %", size=0, least=0.01, most=1.0)]
 # No number of runs shows that all succeed: one in a million may fail, which ten million runs can tell.
 Rate = Annotated[Quantity, QuantityType((RATIO,), "99.5 %", least=0.0, most=0.999999)]
 Confidence = Annotated[Quantity, QuantityType((RATIO,), "95 %", least=0.5, most=0.9999)]

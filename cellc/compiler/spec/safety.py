@@ -6,7 +6,17 @@ from typing import Annotated, Literal, Union
 from pydantic import Discriminator, Field, Tag
 
 from cellc.compiler.spec.base import FrameReference, StandardOr, shape_of
-from cellc.compiler.spec.quantity import Duration, JointSpeed, JointWay
+from cellc.compiler.spec.quantity import (
+    Cap,
+    Duration,
+    Edge,
+    Force,
+    JointSpeed,
+    JointWay,
+    SpeedCap,
+    Stages,
+    Velocity,
+)
 from cellc.contract.stated import Name, StatedModel, Stop, Text
 from cellc.contract.vocabulary import UNKNOWN
 
@@ -30,6 +40,17 @@ class RecoverySpec(StatedModel):
     observer: Text = Field(UNKNOWN, description="Who is at the stop during supervised motion.", examples=["operator"])
 
 
+class RiskAssessmentSpec(StatedModel):
+    """What the risk assessment of the cell allows; each figure is compared with the cap of `bringup.commissioning`."""
+
+    document: Text = Field(..., description="Document with its revision.", examples=["RA-017 rev 2"])
+    velocity: Velocity | None = Field(None, description="Largest speed of a tool.", examples=["250 mm/s"])
+    reach: Edge | None = Field(
+        None, description="Largest distance of a tool from the base of its group.", examples=["900 mm"]
+    )
+    force: Force | None = Field(None, description="Largest grip force.", examples=["60 N"])
+
+
 class SafetySpec(StatedModel):
     """The safety boundary; cellc names it and never implements it."""
 
@@ -42,6 +63,11 @@ class SafetySpec(StatedModel):
         default_factory=RecoverySpec,
         description="Recovery states and acknowledgment.",
         examples=[{"acknowledge": "operator"}],
+    )
+    risk_assessment: RiskAssessmentSpec | None = Field(
+        None,
+        description="What the risk assessment allows.",
+        examples=[{"document": "RA-017 rev 2", "velocity": "250 mm/s"}],
     )
 
 
@@ -66,6 +92,30 @@ FirstMotionsSpec = Annotated[
 ]
 
 
+class CommissioningSpec(StatedModel):
+    """What caps planned motion after the first goals: in stages of `velocity` and `acceleration`, up to all of them."""
+
+    velocity: SpeedCap = Field(
+        ...,
+        description="Share of the joints' limits, or the speed that no path may give the tip of a group: the joints of "
+        "the group then get the share at which all of them together stay below it.",
+        examples=["250 mm/s", "50 %"],
+    )
+    acceleration: Cap = Field(..., description="Share of the joints' limits.", examples=["50 %"])
+    reach: Edge | None = Field(
+        None,
+        description="Largest distance of a tip from the base of its group, in every stage. Poses and goals are "
+        "checked; no parameter of MoveIt keeps a path within it.",
+        examples=["900 mm"],
+    )
+    force: Force | None = Field(
+        None, description="Largest force that the task asks a gripper for, in every stage.", examples=["60 N"]
+    )
+    stages: Stages | None = Field(
+        None, description="Shares of both, in order; 10, 25, 50 and 100 % if absent.", examples=["10 50 100 %"]
+    )
+
+
 class BringupSpec(StatedModel):
     """Gates G0–G7 and L1–L6; a gate may be tightened, never removed."""
 
@@ -85,4 +135,9 @@ class BringupSpec(StatedModel):
                 "stop_if": ["wrong direction"],
             }
         ],
+    )
+    commissioning: CommissioningSpec | None = Field(
+        None,
+        description="Caps of what move_group and MoveIt Servo plan, and the stages to them in gate G7.",
+        examples=[{"velocity": "250 mm/s", "acceleration": "50 %"}],
     )

@@ -21,6 +21,7 @@ class FolderOptions:
         as_json: write the results for programs.
         evidence: folder that bags, records, figures and a report are written to.
         fan: who executes runs.
+        stage: of commissioning that motion is planned in, in percent; the last where it is empty.
     """
 
     folder: str
@@ -29,6 +30,7 @@ class FolderOptions:
     as_json: bool = False
     evidence: str | None = None
     fan: Fan = USUAL
+    stage: str = ""
 
     def extras(self) -> Iterator[Extra]:
         """Yield what it needs beyond what cellc is installed with."""

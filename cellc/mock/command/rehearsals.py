@@ -102,7 +102,7 @@ def load_seeded(options: FolderOptions) -> MockCell:
     """Load a folder; raise MockError where it or the seed cannot be used."""
     if options.seed < 0:
         raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
-    return load(Path(options.folder), edited=options.edited)
+    return load(Path(options.folder), edited=options.edited, stage=options.stage)
 
 
 def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> list[TimedResult]:

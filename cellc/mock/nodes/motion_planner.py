@@ -12,8 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
+from cellc.contract.quantities import LARGEST, SMALLEST
 from cellc.contract.transforms import Pose, Vector3, climb
 from cellc.mock.control.interfaces import Array
+from cellc.mock.control.parameters.file import ParameterFile, ParameterFileError
 from cellc.mock.errors import MockError
 from cellc.mock.world.world import LinkTree, link_tree
 from cellc.robot.description.meshes import absent, without_shapes
@@ -80,8 +82,14 @@ def build_motion_model(
     description: Description,
     allowed_collisions: Sequence[tuple[str, str]],
     mesh_roots: Sequence[Path] = (),
+    stage: tuple[str, str] = ("", ""),
 ) -> MotionModel:
-    """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together."""
+    """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together.
+
+    Args:
+        stage: name and text of the file that move_group is given last.
+    """
+    limits = _capped(contract, *stage)
     missing = frozenset[str]()
     try:
         try:
@@ -92,17 +100,41 @@ def build_motion_model(
         scene = CollisionScene(robot, disabled_collisions=allowed_collisions)
     except ModelError as error:
         raise MockError(contract.files.urdf_mock, str(error)) from None
-    groups = {name: _group_model(name, group, contract, robot, scene) for name, group in contract.groups.items()}
+    groups = {
+        name: _group_model(name, group, contract, limits, robot, scene) for name, group in contract.groups.items()
+    }
     unseen = (
         link.name for link in description.links if any(mesh.filename in missing for mesh in link.collision_meshes())
     )
     return MotionModel(robot, groups, scene, link_tree(description), tuple(unseen))
 
 
+def _capped(contract: Contract, file: str, text: str) -> Mapping[str, ContractJointLimits]:
+    """Return the limits that MoveIt plans with: those of the contract within those of a stage; or raise MockError."""
+    try:
+        given = ParameterFile(text).of_node("move_group", "")
+    except ParameterFileError as error:
+        raise MockError(file, error.reason) from None
+    limits = dict(contract.joint_limits)
+    for joint, of in ((joint, of) for joint in limits for of in ("velocity", "acceleration")):
+        name = f"robot_description_planning.joint_limits.{joint}.max_{of}"
+        value = given.get(name)
+        if isinstance(value, float) and SMALLEST <= value <= LARGEST:
+            limits[joint] = limits[joint].model_copy(update={of: min(value, getattr(limits[joint], of))})
+        elif value is not None:
+            raise MockError(file, f"`{name}` must be a number from {SMALLEST:g} to {LARGEST:g}, got {value!a}")
+    return limits
+
+
 def _group_model(
-    name: str, group: ContractGroup, contract: Contract, robot: RobotModel, scene: CollisionScene
+    name: str,
+    group: ContractGroup,
+    contract: Contract,
+    known: Mapping[str, ContractJointLimits],
+    robot: RobotModel,
+    scene: CollisionScene,
 ) -> GroupModel:
-    missing = sorted(set(group.joints) - set(contract.joint_limits))
+    missing = sorted(set(group.joints) - set(known))
     if missing:
         raise MockError("contract.json", f"joint `{missing[0]}` of group `{name}` has no limits")
     if not group.joints:
@@ -110,7 +142,7 @@ def _group_model(
     try:
         tip_link, transform_tip_to_link = _link_of(group.tip_frame, contract, robot)
         planning_group = PlanningGroup(name, group.joints, group.base_link, tip_link)
-        limits = _limits(group.joints, [contract.joint_limits[joint] for joint in group.joints])
+        limits = _limits(group.joints, [known[joint] for joint in group.joints])
         return GroupModel(Planner(robot, planning_group, limits, scene), transform_tip_to_link, group.start_outside)
     except (ModelError, LimitsError) as error:
         raise MockError("contract.json", f"group `{name}`: {error}") from None

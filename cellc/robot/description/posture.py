@@ -29,9 +29,7 @@ def posture(description: Description, positions: Mapping[str, float]) -> dict[st
         parent = waiting.pop(0)
         for joint in children.get(parent, ()):
             if joint.child not in poses:
-                poses[joint.child] = (
-                    poses[parent] @ joint.pose @ _moved(joint, _position(joint, description, positions))
-                )
+                poses[joint.child] = poses[parent] @ joint.pose @ moved(joint, _position(joint, description, positions))
                 waiting.append(joint.child)
     return poses
 
@@ -92,9 +90,9 @@ def _distance(chain: Iterable[Joint], positions: Mapping[str, float]) -> float:
     pose = identity()
     axis: Vector3 | None = None
     for joint in chain:
-        moved = _moved(joint, positions.get(joint.name, 0.0))
+        step = moved(joint, positions.get(joint.name, 0.0))
         # The frame of the first joint is where the distance is measured from.
-        pose = pose @ moved if axis is None else pose @ joint.pose @ moved
+        pose = pose @ step if axis is None else pose @ joint.pose @ step
         axis = axis or joint.axis
     along = 0.0 if axis is None else sum(a * b for a, b in zip(_unit(axis), pose.position, strict=True))
     return math.sqrt(max(0.0, sum(value * value for value in pose.position) - along * along))
@@ -109,7 +107,8 @@ def _position(joint: Joint, description: Description, positions: Mapping[str, fl
     return joint.mimic.multiplier * positions.get(leader.name, 0.0) + joint.mimic.offset
 
 
-def _moved(joint: Joint, position: float) -> Pose:
+def moved(joint: Joint, position: float) -> Pose:
+    """Return the child frame of a joint in its joint frame, which it is at zero; rad or m."""
     x, y, z = _unit(joint.axis)
     if joint.slides:
         return Pose((x * position, y * position, z * position), (0.0, 0.0, 0.0, 1.0))

@@ -153,6 +153,7 @@ _OF_ONE_FOLDER = {
     "records": "--records",
     "journal": "--journal",
     "evidence": "--evidence",
+    "stage": "--stage",
     "live": "--live",
 }
 

@@ -19,6 +19,7 @@ from cellc.tools.cli.run_options import (
     RECORDS,
     REHEARSALS,
     SEED,
+    STAGE,
     live_options,
     options_as,
 )
@@ -56,6 +57,7 @@ class _Mock(click.Command):
 @EVIDENCE
 @JSON
 @SEED
+@STAGE
 @EDITED
 @live_options
 @MATRIX

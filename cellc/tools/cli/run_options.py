@@ -49,6 +49,7 @@ EVIDENCE = click.option(
     help="Write bags, records, key figures and a report.",
 )
 SEED = click.option("--seed", default=0, show_default=True, help="Seed of all random draws.")
+STAGE = click.option("--stage", default="", metavar="PERCENT", help="Plan in this stage of commissioning.")
 EDITED = click.option(
     "--edited", is_flag=True, help="Run an edited folder; every result is marked, and no gate is signed."
 )

@@ -99,6 +99,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
     real, mock = _described(files, named.urdf_real), _described(files, named.urdf_mock)
     # What an observer compares follows from contract, bring-up and catalog; the manifest shows an edit by hand.
     read = {CONTRACT, MANIFEST, GATES, named.rehearsals, named.bring_up, OBSERVATION, POLICY, COMMON}
+    read |= set(named.stages.values())
     leaves: dict[Path, Leaf] = {}
     for facts in (
         _of_contract(contract),
@@ -113,6 +114,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         _of_middleware(files),
         _of_pairs(files, named.srdf),
         _of_policy(files, contract.cell),
+        _of_stages(files, contract),
         () if cell is None else _of_spec(cell),
         _of_excuses(excused),
     ):
@@ -332,6 +334,8 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
     yield ("spec", "bringup", "gates"), cell.bringup.gates
     for first in cell.bringup.first_motions:
         yield from flatten(_without_place(as_json(first)), ("spec", "bringup", "first_motion", first.name))
+    if cell.bringup.caps is not None:
+        yield from flatten(as_json(cell.bringup.caps), ("spec", "bringup", "commissioning"))
     yield from flatten(as_json(cell.recording), ("spec", "recording"))
     yield from flatten(as_json(cell.network), ("spec", "network"))
     yield from flatten(as_json(cell.targets), ("spec", "targets"))
@@ -346,6 +350,19 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
     for node in cell.nodes:
         yield from flatten(_without_place(as_json(node)), ("spec", "nodes", node.full_name))
+
+
+def _of_stages(files: Mapping[str, str], contract: Contract) -> Iterator[tuple[Path, Leaf]]:
+    """Yield what each stage of commissioning leaves, of joints as a share of their limits."""
+    for percent, file in contract.files.stages.items():
+        known = {".".join(map(str, path[2:])): leaf for path, leaf in flatten(_loaded(file, _text(files, file)), ())}
+        for name, value in known.items():
+            joint, _, of = name.removeprefix("robot_description_planning.joint_limits.").partition(".max_")
+            limit = getattr(contract.joint_limits.get(joint), of, None) if of else None
+            if limit is not None and isinstance(value, float):
+                yield ("stage", f"{percent} %", joint, of), round(value / limit, 6)
+            elif not name.startswith("robot_description_planning.joint_limits."):
+                yield ("stage", f"{percent} %", name), value
 
 
 def _of_excuses(excused: Sequence[Diagnostic]) -> Iterator[tuple[Path, Leaf]]:

@@ -25,6 +25,7 @@ from cellc.tools.review.rules import Row
 _A = ReviewArea
 
 _MOVE_GROUP = "file config/moveit/move_group.yaml {_} ros__parameters"
+_STRAIGHT = "robot_description_planning.cartesian_limits"
 _BURNS = "a tool with a lower rating is destroyed"
 _MEET = "arms may meet in it"
 _OTHER = "another device may answer at this address"
@@ -127,6 +128,10 @@ ROWS: Sequence[Row] = (
         Graded(_A.MOTION, "joint positions", unit="joint", why=PLANNED),
     ),
     Row(
+        f"{_MOVE_GROUP} {_STRAIGHT.replace('.', ' ')} max_trans_dec",
+        Graded(_A.LIMITS, "Cartesian limit", Rule.LESS, why=FURTHER),  # it is negative
+    ),
+    Row(
         f"{_MOVE_GROUP} robot_description_planning ...",
         Graded(_A.LIMITS, "Cartesian limit", Rule.MORE, why=FURTHER),
     ),
@@ -153,6 +158,12 @@ ROWS: Sequence[Row] = (
     ),
     Row("step real {step} ...", Graded(_A.START_ORDER, "request on hardware", Rule.DANGEROUS, ordered=False)),
     Row("step mock {step} ...", Graded(_A.START_ORDER, "step on the mock", ordered=False)),
+    Row("spec bringup commissioning stages", Graded(_A.LIMITS, "stages of commissioning", Rule.DANGEROUS)),
+    Row("spec bringup commissioning {what}", Graded(_A.LIMITS, "commissioning", Rule.MORE, why=FURTHER)),
+    Row("stage {stage} {joint} velocity", Graded(_A.LIMITS, "share of its velocity", Rule.MORE, why=FURTHER)),
+    Row("stage {stage} {joint} acceleration", Graded(_A.LIMITS, "share of its acceleration", Rule.MORE, why=FURTHER)),
+    Row(f"stage {{stage}} {_STRAIGHT}.max_trans_dec", Graded(_A.LIMITS, "deceleration", Rule.LESS, why=FURTHER)),
+    Row("stage {stage} ...", Graded(_A.LIMITS, "cap", Rule.MORE, why=FURTHER)),
     Row("check first_motion {device} {what}", Graded(_A.GATES, "first motion", Rule.DANGEROUS)),
     Row("spec bringup first_motion {joint} ...", Graded(_A.GATES, "first motion", Rule.DANGEROUS, ordered=False)),
     # What is rehearsed, who answers, and what is recorded.

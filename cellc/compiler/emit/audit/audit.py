@@ -14,7 +14,9 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.stops import stops_of
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.files import stage_files
 from cellc.compiler.deploy.processes import motion_clients
+from cellc.compiler.emit.audit.caps import caps_section
 from cellc.compiler.emit.audit.moments import moments_section, stops_section
 from cellc.compiler.emit.audit.tables import (
     calibration_section,
@@ -61,6 +63,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         **({"Scene": scene_section(cell)} if cell.scene else {}),
         "Command owners": owners_section(graph),
         "Command paths": command_section(graph),
+        **({"Caps of planned motion": caps_section(graph)} if stage_files(cell) else {}),
         **({"Digital signals": signals_section(cell)} if any(device.switched for device in cell.devices) else {}),
         "Expected nodes": nodes_section(cell),
         "Expected topics": interfaces_section(cell, InterfaceKind.TOPIC),

@@ -11,7 +11,15 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Solid
 from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
 from cellc.compiler.cell.vendor import RecordSource
-from cellc.compiler.deploy.files import controllers_file, is_planner, node_file, parameter_files, plans
+from cellc.compiler.deploy.files import (
+    controllers_file,
+    is_capped,
+    is_planner,
+    node_file,
+    parameter_files,
+    plans,
+    stage_files,
+)
 from cellc.compiler.deploy.labels import (
     ON_TARGET,
     failure_label,
@@ -282,7 +290,8 @@ def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
         return ("robot_description", "publish_frequency")
     planned = ("robot_description", "robot_description_semantic", *parameter_files(cell, "real"))
     own = (node_file(node),) if node_parameters(cell, node) else ()
-    return (*(planned if is_planner(node) and plans(cell) else ()), *own)
+    capped = stage_files(cell).values() if is_capped(cell, node) else ()
+    return (*(planned if is_planner(node) and plans(cell) else ()), *own, *capped)
 
 
 def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:

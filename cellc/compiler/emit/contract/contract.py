@@ -14,7 +14,14 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.frame import WORLD
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.files import BRING_UP, REHEARSALS, controllers_file, description_file, semantic_file
+from cellc.compiler.deploy.files import (
+    BRING_UP,
+    REHEARSALS,
+    controllers_file,
+    description_file,
+    semantic_file,
+    stage_files,
+)
 from cellc.compiler.emit.contract.clocks import clock_of, clocks
 from cellc.compiler.emit.contract.devices import adapters, devices, simulated_joints
 from cellc.compiler.emit.contract.motion import (
@@ -87,6 +94,7 @@ def _files(cell: Cell) -> ContractFiles:
         srdf=semantic_file(cell) if cell.groups else None,
         rehearsals=REHEARSALS,
         bring_up=BRING_UP,
+        stages=stage_files(cell),
         packages=tuple(os.path.relpath(folder, beside).replace(os.sep, "/") for folder in cell.packages),
     )
 

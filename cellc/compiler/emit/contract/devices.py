@@ -109,12 +109,15 @@ def contract_gripper(cell: Cell, device: Device) -> ContractGripper | None:
     if gripper is None:
         return None
     controllers = (c.label for c in cell.controllers if gripper.joint in c.joints and c.action and c.active)
+    caps = cell.bringup.caps
+    stated = gripper.max_force if gripper.grip_force is None else gripper.grip_force
+    capped = stated if caps is None or caps.force is None else min(caps.force, stated)
     return ContractGripper(
         joint=gripper.joint,
         controller=next(controllers, None),
         open=gripper.open,
         closed=gripper.closed,
-        max_effort=gripper.max_force if gripper.grip_force is None else gripper.grip_force,
+        max_effort=capped,
         max_velocity=None if gripper.max_velocity is None else rounded(gripper.max_velocity),
         goal_tolerance=gripper.goal_tolerance,
         stroke_m=gripper.stroke_m,

@@ -19,10 +19,11 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.bringup import phases, releases
 from cellc.compiler.deploy.deployment import Deployment
+from cellc.compiler.deploy.files import is_capped, stage_files
 from cellc.compiler.deploy.first_goal import NODE, FirstGoal, first_goals
 from cellc.compiler.deploy.processes import started_by_a_person
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, GOAL, MOVE, START, Release
-from cellc.compiler.emit.launch.processes import ON_REAL, enclave, moving_node, on_host, share
+from cellc.compiler.emit.launch.processes import ON_REAL, STAGE, enclave, moving_node, on_host, share
 from cellc.compiler.emit.launch.stages import before_motion, bring_up, programs_and_plan, stages
 from cellc.compiler.formats.escape import launch_text, launch_words
 from cellc.compiler.formats.header import Header
@@ -90,6 +91,7 @@ def _host_file(host: str) -> str:
 def _arguments(cell: Cell) -> Iterator[Element]:
     yield _target_argument()
     yield _release_argument(START)
+    yield from _stage_argument(cell)
     yield from _address_arguments(cell)
 
 
@@ -111,7 +113,8 @@ def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
     yield _host_argument(hosts)
     yield from _gate(START, _stated_host_argument(hosts))
     yield comment("the part of each computer; its steps wait for the others")
-    passed = {name: f"$(var {name})" for name in ("target", START.argument, *addresses(cell))}
+    staged = (STAGE,) if stage_files(cell) else ()
+    passed = {name: f"$(var {name})" for name in ("target", START.argument, *staged, *addresses(cell))}
     for host in hosts:
         yield _include(cell, _host_file(host), passed, {"if": on_host(host)})
 
@@ -125,6 +128,8 @@ def _include(cell: Cell, path: str, arguments: dict[str, str], condition: dict[s
 def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
     yield _target_argument()
     yield _release_argument(MOVE)
+    if any(is_capped(cell, node) for node in plan.motion_clients):
+        yield from _stage_argument(cell)
     if plan.hosts:
         yield _host_argument(plan.hosts)
     yield from _gate(MOVE)
@@ -185,6 +190,16 @@ def _release_argument(release: Release) -> Element:
 def _gate_argument(release: Release) -> Element:
     """Return the same argument as a gate demands it: without a default, and with its only accepted word."""
     return _argument(release.argument, None, release.about, release.word)
+
+
+def _stage_argument(cell: Cell) -> Iterator[Element]:
+    """Yield the choice of the stage of commissioning: on real hardware the first unless a person states another."""
+    if choices := tuple(stage_files(cell)):
+        first, last = choices[0], choices[-1]
+        text = f"Stage of commissioning in percent: {first} on real hardware if not stated, {last} on the mock."
+        on_real = _argument(STAGE, first, text, *choices)
+        on_real.set("if", ON_REAL)
+        yield from (on_real, _argument(STAGE, last, text, *choices))  # what is set has no default any more
 
 
 def _host_argument(hosts: tuple[str, ...]) -> Element:

@@ -17,6 +17,7 @@ from cellc.compiler.deploy.files import (
     REQUIRED_PROGRAM,
     controllers_file,
     description_file,
+    is_capped,
     is_planner,
     is_servo,
     manager_description_file,
@@ -25,6 +26,7 @@ from cellc.compiler.deploy.files import (
     plans,
     semantic_file,
     servo_files,
+    stage_file,
 )
 from cellc.compiler.deploy.labels import TF_RATE_HZ
 from cellc.compiler.deploy.spawning import spawnings
@@ -39,6 +41,9 @@ from cellc.contract.vocabulary import Feature, features
 TARGET = "$(var target)"
 
 HOST = "$(var host)"
+
+STAGE = "stage"
+"""The launch argument that chooses the caps of planned motion."""
 
 ON_REAL = f"$(eval \"'{TARGET}' == 'real'\")"
 """True on the real target; `eval` because Humble has no `equals`, harmless because the argument has choices."""
@@ -154,6 +159,8 @@ def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
         yield element("param", {"from": share(cell, node_file(node))})
     if node.clock == "sim":
         yield element("param", {"name": "use_sim_time", "value": "true"})
+    if is_capped(cell, node):  # the last file counts
+        yield element("param", {"from": share(cell, stage_file(f"$(var {STAGE})"))})
     yield from remaps(node)
 
 

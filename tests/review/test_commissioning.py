@@ -1,0 +1,51 @@
+"""A cap that grows is dangerous in a review, by the spec and by the package alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from cellc.contract.vocabulary import Grade
+from cellc.tools.review.compare import changes_between
+from cellc.tools.review.facts import Facts, facts_of
+from tests.cells import compiled, spec_text, written
+
+WHOLE = "commissioning: {velocity: 100 %, acceleration: 100 %}"
+
+
+def facts(folder: Path, stated: str, *, with_spec: bool) -> Facts:
+    folder.mkdir()
+    text = spec_text("ur5e_pick").replace("velocity: 5 deg/s", "velocity: 1 deg/s")
+    made = compiled(written(folder, text.replace(WHOLE, f"commissioning: {stated}")))
+    return facts_of(made.texts, made.graph.cell if with_spec else None)
+
+
+@pytest.mark.parametrize("with_spec", [True, False])
+@pytest.mark.parametrize(
+    ("smaller", "larger"),
+    [
+        ("{velocity: 50 %, acceleration: 50 %}", "{velocity: 60 %, acceleration: 50 %}"),
+        ("{velocity: 50 %, acceleration: 50 %}", "{velocity: 50 %, acceleration: 80 %}"),
+        ("{velocity: 3 m/s, acceleration: 50 %}", "{velocity: 4 m/s, acceleration: 50 %}"),
+        ("{velocity: 50 %, acceleration: 50 %, force: 40 N}", "{velocity: 50 %, acceleration: 50 %, force: 50 N}"),
+    ],
+)
+def test_larger_cap_is_dangerous_and_a_smaller_one_is_safe(
+    smaller: str, larger: str, with_spec: bool, tmp_path: Path
+) -> None:
+    low, high = (
+        facts(tmp_path / name, stated, with_spec=with_spec) for name, stated in (("a", smaller), ("b", larger))
+    )
+    grown = [change for change in changes_between(low, high) if change.area.value == "limits"]
+    assert grown
+    assert {change.grade for change in grown} == {Grade.DANGEROUS}
+    shrunk = [change for change in changes_between(high, low) if change.area.value == "limits"]
+    assert {change.grade for change in shrunk} == {Grade.SAFE}
+
+
+def test_stage_that_is_gone_is_dangerous(tmp_path: Path) -> None:
+    whole = facts(tmp_path / "a", "{velocity: 50 %, acceleration: 50 %}", with_spec=True)
+    fewer = facts(tmp_path / "b", "{velocity: 50 %, acceleration: 50 %, stages: 10 100 %}", with_spec=True)
+    gone = [change for change in changes_between(whole, fewer) if change.area.value == "limits"]
+    assert Grade.DANGEROUS in {change.grade for change in gone}
