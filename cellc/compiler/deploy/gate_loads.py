@@ -23,7 +23,7 @@ def loaded_devices(graph: CellGraph) -> Iterator[Values]:
             moments = text(*payload, "inertia")
             said = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
             stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), moments, said
-            frame, gate = device.body.tool_frame or device.body.root_link, enabled_in(graph.cell, device)
+            frame, gate = device.body.tool_frame or device.body.root_link, enabled_in(device)
             yield *stated, frame, device.robot.payload.set_by, device.procedures.payload_entry or _UNSAID, gate
 
 
@@ -40,7 +40,7 @@ def tool_centers(graph: CellGraph) -> Iterator[Values]:
             turned = f"roll pitch yaw {rpy}"
             if device.procedures.rotation_vector:
                 turned = f"rotation vector {turn}, {turned}"
-            frames, gate = (device.robot.tcp, device.body.tool_frame), enabled_in(graph.cell, device)
+            frames, gate = (device.robot.tcp, device.body.tool_frame), enabled_in(device)
             yield device.name, *frames, xyz, turn, rpy, turned, _shows_center(graph, device), gate
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.deploy.gate_motion import Values, speed_of
 from cellc.compiler.formats.escape import shell_word
@@ -13,24 +12,22 @@ from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.vocabulary import CommandAuthority, GateCode, LeftBy, Moment
 
 
-def commanding(cell: Cell) -> Iterator[Device]:
-    """Yield the devices that follow the computer from the start of their driver on."""
-    for device in cell.devices:
-        hardware = device.control.hardware
-        start = None if hardware is None else hardware.effects.get(Moment.INIT)
-        if start is not None and start.authority is CommandAuthority.TAKEN:
-            yield device
+def commands_from_its_start(device: Device) -> bool:
+    """Whether a device follows the computer from the start of its driver on."""
+    hardware = device.control.hardware
+    start = None if hardware is None else hardware.effects.get(Moment.INIT)
+    return start is not None and start.authority is CommandAuthority.TAKEN
 
 
-def enabled_in(cell: Cell, device: Device) -> GateCode:
+def enabled_in(device: Device) -> GateCode:
     """Return the gate in which people power a device and try its stop: before its driver, where that commands it."""
-    return GateCode.G3 if device in tuple(commanding(cell)) else GateCode.G5
+    return GateCode.G3 if commands_from_its_start(device) else GateCode.G5
 
 
 def stop_tests(graph: CellGraph) -> Iterator[Values]:
     """Yield the gates in which the stop is tried, each with the one whose start of the driver is repeated then."""
     moved = (device for device in graph.cell.devices if device.actuated_joints)
-    gates = {enabled_in(graph.cell, device) for device in moved} or {GateCode.G5}
+    gates = {enabled_in(device) for device in moved} or {GateCode.G5}
     yield from ((gate, "G4" if gate is GateCode.G5 else "this gate") for gate in sorted(gates))
 
 
@@ -45,14 +42,14 @@ def stop_figures(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         stopping = device.procedures.safety.stopping
         if device.kind == "arm" and stopping is not None:
-            yield device.name, *stopping, enabled_in(graph.cell, device)
+            yield device.name, *stopping, enabled_in(device)
 
 
 def open_stop_figures(graph: CellGraph) -> Iterator[Values]:
     """Yield the arms of which no public source says how far they go in a stop."""
     arms = (device for device in graph.cell.devices if device.kind == "arm")
     open_ = (device for device in arms if device.procedures.safety.stopping is None)
-    return ((device.name, enabled_in(graph.cell, device)) for device in open_)
+    return ((device.name, enabled_in(device)) for device in open_)
 
 
 def speed_controls(graph: CellGraph) -> Iterator[Values]:

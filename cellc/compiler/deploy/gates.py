@@ -14,7 +14,7 @@ from pydantic import Field, Strict, field_validator, model_validator
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text
 from cellc.compiler.catalog.read_model import read_model
-from cellc.compiler.deploy.gate_states import commanding
+from cellc.compiler.deploy.gate_states import commands_from_its_start
 from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_row
 from cellc.compiler.formats.escape import code, shell_word
 from cellc.compiler.formats.header import Header
@@ -184,11 +184,12 @@ def network_gates(graph: CellGraph, header: Header) -> tuple[Gate, ...]:
 
 def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
     base = cell_row(graph.cell, header, text.code)
+    commanded = text.commanded is not None and any(map(commands_from_its_start, graph.cell.devices))
     return Gate(
         code=text.code,
         title=text.title,
         shows=text.shows,
-        state=text.commanded if text.commanded is not None and any(commanding(graph.cell)) else text.state,
+        state=text.commanded or text.state if commanded else text.state,
         checks=tuple(check for line in text.checks for check in _checks(line, graph, base)),
         evidence=text.evidence,
         owner=_owners(graph)[text.signed_by],

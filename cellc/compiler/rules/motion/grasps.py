@@ -70,7 +70,7 @@ def refused_grip(graph: CellGraph) -> Findings:
         gripper, path = device.gripper, (*device.path, "grip")
         if gripper is None:
             if any(graph.cell.text(*path, key) for key in ("speed", "force")):
-                yield found(graph, path, f"`{device.name}` is no gripper, it has no `grip`")
+                yield found(graph, path, f"only a gripper has `grip`, got {device.kind} `{device.name}`")
             continue
         spans = (
             ("speed", gripper.grip_speed_m_s, None, gripper.max_speed_m_s, "m/s"),
