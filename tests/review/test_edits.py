@@ -82,7 +82,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             (f"  {STALE}\n", ""),
             (CANCELED, CANCELED.replace("within: 200 ms", "within: 400 ms")),
             ("limits: controls, watchdogs", "limits: robot, watchdogs"),
-            ("timeout: 20 s\n", "timeout: 10 s\n"),
+            ("timeout: 90 s\n", "timeout: 45 s\n"),
         ),
         [
             "dangerous safety | cell | path of the stop | hardwired -> safety_bus",
@@ -96,7 +96,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous rehearsals | canceled | bound of the outcome | 200 ms -> 400 ms | +100 %",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",
-            "review interfaces | /move_action | timeout | 20 s -> 10 s | -50 %",
+            "review interfaces | /move_action | timeout | 90 s -> 45 s | -50 %",
             "review rehearsals | stale_camera | rehearsal removed | stale_state -> None",
             "review owners | limits | owner | controls -> robot",
             "review figures | recovery_time_s | target figure | 120 s -> 180 s | +50 %",

@@ -38,7 +38,7 @@ def test_comments_order_and_spelling_of_units_say_nothing(tmp_path: Path, main: 
             "0 -90 90 -90 -90 0 deg",
             "0 -1.5707963267948966 1.5707963267948966 -1.5707963267948966 -1.5707963267948966 0 rad",
         ),
-        ("timeout: 20 s", "timeout: 20000 ms"),
+        ("timeout: 90 s", "timeout: 90000 ms"),
         ("max_delta: 5 deg, velocity: 5 deg/s, timeout: 5 s", "max_delta: 5 deg, velocity: 5 deg/s, timeout: 5000 ms"),
         ("update_rate: 500 Hz", "update_rate: 0.5 kHz"),
     )

@@ -23,9 +23,9 @@ def test_planner_that_answers_nothing_is_given_up_after_a_second(run: Rehearse) 
 
 
 def test_result_that_never_comes_is_given_up_when_the_action_times_out(run: Rehearse) -> None:
-    # /move_action has a timeout of 20 s; the hold after it is bounded by 200 ms.
+    # /move_action has a timeout of 90 s; the hold after it is bounded by 200 ms.
     done = run(during(3, FaultKind.UNRESPONSIVE, "arm_trajectory"))
-    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result of arm_trajectory within 20 s")
+    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result of arm_trajectory within 90 s")
     assert done.failed.cancel is not None
     assert done.failed.cancel.return_code is None
     assert (done.failed.ended_ns - done.failed.started_ns) / 1e9 < 20.5
