@@ -33,6 +33,7 @@ from tests.consumers import (
     test_installed_versions,
     test_launch,
     test_moveit,
+    test_observe,
     test_pages,
     test_parameters,
     test_pictures,
@@ -79,6 +80,7 @@ _CHECKS: tuple[Callable[[str, str], None], ...] = (
     test_moveit.test_pipelines_name_plugins_and_adapters_that_exist,
     test_moveit.test_controllers_of_moveit_have_the_joints_of_their_controllers,
     test_moveit.test_limits_of_moveit_are_those_of_the_description,
+    test_moveit.test_stages_are_shares_of_the_last_one_for_every_joint,
     test_moveit.test_semantic_description_names_what_exists,
     test_moveit.test_named_states_state_every_joint_of_their_group,
     test_moveit.test_links_that_a_joint_connects_are_never_checked_against_each_other,
@@ -162,6 +164,9 @@ _RUNS: tuple[Callable[[StandIn, Path], None], ...] = (
 _RUNS_OF_PROGRAMS: dict[str, Callable[[Path], None]] = {
     "scripts/installed_versions": test_installed_versions.test_person_accepts_each_part_by_name_and_the_record_has_both,
     "scripts/first_goal": test_first_goal.test_evidence_holds_command_state_and_error_of_every_joint_and_a_plot,
+    "scripts/observe": test_observe.test_the_emitted_program_passes_its_package_and_names_a_second_commander,
+    "scripts/observe_checks.py": test_observe.test_the_emitted_program_passes_its_package_and_names_a_second_commander,
+    "config/observe.json": test_observe.test_the_emitted_program_passes_its_package_and_names_a_second_commander,
     "scripts/claim_watch": lambda _: test_claim_watch.test_a_topic_that_nobody_publishes_any_more_proves_nothing(
         test_claim_watch.FakeRos()
     ),

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 from xml.etree.ElementTree import Element, fromstring
 
+import pytest
+
 from tests.consumers.matrix import build, every_planning_build
 from tests.consumers.parameter_files import told
 from tests.consumers.refused_parameters import claimed
@@ -213,6 +215,32 @@ def test_limits_of_moveit_are_those_of_the_description(cell: str, distro: str) -
         assert values.get("max_position") == (None if turns else float(limit.attrib["upper"]))
         assert values["max_velocity"] == float(limit.attrib["velocity"])
         assert values["max_acceleration"] > 0 < values["max_jerk"]
+
+
+@every_planning_build
+def test_stages_are_shares_of_the_last_one_for_every_joint(cell: str, distro: str) -> None:
+    texts, start = build(cell, distro).texts, "robot_description_planning.joint_limits."
+    files = {
+        int(path.removesuffix(".yaml").rpartition("_")[2]): path
+        for path in texts
+        if path.startswith("config/commissioning/stage_")
+    }
+    if not files:  # a corpus cell without the section
+        return
+    stages = {share: told(texts, (path,), "/move_group") for share, path in files.items()}
+    full = _told(cell, distro)
+    for share, values in stages.items():
+        assert values.keys() == stages[100].keys(), share
+        for name, value in values.items():
+            if name.startswith(f"{start}") and ".has_" in name:
+                assert value is True, name
+            elif name.startswith(start):
+                assert value == pytest.approx(stages[100][name] * share / 100, rel=1e-9), name
+                assert 0 < value <= full[name] * (1 + 1e-9), name
+    moved = {name.removeprefix(start).split(".")[0] for name in full if name.startswith(start)}
+    for quantity in ("velocity", "acceleration"):
+        for part in (f"has_{quantity}_limits", f"max_{quantity}"):
+            assert {f"{start}{joint}.{part}" for joint in moved} <= stages[100].keys()
 
 
 @every_planning_build

@@ -6,10 +6,11 @@ import ast
 import json
 import math
 import re
-from collections.abc import Callable, Iterator
+import sys
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
+from types import ModuleType, SimpleNamespace
 from typing import Any
 from xml.etree.ElementTree import fromstring
 
@@ -38,9 +39,9 @@ from tests.emit.cells import contract_data
 _FOR_S = 10.0
 
 
-def package_of(cell: str, target: str, folder: Path) -> Package:
+def package_of(cell: str, target: str, folder: Path, texts: Mapping[str, str] | None = None) -> Package:
     """Return a package as the program reads it."""
-    for path, text in built(cell).texts.items():
+    for path, text in (built(cell).texts if texts is None else texts).items():
         if path.startswith(("config", "urdf")) or path == "contract.json":
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             (folder / path).write_text(text, encoding="utf-8")
@@ -64,6 +65,26 @@ def right(package: Package, gate: str) -> Seen:
     described(package, seen)
     answered(package, seen, gate)
     return seen
+
+
+def emitted_program(texts: Mapping[str, str]) -> tuple[Any, Any]:
+    """Return the program and its comparisons as modules, made of the texts of a package."""
+    modules = [ModuleType(name) for name in ("observe_checks", "observe_of_a_test")]
+    with pytest.MonkeyPatch.context() as patch:
+        for module, path in zip(modules, ("scripts/observe_checks.py", "scripts/observe"), strict=True):
+            patch.setitem(sys.modules, module.__name__, module)
+            exec(compile(texts[path], path, "exec"), module.__dict__)
+    return modules[1], modules[0]
+
+
+def test_the_emitted_program_passes_its_package_and_names_a_second_commander(tmp_path: Path) -> None:
+    program, checks = emitted_program(build("ur5e_pick", "jazzy").texts)
+    package_of("ur5e_pick", "real", tmp_path, build("ur5e_pick", "jazzy").texts)
+    package = program.read_package(tmp_path, "real")
+    seen = right(package, "G4")
+    assert {line.verdict for line in checks.comparisons(package, seen, "G4")} == {PASSED}
+    _more(seen, _TRAJECTORY, 1, End("/script"))
+    assert [line.verdict for line in checks.comparisons(package, seen, "G4")].count(FAILED) == 1
 
 
 def ends(interface: Any, side: str, sides: Any, gate: str) -> list[End]:

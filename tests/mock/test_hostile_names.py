@@ -160,6 +160,7 @@ def test_no_name_in_a_folder_leads_a_command_to_write_elsewhere(
     monkeypatch.chdir(work)
     monkeypatch.setattr(tempfile, "tempdir", str(private))
     monkeypatch.setenv("CELLC_NO_CACHE", "1")
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # what Python itself keeps is no command's
     leading = cycle((f"{outside}/absolute", f"{'../' * 40}{outside.as_posix().lstrip('/')}/relative"))
     every = [field for file in FILES for field in _fields(file)]
     assert len(every) > 60
