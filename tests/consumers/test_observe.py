@@ -80,11 +80,12 @@ def emitted_program(texts: Mapping[str, str]) -> tuple[Any, Any]:
 def test_the_emitted_program_passes_its_package_and_names_a_second_commander(tmp_path: Path) -> None:
     program, checks = emitted_program(build("ur5e_pick", "jazzy").texts)
     package_of("ur5e_pick", "real", tmp_path, build("ur5e_pick", "jazzy").texts)
-    package = program.read_package(tmp_path, "real")
-    seen = right(package, "G4")
-    assert {line.verdict for line in checks.comparisons(package, seen, "G4")} == {PASSED}
-    _more(seen, _TRAJECTORY, 1, End("/script"))
-    assert [line.verdict for line in checks.comparisons(package, seen, "G4")].count(FAILED) == 1
+    for target in ("mock", "real"):
+        package = program.read_package(tmp_path, target)
+        seen = right(package, "G4")
+        assert {line.verdict for line in checks.comparisons(package, seen, "G4")} == {PASSED}
+        _more(seen, _TRAJECTORY, 1, End("/script"))
+        assert [line.verdict for line in checks.comparisons(package, seen, "G4")].count(FAILED) == 1
 
 
 def ends(interface: Any, side: str, sides: Any, gate: str) -> list[End]:
