@@ -180,6 +180,18 @@ def test_single_joint_edge_takes_the_time_of_the_closed_form() -> None:
     assert trajectory.duration_ns * 1e-9 == pytest.approx(expected, rel=1e-5)
 
 
+@pytest.mark.parametrize("jerk", [50.0, 500.0, 1_500.0, 5_000.0, 1e6])
+def test_much_jerk_beside_little_acceleration_makes_no_motion_slower(jerk: float) -> None:
+    # A tenth of the speed and acceleration of an arm: 1 rad at 0.1 rad/s and 0.15 rad/s^2 is 1 / 0.1 + 0.1 / 0.15 s and
+    # a jerk phase, as long as acceleration over jerk. At 1,500 rad/s^3 that is the least time between two points.
+    ends = tuple(0.0 for _ in JOINTS), (1.0, *(0.0 for _ in JOINTS[1:]))
+    rows = tuple(tuple(value for _ in JOINTS) for value in (0.1, 0.15, jerk))
+    path, limits = JointPath(JOINTS, (ends,)), JointLimits(JOINTS, LIMITS.lower, LIMITS.upper, *rows)
+    timed = time_parameterize(path, limits)
+    assert timed.duration_ns * 1e-9 == pytest.approx(1 / 0.1 + 0.1 / 0.15 + 0.15 / min(jerk, 1_500.0), rel=1e-3)
+    _assert_within_limits(timed, limits)
+
+
 def test_path_without_motion_is_one_point() -> None:
     trajectory = time_parameterize(JointPath(JOINTS, ((HOME, HOME),)), LIMITS)
     assert [point.positions for point in trajectory.points] == [HOME]

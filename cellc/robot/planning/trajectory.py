@@ -32,6 +32,8 @@ _TARGET_USE = 1.0 - 1e-6
 _LEAST_USE = 1.0 - 1e-3
 # Points closer than this would let rounding of positions look like jerk: 60 * 2e-16 rad / (1e-4 s)^3 = 0.01 rad/s^3.
 _LEAST_SPACING_NS = 100_000
+# A jerk phase that is shorter has no point of its own, and the interpolation misses it: less jerk is used.
+_SHORTEST_PHASE_S = 1.1e-9 * _LEAST_SPACING_NS
 _MAX_RESCALINGS = 8
 _KEPT_SECTIONS = 64
 # Three years; 64 bits hold the nanoseconds of many such sections.
@@ -160,7 +162,8 @@ def time_at_rest(waypoints: tuple[Configuration, ...], limits: JointLimits) -> T
     Kept, since runs that differ in where an object lies go on alike from where it is put down.
     """
     curve = SectionCurve(waypoints)
-    bounds = _scaled(fastest_bounds(curve, limits), _TARGET_USE)
+    speed, surge, jerk = _scaled(fastest_bounds(curve, limits), _TARGET_USE)
+    bounds = speed, surge, min(jerk, surge / _SHORTEST_PHASE_S)
     section = _sample(curve, rest_to_rest(bounds), limits)
     for rescaling in range(_MAX_RESCALINGS):
         use = section.limit_use.as_speed
