@@ -18,7 +18,7 @@ def test_each_device_that_its_activation_moves_is_confirmed_by_hand_before_any_o
     gate = _gate(cell, "G5")
     released = gate.index("Authorize hardware that moves on activation")
     for device in devices:
-        assert 0 < gate.index(f"that {device} is near where its activation moves it") < released
+        assert 0 < gate.index(f"that {device} is near the position that its activation moves it to") < released
 
 
 @pytest.mark.parametrize(
@@ -29,7 +29,7 @@ def test_the_joint_states_of_each_arm_are_compared_before_its_claim(cell: str, d
     gate = _gate(cell, "G7")
     claim = gate.index("Authorize the claims")
     for device in devices:
-        assert 0 < gate.index(f"Compare the joint states of {device} with where it is") < claim
+        assert 0 < gate.index(f"Compare the joint states of {device} with its real position") < claim
 
 
 def test_the_sentence_of_the_vendor_says_what_pulls() -> None:

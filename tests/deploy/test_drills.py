@@ -51,8 +51,9 @@ def test_states_by_hand(cell: str) -> None:
 def test_a_cable_is_not_unplugged_where_the_arm_jumps_on_reconnection() -> None:
     # tests/mock/faults/test_vendors.py: an OpenArm that is connected again jumps to where its trajectory is by then.
     drills = " ".join(_drills("openarm_bimanual", "G5", "left"))
-    assert "Do not unplug its cable while it is active. On reconnection: It goes to old set points" in drills
-    assert "Unplug its cable for 10 s" in " ".join(_drills("fr3_hand", "G5", "arm"))
+    kept = "Do not unplug its communication cable while it is active. On reconnection: It goes to old set points"
+    assert kept in drills
+    assert "Unplug its communication cable for 10 s" in " ".join(_drills("fr3_hand", "G5", "arm"))
 
 
 @pytest.mark.parametrize("cell", EVERY_CELL)

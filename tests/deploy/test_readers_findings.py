@@ -76,10 +76,10 @@ def test_payload_is_asked_for_once_in_the_words_of_its_robot(cell: str) -> None:
 
 def test_a_gripper_gets_its_first_goal_when_it_is_claimed() -> None:
     claim = "Authorize the claims"
-    assert _in_order(_gates("ur5e_pick")["G7"], claim, "Keep all hands clear", "Open gripper by its first goal")
+    assert _in_order(_gates("ur5e_pick")["G7"], claim, "Keep all hands clear", "Open gripper with its first goal")
     hand = _gates("fr3_hand")["G7"]
     # fr3_hand states `grip: {force: 20 N}`; the goal of a GripperCommand carries it.
-    assert _in_order(hand, claim, "Open hand by its first goal", "position 0.04 m, max_effort 20 N")
+    assert _in_order(hand, claim, "Open hand with its first goal", "position 0.04 m, max_effort 20 N")
 
 
 @pytest.mark.parametrize("cell", _WALKED)
@@ -124,7 +124,7 @@ def test_each_motor_of_an_openarm_has_its_own_firmware(motor: str, firmware: str
 
 
 def test_a_repeated_gate_gets_an_evidence_folder_of_its_own() -> None:
-    assert 'mkdir "$E"' in built("ur5e_pick").texts["gates/promotion.md"]
+    assert "mkdir evidence/attempt-002 && export E=evidence/attempt-002" in built("ur5e_pick").texts["gates/promotion.md"]
 
 
 @pytest.mark.parametrize("cell", _WALKED)

@@ -95,7 +95,7 @@ def test_caps_of_a_cell_are_in_its_files_its_contract_and_its_gates(tmp_path: Pa
     assert '"max_effort": 60.0' in texts["contract.json"]
     gates = texts["gates/promotion.md"]
     assert "Stage 20 % of commissioning" in gates
-    assert "Stage 100 %, once the stage before it is signed" in gates
+    assert "Stage 100 %: Start only if the previous stage is signed and ran without a stop" in gates
     assert "at most those of RA-017 rev 2: tool speed 500 mm/s" in gates
     audit = texts["audit.md"]
     assert "| 20 % | manipulator 0.1 m/s | 0.05 m/s |" in audit

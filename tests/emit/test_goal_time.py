@@ -38,7 +38,7 @@ def test_contract_keeps_goal_time_and_timeout_apart() -> None:
     interface = contract.interfaces[ACTION]
     assert (interface.timeout_s, interface.on_timeout) == (None, None)
     assert contract.managers["control"].controllers["arm_trajectory"].goal_time_s == 1.0
-    assert contract.interfaces["/move_action"].timeout_s == 20.0
+    assert contract.interfaces["/move_action"].timeout_s == 90.0
 
 
 def direct(folder: Path, adapter: str, rehearsals: str = "rehearsals:\n") -> MockCell:

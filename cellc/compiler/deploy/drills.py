@@ -72,10 +72,11 @@ def _without_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
     if cut is None or again is None:
         return
     if again.motion in _CALM and cut.motion in _CALM:
-        yield "Unplug its cable for 10 s.", _follows(cell, device, cut, cut.ends, hears=False)
-        yield "Plug its cable in again.", _follows(cell, device, again, cut.ends)
+        act = "Unplug its communication cable for 10 s. Leave its power on."
+        yield act, _follows(cell, device, cut, cut.ends, hears=False)
+        yield "Plug its communication cable in again.", _follows(cell, device, again, cut.ends)
     else:
-        yield "Do not unplug its cable while it is active.", f"On reconnection: {_MOVES[again.motion]}"
+        yield "Do not unplug its communication cable while it is active.", f"On reconnection: {_MOVES[again.motion]}"
 
 
 def _with_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
@@ -92,7 +93,7 @@ def _with_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
         ends = f"Within {shortest(WATCH_WITHIN_S)} s its claim must be dropped and its goal must end."
     else:
         ends = "Nothing ends its goal: cancel it."
-    yield f"Trip {stop.name} during a small goal. Record the way to standstill.", f"{follows} {ends}"
+    yield f"Trip {stop.name} during a small goal. Record the stopping distance.", f"{follows} {ends}"
     if effect.leaves == "active" and stop.left_by is not LeftBy.ACTIVATION:
         resumes = "Nothing may move before the claim is acknowledged." if reported else _MOVES[Motion.JUMPS]
         yield "Reset the stop and let the device continue, without a jog.", resumes

@@ -105,7 +105,8 @@ def gripper_goals(graph: CellGraph) -> Iterator[Values]:
                 continue
             least = gripper.grip_force if gripper.min_force is None else gripper.min_force
             carries = least is not None and "Parallel" not in served[1]
-            said = f"max_effort {shortest(least or 0.0)} N" if carries else "no force, so that its driver uses its own"
+            own = "no stated force, so its driver uses its own"
+            said = f"max_effort {shortest(least or 0.0)} N" if carries else own
             unit = "m" if device.joint(gripper.joint).slides else "rad"
             yield device.name, served[0], f"{decimal(gripper.open)} {unit}", said
 

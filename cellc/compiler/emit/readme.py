@@ -66,7 +66,7 @@ _FILES = (
     (_GOAL, "sends one small goal to the controller on real hardware; a person authorizes it"),
     ("config/bring_up.json", "steps of the bring-up, each with its proof, its request and its required effect"),
     ("scripts/bring_up", "the program that runs these steps"),
-    (OBSERVE_PROGRAM, "compares the running graph with the package, and only looks"),
+    (OBSERVE_PROGRAM, "compares the running graph with the package, read-only"),
     (VERSIONS_PROGRAM, "the first of these steps: compares the version tuple with the installed packages"),
     (FIRST_GOAL_PROGRAM, "sends that goal from the current position, and cancels one"),
     (WATCH_PROGRAM, "ends goals and claims when a robot stops, pauses or is silent, until a person acknowledges"),
