@@ -124,7 +124,9 @@ def test_each_motor_of_an_openarm_has_its_own_firmware(motor: str, firmware: str
 
 
 def test_a_repeated_gate_gets_an_evidence_folder_of_its_own() -> None:
-    assert "mkdir evidence/attempt-002 && export E=evidence/attempt-002" in built("ur5e_pick").texts["gates/promotion.md"]
+    assert (
+        "mkdir evidence/attempt-002 && export E=evidence/attempt-002" in built("ur5e_pick").texts["gates/promotion.md"]
+    )
 
 
 @pytest.mark.parametrize("cell", _WALKED)
