@@ -28,7 +28,7 @@ def test_result_that_never_comes_is_given_up_when_the_action_times_out(run: Rehe
     assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result of arm_trajectory within 90 s")
     assert done.failed.cancel is not None
     assert done.failed.cancel.return_code is None
-    assert (done.failed.ended_ns - done.failed.started_ns) / 1e9 < 20.5
+    assert (done.failed.ended_ns - done.failed.started_ns) / 1e9 < 90.5
 
 
 def test_server_that_answers_again_is_asked_again(run: Rehearse) -> None:

@@ -37,7 +37,7 @@ REHEARSALS = """
   slow: {use: pick_and_place, inject: {slow: arm/shoulder_pan_joint, to: 1 deg/s, at: 1 s}, expect: tolerance_violation}
   pushed:
     {use: pick_and_place, inject: {displace: arm/elbow_joint, by: 0.25 rad, at: 1 s}, expect: tolerance_violation}
-  paused: {use: pick_and_place, inject: {scale_speed: arm, to: 0 %, at: 1 s}, expect: timeout, within: 20.5 s}
+  paused: {use: pick_and_place, inject: {scale_speed: arm, to: 0 %, at: 1 s}, expect: timeout, within: 90.5 s}
   slowed: {use: pick_and_place, inject: {scale_speed: arm, to: 10 %, at: 1 s, lasting: 1 s}}
   overloaded:
     use: pick_and_place
