@@ -110,7 +110,7 @@ def described(package: Package, seen: Seen) -> None:
     """See the transforms and the text of the description; rotations by products of one about each axis."""
     seen.answers["robot_description"] = package.description
     for joint in package.description.iterfind("joint"):
-        parent, child = (joint.find(end).get("link", "") for end in ("parent", "child"))  # type: ignore[union-attr]
+        (parent,), (child,) = ([each.get("link", "") for each in joint.iterfind(end)] for end in ("parent", "child"))
         if joint.get("type") != "fixed":
             seen.moving[child] = {parent}
             continue
