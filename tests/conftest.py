@@ -106,7 +106,9 @@ def pytest_collection_finish() -> None:
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Say in one line what was not tested, and why; ``-rs`` names each test."""
     skipped = terminalreporter.getreports("skipped")
-    missing = Counter((_reason(one), "/".join(one.nodeid.partition("::")[0].split("/")[:2])) for one in skipped)
+    missing = Counter(
+        (_reason(report), "/".join(report.nodeid.partition("::")[0].split("/")[:2])) for report in skipped
+    )
     reasons: dict[str, dict[str, int]] = {reason: {} for reason, _ in missing}
     for (reason, folder), number in sorted(missing.items()):
         reasons[reason][folder] = number

@@ -100,8 +100,8 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     stage("linking")
     texts = source.value.texts
     if _is_device(Path(path), source.value):
-        told = finding("not-a-cell", f"`{file}` is a device, not a cell", Span(file, 1, 1, 1, 1))
-        return _checked(file, texts, (told,))
+        device = finding("not-a-cell", f"`{file}` is a device, not a cell", Span(file, 1, 1, 1, 1))
+        return _checked(file, texts, (device,))
     found = list(source.diagnostics)
     spec = parse(source.value)
     found += spec.diagnostics
@@ -168,7 +168,7 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     if emitted.value is None or checked.graph is None:
         return emitted
     # Foreign parsers are imported here: a check does not pay for them, nor does who only compares.
-    from cellc.compiler.verify.verify import verify
+    from cellc.compiler.verify import verify
 
     stage("reading back with other parsers")
     return Outcome(emitted.value, verify(emitted.value, checked.graph))

@@ -195,9 +195,9 @@ def test_tables_load() -> None:
 
 def test_every_driver_of_the_catalogue_is_known_to_reach_hardware() -> None:
     facts = [_device(name).model for name in device_names()]
-    drivers = {one.packages.driver for one in facts} | {node.package for one in facts for node in one.nodes}
-    components = [one.control.hardware.real for one in facts if one.control is not None]
-    plugins = {one.plugin.partition("/")[0] for one in components if one is not None}
+    drivers = {device.packages.driver for device in facts} | {node.package for device in facts for node in device.nodes}
+    components = [device.control.hardware.real for device in facts if device.control is not None]
+    plugins = {component.plugin.partition("/")[0] for component in components if component is not None}
     table = there(load_distros().value)
     assert set(table.hardware_packages) == {*drivers, *plugins, "controller_manager"} - {None}
 
@@ -237,16 +237,16 @@ def _comparable(value: Any) -> Any:
 def test_every_package_that_the_catalog_names_and_that_a_cell_needs_is_known() -> None:
     table = there(load_packages().value)
     facts = [_device(name).model for name in device_names()]
-    parts = [part for one in facts for part in one.packages.model_dump().values()]
+    parts = [part for device in facts for part in device.packages.model_dump().values()]
     named = {part for part in parts if isinstance(part, str)} | set(_packages_of(parts))
-    named |= {node.package for one in facts for node in one.nodes}
+    named |= {node.package for device in facts for node in device.nodes}
     named |= {package for kind in controller_kinds() for package in _packages_of(_kind(kind).model_dump())}
     for loaded in (load_distros(), load_message_types(), load_planners(), load_programs(), load_controller_manager()):
         named |= set(_packages_of(there(loaded.value).model_dump()))
     types = there(load_message_types().value)
     distros = there(load_distros().value)
     named |= {name.split("/")[0] for name in types.types} | set(distros.hardware_packages)
-    named |= {name for one in distros.distros.values() for name in (*one.packages, *one.rmw)}
+    named |= {name for distro in distros.distros.values() for name in (*distro.packages, *distro.rmw)}
     for manifest in Path("generated").glob("*/package.xml"):
         named |= set(re.findall(r"_depend[^>]*>([^<]+)<", manifest.read_text(encoding="utf-8")))
     of_users = {name for name in named if name and name.startswith("cell_")}
@@ -258,9 +258,9 @@ def test_every_package_that_the_catalog_names_and_that_a_cell_needs_is_known() -
 def _packages_of(value: object) -> Iterator[str]:
     if isinstance(value, dict):
         yield from (one for key, one in value.items() if key == "package" and isinstance(one, str))
-        yield from (name for one in value.values() for name in _packages_of(one))
+        yield from (name for item in value.values() for name in _packages_of(item))
     elif isinstance(value, (list, tuple)):
-        yield from (name for one in value for name in _packages_of(one))
+        yield from (name for item in value for name in _packages_of(item))
 
 
 def test_numbers_are_written_out() -> None:

@@ -67,7 +67,7 @@ def _children(value: object) -> Iterator[tuple[str | int, object]]:
         yield from ((name, getattr(value, name)) for name in value.model_fields_set if name not in _EVIDENCE)
     elif isinstance(value, Mapping):
         yield from value.items()
-    elif isinstance(value, tuple) and any(isinstance(one, BaseModel) for one in value):
+    elif isinstance(value, tuple) and any(isinstance(item, BaseModel) for item in value):
         yield from enumerate(value)
 
 

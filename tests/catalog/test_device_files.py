@@ -214,7 +214,7 @@ def test_mistake_is_at_the_line_of_the_file_that_makes_it(folder: Path) -> None:
     family.write_text("\n".join([*lines[: number - 1], "base: nobody", *lines[number:]]) + "\n", encoding="utf-8")
     _write(folder, "summary: 3\nlimits: {payload: {value: 7 m, source: a sheet}}\n")
     found = _load(folder).diagnostics
-    assert [(one.span.file, one.span.line) for one in found] == [
+    assert [(finding.span.file, finding.span.line) for finding in found] == [
         ((folder / "device.yaml").as_posix(), 3 + n) for n in (0, 1)
     ]
     _write(folder, "")

@@ -217,7 +217,7 @@ def test_links_weigh_what_the_vendor_publishes(model: str) -> None:
 @pytest.mark.parametrize("model", MODELS)
 def test_stretched_arm_reaches_as_far_as_the_data_sheet_says(model: str) -> None:
     # The vendor counts from the axis of the base to that of the last joint: at most with wrist 1 turned in line.
-    _, upper, fore, _, fifth, _ = (abs(float(one)) for one in _arguments(model)["dh"].split())
+    _, upper, fore, _, fifth, _ = (abs(float(part)) for part in _arguments(model)["dh"].split())
     assert upper + fore < PUBLISHED[model]["reach"] <= upper + fore + fifth + 1e-9
     assert f"{PUBLISHED[model]['reach'] * 1000:g} mm reach" in device_of(model).model.summary
 
@@ -236,7 +236,7 @@ def test_joints_are_those_of_the_driver_in_its_order(model: str) -> None:
     assert all(joint.limit is not None and joint.limit.velocity and joint.limit.effort for joint in joints)
 
 
-@pytest.mark.parametrize("release", here([one for one in RELEASES if one.device == "ur5e"]), ids=str)
+@pytest.mark.parametrize("release", here([release for release in RELEASES if release.device == "ur5e"]), ids=str)
 def test_each_release_of_the_driver_knows_each_model(release: Release) -> None:
     launch = facts(release, "launch_arguments")["ur_robot_driver/launch/ur_control.launch.py"]
     assert set(MODELS) <= set(launch["ur_type"]["choices"])

@@ -236,4 +236,4 @@ def test_options_of_a_view_have_defaults(options: str, live: Live | None, monkey
 
     monkeypatch.setattr("cellc.mock.command.rehearsals.run_rehearsals", noted)
     assert run("mock", "nowhere", *options.split()).code == 0
-    assert [one.live for one in asked] == [live]
+    assert [options.live for options in asked] == [live]

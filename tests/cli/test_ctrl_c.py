@@ -89,7 +89,7 @@ def _signalled(
         ("pydantic", signal.SIGINT),
         ("cellc.compiler.rules.run", signal.SIGTERM),
         ("cellc.compiler.spec.parse:parse", signal.SIGINT),
-        ("cellc.compiler.verify.verify:verify", signal.SIGHUP),
+        ("cellc.compiler.verify:verify", signal.SIGHUP),
         ("cellc.contract.store.swap:Swap.make_folder", signal.SIGXCPU),
         ("cellc.contract.store.swap:Swap.put", signal.SIGTERM),
         ("cellc.contract.store.swap:Swap.settle", signal.SIGINT),

@@ -78,7 +78,7 @@ def test_each_cell_is_checked_with_each_tuple_and_one_that_cannot_be_taken_is_a_
         ("", "humble", False),
         ("", "jazzy", False),
     ]
-    assert [one["code"] for one in rows[-1]["findings"]] == ["unknown-controller-kind"]
+    assert [finding["code"] for finding in rows[-1]["findings"]] == ["unknown-controller-kind"]
 
 
 def test_a_tuple_of_the_matrix_is_checked_as_if_it_were_written(cells: Path, tmp_path: Path) -> None:
@@ -88,8 +88,10 @@ def test_a_tuple_of_the_matrix_is_checked_as_if_it_were_written(cells: Path, tmp
     by_hand = tmp_path / "cell.yaml"
     by_hand.write_text(before.decode().replace("ubuntu 24.04", "ubuntu 22.04"), encoding="utf-8")
     (written,) = _rows(run("check", by_hand.as_posix(), "--json"))
-    assert [{**one, "place": ""} for one in row["findings"]] == [{**one, "place": ""} for one in written["findings"]]
-    assert "os-of-third-tier" in {one["code"] for one in row["findings"]}
+    assert [{**finding, "place": ""} for finding in row["findings"]] == [
+        {**finding, "place": ""} for finding in written["findings"]
+    ]
+    assert "os-of-third-tier" in {finding["code"] for finding in row["findings"]}
     assert spec.read_bytes() == before
 
 
@@ -130,7 +132,7 @@ def test_parts_are_combined_each_with_each_and_what_a_spec_does_not_write_is_tol
 def test_a_part_or_a_text_that_no_tuple_has_is_refused(
     command: str, matrix: tuple[str, ...], said: str, cells: Path
 ) -> None:
-    ran = run(command, cells.as_posix(), *(word for one in matrix for word in ("--matrix", one)))
+    ran = run(command, cells.as_posix(), *(word for versions in matrix for word in ("--matrix", versions)))
     assert ran.code == 2
     assert said in ran.err
 
@@ -220,7 +222,9 @@ def test_a_worker_elsewhere_checks_a_cell_only_where_it_has_the_same_files(cells
     task = Task("first/cell.yaml", {"os": "ubuntu 22.04"})
     there = _on_shared_disk(asked, _Unit(task, digest_of((cells / task.file).as_posix())))
     here = compute("check", Task((cells / task.file).as_posix(), task.versions))
-    assert [one.code for one in there.findings.diagnostics] == [one.code for one in here.findings.diagnostics]
-    assert {one.span.file for one in there.findings.diagnostics} == {task.file}
+    assert [diagnostic.code for diagnostic in there.findings.diagnostics] == [
+        diagnostic.code for diagnostic in here.findings.diagnostics
+    ]
+    assert {diagnostic.span.file for diagnostic in there.findings.diagnostics} == {task.file}
     with pytest.raises(ComputeError, match=r"a worker does not have `first/cell\.yaml` in `.*` as it is here"):
         _on_shared_disk(asked, _Unit(task, "another"))

@@ -40,7 +40,7 @@ def test_a_name_that_a_shell_would_evaluate_is_no_word(shell: str, tmp_path: Pat
     shutil.copytree(ROOT / "generated/ur5e_pick", tmp_path / "x")
     file = tmp_path / "x/rehearsals.json"
     told = json.loads(file.read_text(encoding="utf-8"))
-    (plain,) = (one for one in told["rehearsals"] if one["name"] == "stale_camera")
+    (plain,) = (rehearsal for rehearsal in told["rehearsals"] if rehearsal["name"] == "stale_camera")
     told["rehearsals"] = [plain, *({**plain, "name": name} for name in HOSTILE)]
     file.write_text(json.dumps(told), encoding="utf-8")
     shown = _completed(shell, "cellc mock x --rehearsal ", tmp_path)

@@ -45,7 +45,7 @@ def test_rehearsals_of_the_folder_are_completed() -> None:
 
 def test_the_rehearsal_of_a_run_is_completed_first_where_a_campaign_disturbs_several(tmp_path: Path) -> None:
     told = json.loads((generated("ur5e_pick") / "rehearsals.json").read_text(encoding="utf-8"))
-    plain = next(one for one in told["rehearsals"] if one["name"] == "pick_and_place")
+    plain = next(rehearsal for rehearsal in told["rehearsals"] if rehearsal["name"] == "pick_and_place")
     told["rehearsals"].append({**plain, "name": "place"})
     (tmp_path / "rehearsals.json").write_text(json.dumps(told), encoding="utf-8")
     # Of the others each has faults of its own, or the bring-up of the real target.
@@ -57,7 +57,7 @@ def test_runs_of_the_only_rehearsal_are_those_of_the_list() -> None:
     listed = run("campaign", folder, "--list").out.split()
     assert _completed(["replay", folder], "") == listed
     some = listed[3][: listed[3].index(":") + 1]
-    assert _completed(["replay", folder], some) == [one for one in listed if one.startswith(some)]
+    assert _completed(["replay", folder], some) == [entry for entry in listed if entry.startswith(some)]
 
 
 def test_runs_of_a_journal_are_completed_and_those_that_failed_come_first(tmp_path: Path) -> None:

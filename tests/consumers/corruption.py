@@ -22,7 +22,8 @@ class Corruption:
     def of(self, built: Build) -> Build:
         """Return the build with the fault in place."""
         artifacts = tuple(
-            replace(one, text=self._in(one.text)) if one.path == self.path else one for one in built.artifacts
+            replace(artifact, text=self._in(artifact.text)) if artifact.path == self.path else artifact
+            for artifact in built.artifacts
         )
         return replace(built, artifacts=artifacts)
 

@@ -141,20 +141,20 @@ _OF_MANAGER = {
 def stand_ins(built: Build) -> dict[str, list[Node]]:
     """Return the nodes of every enclave with the ends that the cell declares for them."""
     cell = built.graph.cell
-    nodes: dict[str, Node] = {one.full_name: _node(one.full_name, bool(one.lifecycle)) for one in cell.nodes}
-    nodes |= {one.full_name: _node(one.full_name) for one in cell.controllers}
+    nodes: dict[str, Node] = {node.full_name: _node(node.full_name, bool(node.lifecycle)) for node in cell.nodes}
+    nodes |= {controller.full_name: _node(controller.full_name) for controller in cell.controllers}
     for interface in cell.interfaces:
         for right, ends in zip(_RIGHTS[interface.kind.value], (interface.sources, interface.sinks), strict=True):
             for end in ends:
                 nodes[end.full_name]["ends"].append((right, interface.name, interface.type))
-    for proof in (one for one in _proofs(built) if one["kind"] == "mock"):
+    for proof in (proof for proof in _proofs(built) if proof["kind"] == "mock"):
         nodes[proof["node"]]["parameters"] = {"robot_description": f"<plugin>{proof['plugins'][0]}</plugin>"}
     for manager in cell.managers:
         asked = (
             (f"{manager.node}/{verb}", f"controller_manager_msgs/srv/{kind}") for verb, kind in _OF_MANAGER.items()
         )
         nodes[manager.node]["ends"] += [("reply", name, kind) for name, kind in asked]
-    home = {one.full_name: manager.node for manager in cell.managers for one in manager.controllers}
+    home = {controller.full_name: manager.node for manager in cell.managers for controller in manager.controllers}
     found: dict[str, list[Node]] = {}
     for full_name, node in nodes.items():
         found.setdefault(f"/{cell.name}{home.get(full_name, full_name)}", []).append(node)
@@ -175,16 +175,18 @@ def world(built: Build) -> dict[str, Any]:
     """Return what stand-ins say, and what their managers list, so that each step of the mock finds its proof."""
     cell, proofs = built.graph.cell, list(_proofs(built))
     asked = [step.get("request") or {} for step in plan(built.cell, built.distro)["mock"]]
-    activated = {one.get("component") for one in asked}
-    frames = [(one["parent"], one["child"]) for one in proofs if one["kind"] == "transform"]
+    activated = {request.get("component") for request in asked}
+    frames = [(proof["parent"], proof["child"]) for proof in proofs if proof["kind"] == "transform"]
     joints = [joint.name for device in cell.devices for joint in device.joints]
     at = {"name": joints, "position": [0.1] * len(joints), "velocity": [0.0] * len(joints)}
-    says = {one.name: at for one in cell.interfaces if one.type == "sensor_msgs/msg/JointState"}
+    says = {interface.name: at for interface in cell.interfaces if interface.type == "sensor_msgs/msg/JointState"}
     listed = {}
     for manager in cell.managers:
-        own = {one["component"] for one in proofs if one["kind"] == "hardware" and one["manager"] == manager.node}
+        own = {
+            proof["component"] for proof in proofs if proof["kind"] == "hardware" and proof["manager"] == manager.node
+        }
         hardware = {one: "inactive" if one in activated else "active" for one in own}
-        controllers = {one.name: "inactive" for one in manager.controllers}
+        controllers = {controller.name: "inactive" for controller in manager.controllers}
         listed[manager.node] = {"controllers": controllers, "hardware": hardware}
     return {"says": {**says, "/tf_static": {"transforms": frames}}, "managers": listed}
 

@@ -141,7 +141,7 @@ class Launch:
     def _include(self, action: Element) -> None:
         # An include is not scoped: what it sets stays set.
         path = self._file(self._text(action.attrib["file"]))
-        given = {one.attrib["name"]: self._text(one.attrib["value"]) for one in action.findall("arg")}
+        given = {arg.attrib["name"]: self._text(arg.attrib["value"]) for arg in action.findall("arg")}
         # IncludeLaunchDescription.execute looks at what the include itself is given, not at its parent's arguments.
         # Of several declarations of an argument the first counts there, and none that has a condition.
         declared = {argument.attrib["name"]: argument for argument in fromstring(self.texts[path]).findall("arg")[::-1]}
@@ -174,13 +174,17 @@ class Launch:
                 namespace=self._in(self._text(action.get("namespace", ""))),
                 arguments=self._words(action.get("args", "")),
                 ros_arguments=tuple(shlex.split(self._text(action.get("ros_args", "")))),
-                files=tuple(self._file(self._text(one.attrib["from"])) for one in parameters if "from" in one.attrib),
+                files=tuple(
+                    self._file(self._text(parameter.attrib["from"]))
+                    for parameter in parameters
+                    if "from" in parameter.attrib
+                ),
                 values={
-                    one.attrib["name"]: (self._text(one.attrib["value"]), one.get("type", ""))
-                    for one in parameters
-                    if "from" not in one.attrib
+                    parameter.attrib["name"]: (self._text(parameter.attrib["value"]), parameter.get("type", ""))
+                    for parameter in parameters
+                    if "from" not in parameter.attrib
                 },
-                remaps={one.attrib["from"]: self._text(one.attrib["to"]) for one in action.findall("remap")},
+                remaps={remap.attrib["from"]: self._text(remap.attrib["to"]) for remap in action.findall("remap")},
                 respawn=condition(self._text(action.get("respawn", "false"))),
                 prefix=self._words(action.get("launch-prefix", "")),
                 on_exit=action.get("on_exit"),

@@ -41,7 +41,7 @@ class Permissions:
         """Return the permissions without what one end needs."""
         write, read = dds_topics(right, name)
         return Permissions(
-            frozenset(one for one in self.write if not any(fnmatchcase(gone, one) for gone in write)),
+            frozenset(pattern for pattern in self.write if not any(fnmatchcase(name, pattern) for name in write)),
             frozenset(one for one in self.read if not any(fnmatchcase(gone, one) for gone in read)),
         )
 
@@ -53,8 +53,10 @@ def dds_topics(right: Right, name: str) -> tuple[list[str], list[str]]:
     if right in ("reply", "request"):
         ends = [f"rr{name}Reply"], [f"rq{name}Request"]
         return ends if right == "reply" else (ends[1], ends[0])
-    said = [f"rr{name}/_action/{one}Reply" for one in _SERVICES] + [f"rt{name}/_action/{one}" for one in _TOPICS]
-    heard = [f"rq{name}/_action/{one}Request" for one in _SERVICES]
+    said = [f"rr{name}/_action/{service}Reply" for service in _SERVICES] + [
+        f"rt{name}/_action/{topic}" for topic in _TOPICS
+    ]
+    heard = [f"rq{name}/_action/{service}Request" for service in _SERVICES]
     return (said, heard) if right == "execute" else (heard, said)
 
 
@@ -92,7 +94,8 @@ def permissions(texts: Mapping[str, str]) -> dict[str, Permissions]:
     for enclave in policy_of(texts).iter("enclave"):
         ends = [dds_topics(right, name) for right, name in _grants(enclave)]
         found[enclave.attrib["path"]] = Permissions(
-            frozenset(one for write, _ in ends for one in write), frozenset(one for _, read in ends for one in read)
+            frozenset(pattern for write, _ in ends for pattern in write),
+            frozenset(one for _, read in ends for one in read),
         )
     return found
 

@@ -60,14 +60,14 @@ def asked(program: str, plan: dict[str, Any], phase: str) -> list[tuple[str, str
     proofs = [one for step in steps for one in (*step.proof, *getattr(step, "effect", ()))]
     graph = module.Graph(f"bring_up_{phase}", plan["enclave"])
     said = rclpy.create_node("world", context=graph._context)
-    kept = [said.create_publisher(Log, one.topic, 1) for one in proofs if one.kind == "topic"]
+    kept = [said.create_publisher(Log, proof.topic, 1) for proof in proofs if proof.kind == "topic"]
     graph.spin(0.2)
     for one in proofs:
         module.missing(graph, [one])
     for step in steps:
         _tried(module, lambda step=step: module.request(graph, step.request, 0.0) if hasattr(step, "request") else "")
     found = ends(graph._node)
-    assert len(kept) == sum(one.kind == "topic" for one in proofs)
+    assert len(kept) == sum(proof.kind == "topic" for proof in proofs)
     graph.leave()
     return found
 

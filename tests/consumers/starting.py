@@ -47,11 +47,13 @@ def moves(built: Build, target: str) -> list[Process]:
 def every_process(built: Build) -> list[Process]:
     """Return what every launch file but the one with motion starts, those that a person releases too."""
     files = [path.removeprefix("launch/").removesuffix(".launch.xml") for path in built.texts if "launch.xml" in path]
-    started = [one for target in ("mock", "real") for launch in bring_ups(built, target) for one in launch.processes]
+    started = [
+        process for target in ("mock", "real") for launch in bring_ups(built, target) for process in launch.processes
+    ]
     for file in files:
         if file in ("activate", "claim", "goal"):
             root = fromstring(built.texts[f"launch/{file}.launch.xml"])
-            stated = {one.attrib["name"]: one[0].attrib["value"] for one in root.findall("arg") if len(one)}
+            stated = {arg.attrib["name"]: arg[0].attrib["value"] for arg in root.findall("arg") if len(arg)}
             started += launched(built, file, **stated).processes
     return started
 
@@ -60,7 +62,7 @@ def every_process(built: Build) -> list[Process]:
 def processes(cell: str, distro: str, target: str) -> tuple[Process, ...]:
     """Return what launching a target starts, the real one with its confirmations, and then what asks for motion."""
     built = build(cell, distro)
-    return (*(one for launch in bring_ups(built, target) for one in launch.processes), *moves(built, target))
+    return (*(process for launch in bring_ups(built, target) for process in launch.processes), *moves(built, target))
 
 
 def node_name(process: Process) -> str:
@@ -96,5 +98,5 @@ def plan(cell: str, distro: str) -> Any:
 def activated(cell: str, distro: str, target: str, manager: str) -> list[str]:
     """Return the controllers that the steps of a target activate for the first time, by the node of their manager."""
     requests = (step.get("request") or {} for step in plan(cell, distro)[target])
-    wanted = (one for one in requests if one.get("kind") == "controllers" and one["manager"] == manager)
+    wanted = (request for request in requests if request.get("kind") == "controllers" and request["manager"] == manager)
     return [name for one in wanted for name in one["controllers"]]

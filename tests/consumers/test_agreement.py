@@ -104,12 +104,14 @@ def test_contract_has_the_limits_of_the_description(cell: str, distro: str) -> N
 @every_build
 def test_contract_has_the_controllers_of_the_parameter_files(cell: str, distro: str) -> None:
     texts, promised = build(cell, distro).texts, contract(cell, distro)["managers"]
-    loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
+    loops = [process for process in processes(cell, distro, "mock") if process.executable == "ros2_control_node"]
     for process, manager in zip(loops, promised.values(), strict=True):
         values = told(texts, process.files, node_name(process))
         assert (values["update_rate"], process.namespace) == (manager["update_rate_hz"], manager["namespace"])
         types = {key.removesuffix(".type"): plugin for key, plugin in values.items() if key.endswith(".type")}
-        own_names = {one["full_name"].rpartition("/")[2]: one for one in manager["controllers"].values()}
+        own_names = {
+            controller["full_name"].rpartition("/")[2]: controller for controller in manager["controllers"].values()
+        }
         assert types == {name: one["plugin"] for name, one in own_names.items()}
         for name, one in own_names.items():
             own = told(texts, process.files, one["full_name"])
@@ -144,7 +146,7 @@ def test_tolerances_are_those_of_the_spec_for_every_joint(cell: str, distro: str
     texts = build(cell, distro).texts
     tags = fromstring(build(cell, distro).urdf("mock")).findall("joint")
     sliding = {tag.attrib["name"] for tag in tags if tag.get("type") == "prismatic"}
-    loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
+    loops = [process for process in processes(cell, distro, "mock") if process.executable == "ros2_control_node"]
     for process, (namespace, manager) in zip(loops, written_managers(cell, distro), strict=True):
         for name, one in manager["controllers"].items():
             own = told(texts, process.files, f"{namespace}/{name}")
@@ -203,7 +205,9 @@ def test_recording_has_a_complete_profile_for_each_topic_that_it_records(cell: s
 @every_build
 def test_drivers_are_told_what_they_declare_and_the_address_of_the_spec(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
-    addresses = {one["connection"].get("address") for one in written(cell)["devices"].values() if "connection" in one}
+    addresses = {
+        device["connection"].get("address") for device in written(cell)["devices"].values() if "connection" in device
+    }
     for process in processes(cell, distro, "real"):
         if process.executable in _OF_DRIVERS:
             values = told(texts, process.files, node_name(process))
@@ -214,7 +218,11 @@ def test_drivers_are_told_what_they_declare_and_the_address_of_the_spec(cell: st
             switches = [name for name in values if re.search(r"enable|headless|publish_tf", name)]
             assert all(isinstance(values[name], bool) for name in switches)
             assert values.get("robot_ip") in addresses | {None, "UNKNOWN"}  # UNKNOWN blocks the real target
-            rates = [str(one["rate_hz"]) for one in contract(cell, distro)["interfaces"].values() if one["rate_hz"]]
+            rates = [
+                str(interface["rate_hz"])
+                for interface in contract(cell, distro)["interfaces"].values()
+                if interface["rate_hz"]
+            ]
             profiles = [value.split(",")[2] for name, value in values.items() if name.endswith("_profile")]
             assert {f"{rate}.0" for rate in profiles} <= set(rates)
 
@@ -252,15 +260,17 @@ _FOR_PLANNING = {
 def _planned_at_a_driver(texts: dict[str, str], cell: str, distro: str) -> bool:
     """Tell whether move_group commands a controller whose goals a driver's own node takes on real hardware."""
     devices = contract_data(texts["contract.json"])["devices"]
-    controllers = (one for _, manager in written_managers(cell, distro) for one in manager["controllers"].values())
-    planned = {one.get("device") for one in controllers if one.get("client") == "move_group"}
+    controllers = (
+        controller for _, manager in written_managers(cell, distro) for controller in manager["controllers"].values()
+    )
+    planned = {controller.get("device") for controller in controllers if controller.get("client") == "move_group"}
     return any(device["driver"] and name in planned for name, device in devices.items())
 
 
 def _planned_on_the_mock_alone(cell: str, distro: str) -> bool:
     """Tell whether move_group commands a controller that claims what no component has on real hardware."""
     texts, offered = build(cell, distro).texts, interfaces(build(cell, distro).urdf("real"))
-    loops = [one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"]
+    loops = [process for process in processes(cell, distro, "mock") if process.executable == "ros2_control_node"]
     return any(
         one.get("client") == "move_group"
         and not set(claimed(told(texts, process.files, f"{namespace}/{name}"))) <= offered
@@ -281,7 +291,10 @@ def test_package_has_every_part(cell: str, distro: str) -> None:
     planning = _FOR_PLANNING | {f"config/moveit/{name}.yaml" for name in called}
     assert planning & set(texts) == (planning if cell in PLANNING else set())  # nobody reads them where no node plans
     assert {f"middleware/{host}.sh" for host in spec.get("hosts", {})} <= set(texts)
-    overridden = any("to" in one or isinstance(one.get("from"), dict) for one in spec.get("interfaces", {}).values())
+    overridden = any(
+        "to" in interface or isinstance(interface.get("from"), dict)
+        for interface in spec.get("interfaces", {}).values()
+    )
     assert ("qos_overrides:" in texts.get("config/nodes.yaml", "")) is overridden
 
 
@@ -320,22 +333,25 @@ def test_clocks_and_draws_name_what_the_contract_has(cell: str, distro: str) -> 
     drawn = json.loads(texts.get("config/uncertainty.json", '{"quantities": [], "tolerances": {}, "expected": {}}'))
     known = {"clock": promised["clocks"], **dict.fromkeys(("calibration", "place", "region"), promised["frames"])}
     known |= {kind: set(promised["devices"]) for kind in ("part", "compensation")}
-    known["repeatability"] = {one["tip_frame"] for one in promised["groups"].values()}
-    for one in drawn["quantities"]:
-        assert one["target"] in known[one["kind"]], one
+    known["repeatability"] = {group["tip_frame"] for group in promised["groups"].values()}
+    for quantity in drawn["quantities"]:
+        assert quantity["target"] in known[quantity["kind"]], quantity
         spec: Any = written(cell)
-        for key in one["source"].split("."):
-            assert key in spec, one
+        for key in quantity["source"].split("."):
+            assert key in spec, quantity
             spec = spec[key]
     assert set(drawn["tolerances"]) <= set(promised["goals"])
-    rehearsed = {one["name"] for one in json.loads(texts["rehearsals.json"])["rehearsals"]}
+    rehearsed = {rehearsal["name"] for rehearsal in json.loads(texts["rehearsals.json"])["rehearsals"]}
     assert set(drawn["expected"]) <= rehearsed
 
 
 @every_planning_build
 def test_named_states_are_the_poses_of_the_spec(cell: str, distro: str) -> None:
     semantic = fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])
-    states = {(one.attrib["name"], one.attrib["group"]): one for one in semantic.findall("group_state")}
+    states = {
+        (group_state.attrib["name"], group_state.attrib["group"]): group_state
+        for group_state in semantic.findall("group_state")
+    }
     for pose, groups in written(cell)["motion"].get("poses", {}).items():
         for group, text in groups.items():
             values = [float(joint.attrib["value"]) for joint in states[pose, group].findall("joint")]
@@ -345,7 +361,10 @@ def test_named_states_are_the_poses_of_the_spec(cell: str, distro: str) -> None:
 @every_build
 def test_mock_reads_the_collision_pairs_of_the_semantic_description(cell: str, distro: str) -> None:
     semantic = fromstring(build(cell, distro).texts[f"config/moveit/{cell}.srdf"])
-    pairs = [(one.attrib["link1"], one.attrib["link2"]) for one in semantic.findall("disable_collisions")]
+    pairs = [
+        (disable_collisions.attrib["link1"], disable_collisions.attrib["link2"])
+        for disable_collisions in semantic.findall("disable_collisions")
+    ]
     links = {link.attrib["name"] for link in fromstring(build(cell, distro).urdf("mock")).findall("link")}
     assert {name for pair in pairs for name in pair} <= links
     assert len({frozenset(pair) for pair in pairs}) == len(pairs) > 10

@@ -50,7 +50,7 @@ def every_proof(cell: str, distro: str) -> Iterator[Any]:
 @every_build
 def test_launching_takes_every_phase_of_its_target(cell: str, distro: str) -> None:
     for target in TARGETS:
-        taken = [one.arguments for one in processes(cell, distro, target) if one.executable == "bring_up"]
+        taken = [process.arguments for process in processes(cell, distro, target) if process.executable == "bring_up"]
         assert all(words[:4] == ("--plan", "config/bring_up.json", "--target", target) for words in taken)
         phases = {step["phase"] for step in plan(cell, distro)[target]}
         launched = {"start", "claim", "activate"} & phases if target == "mock" else {"start"} & phases
@@ -67,8 +67,12 @@ class _ParsedError(Exception):
 @every_build
 def test_program_takes_the_arguments_that_it_is_launched_with(cell: str, distro: str) -> None:
     built = build(cell, distro)
-    started = [one.arguments for one in every_process(built) if (one.package, one.executable) == (cell, "bring_up")]
-    started += [one.prefix[1:] for target in TARGETS for one in moves(built, target)]
+    started = [
+        process.arguments
+        for process in every_process(built)
+        if (process.package, process.executable) == (cell, "bring_up")
+    ]
+    started += [move.prefix[1:] for target in TARGETS for move in moves(built, target)]
     for target in TARGETS:
         phases = {word for words in started if target in words for word in _parsed(built, words)}
         # No launch file is left out: each phase that the plan has is begun by one of them.
@@ -111,16 +115,20 @@ def test_conditions_name_what_the_cell_has(cell: str, distro: str) -> None:
     contract = contract_data(texts["contract.json"])
     frames = set(safe_load(texts["config/frames.yaml"])["frames"])
     controllers = {
-        (f"{manager['namespace']}/controller_manager", one["full_name"].rpartition("/")[2])
+        (f"{manager['namespace']}/controller_manager", controller["full_name"].rpartition("/")[2])
         for manager in contract["managers"].values()
-        for one in manager["controllers"].values()
+        for controller in manager["controllers"].values()
     }
-    asked = {f"{one['namespace']}/controller_manager" for one in contract["managers"].values()}
-    asked |= {f"{one['namespace']}/{name}_publisher" for one in contract["managers"].values() for name in _DESCRIBING}
+    asked = {f"{manager['namespace']}/controller_manager" for manager in contract["managers"].values()}
+    asked |= {
+        f"{manager['namespace']}/{name}_publisher" for manager in contract["managers"].values() for name in _DESCRIBING
+    }
     managed = {f"/{name}" for name, node in written(cell).get("nodes", {}).items() if node.get("lifecycle")}
     kinds = {name: one["kind"] for name, one in contract["interfaces"].items()}
     descriptions = {path: fromstring(text) for path, text in texts.items() if path.endswith(".urdf")}
-    components = {one.attrib["name"] for root in descriptions.values() for one in root.findall("ros2_control")}
+    components = {
+        ros2_control.attrib["name"] for root in descriptions.values() for ros2_control in root.findall("ros2_control")
+    }
     # The stopper of claims, where a robot tells whether it listens.
     watching = {"/claim_watch"} if plan(cell, distro).get("watches") else set()
     for proof in every_proof(cell, distro):
@@ -146,12 +154,12 @@ def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, 
     asked = "/controller_manager" if distro == "humble" else alone
     moving = [step for step in plan(cell, distro)["mock"] if step["phase"] == "move"]
     looked = [proof["node"] for step in moving for proof in step["proof"] if proof["kind"] == "mock"]
-    assert looked == ([f"{one}{asked}" for one in managers] if moving else [])
+    assert looked == ([f"{manager}{asked}" for manager in managers] if moving else [])
     # Nor does the mock ask anything of a real cell that waits in the same domain.
     for step in plan(cell, distro)["mock"]:
         if step.get("request") is not None:
             looked = [proof for proof in step["proof"] if proof["kind"] == "mock"]
-            assert [proof["node"] for proof in looked] == [f"{one}{asked}" for one in managers]
+            assert [proof["node"] for proof in looked] == [f"{manager}{asked}" for manager in managers]
 
 
 @every_build
@@ -175,10 +183,10 @@ def test_everything_is_activated_once_and_alternates_never(cell: str, distro: st
 
 def _spawned(cell: str, distro: str, target: str, namespace: str) -> set[str]:
     lines = [
-        one.arguments
+        process.arguments
         for launch in bring_ups(build(cell, distro), target)
-        for one in launch.processes
-        if one.executable == "spawner" and f"{namespace}/controller_manager" in one.arguments
+        for process in launch.processes
+        if process.executable == "spawner" and f"{namespace}/controller_manager" in process.arguments
     ]
     return {name for line in lines for name in line[: line.index("-c")]}
 
@@ -186,17 +194,19 @@ def _spawned(cell: str, distro: str, target: str, namespace: str) -> set[str]:
 @every_build
 def test_policy_lets_the_steps_ask_and_act(cell: str, distro: str) -> None:
     policy = policy_of(build(cell, distro).texts)
-    (enclave,) = [one for one in policy.iter("enclave") if one.attrib["path"] == plan(cell, distro)["enclave"]]
+    (enclave,) = [
+        enclave for enclave in policy.iter("enclave") if enclave.attrib["path"] == plan(cell, distro)["enclave"]
+    ]
     may = {entry.text for profile in enclave.iter("profile") for kind in profile for entry in kind}
     for proof in every_proof(cell, distro):
         if proof["kind"] == "topic":
             assert proof["topic"] in may
         elif proof["kind"] == "controller":
-            assert {f"{proof['manager']}/{one}" for one in ("list_controllers", "switch_controller")} <= may
+            assert {f"{proof['manager']}/{name}" for name in ("list_controllers", "switch_controller")} <= may
         elif proof["kind"] == "hardware":
             assert f"{proof['manager']}/list_hardware_components" in may
         elif proof["kind"] == "lifecycle":
-            assert {f"{proof['node']}/{one}" for one in ("get_state", "change_state")} <= may
+            assert {f"{proof['node']}/{name}" for name in ("get_state", "change_state")} <= may
         elif proof["kind"] == "mock":
             assert f"{proof['node']}/get_parameters" in may
     assert {"/tf", "/tf_static"} <= may
@@ -208,7 +218,7 @@ def test_program_is_python_of_the_oldest_distribution_and_may_be_executed() -> N
     text = build("ur5e_pick", "humble").texts["scripts/bring_up"]
     ast.parse(text, feature_version=(3, 10))
     assert text.startswith("#!/usr/bin/env python3\n")
-    (folder,) = [one for one in Path(__file__).parents if (one / "generated").is_dir()]
+    (folder,) = [parent for parent in Path(__file__).parents if (parent / "generated").is_dir()]
     for file in folder.glob("generated/*/scripts/bring_up"):
         assert file.stat().st_mode & stat.S_IXUSR
 
@@ -361,7 +371,7 @@ def test_ur_is_claimed_while_its_program_runs_and_the_person_acknowledges_for_it
     graph.messages[_RUNNING] = SimpleNamespace(data=True)
     assert run(graph, tmp_path, "--target", "real", "claim") == 0
     assert graph.log[-4:] == ["acknowledge arm", "activate arm_trajectory", "activate gripper_action", "leave"]
-    assert [one for one in processes("ur5e_pick", "jazzy", "real") if one.executable == "claim_watch"]
+    assert [process for process in processes("ur5e_pick", "jazzy", "real") if process.executable == "claim_watch"]
 
 
 def test_mock_asks_nothing_of_a_real_cell_in_the_same_domain(graph: StandIn, tmp_path: Path) -> None:
@@ -545,9 +555,11 @@ def test_frames_are_connected_by_what_both_hang_on(
 def test_launch_ends_with_the_manager_and_with_the_stopper_of_claims_on_every_distribution() -> None:
     # Universal_Robots_ROS2_Driver issue 1084: with a dead stopper a claim outlives the program, and the arm jumps.
     for distro in ("humble", "jazzy"):
-        found = [one for one in processes("ur5e_pick", distro, "real") if one.executable == "claim_watch"]
-        found += [one for one in processes("ur5e_pick", distro, "real") if one.executable == "ros2_control_node"]
+        found = [process for process in processes("ur5e_pick", distro, "real") if process.executable == "claim_watch"]
+        found += [
+            process for process in processes("ur5e_pick", distro, "real") if process.executable == "ros2_control_node"
+        ]
         assert len(found) == 2
-        for one in found:
-            by_prefix = bool(one.prefix) and one.prefix[0].endswith("/lib/ur5e_pick/required")
-            assert one.on_exit == "shutdown" if distro == "jazzy" else by_prefix
+        for finding in found:
+            by_prefix = bool(finding.prefix) and finding.prefix[0].endswith("/lib/ur5e_pick/required")
+            assert finding.on_exit == "shutdown" if distro == "jazzy" else by_prefix

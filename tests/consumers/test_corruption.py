@@ -21,7 +21,7 @@ from cellc.compiler.emit.emit_all import EMITTERS
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.output.compare import compare
 from cellc.compiler.output.write import write
-from cellc.compiler.verify.verify import verify
+from cellc.compiler.verify import verify
 from tests.consumers import (
     starting,
     test_agreement,

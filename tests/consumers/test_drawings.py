@@ -54,11 +54,11 @@ def _allowed(name: str, value: str, marks: set[str]) -> bool:
 def test_pictures_have_the_attributes_and_words_of_svg(cell: str, distro: str) -> None:
     for file in ("cell", "nodes", "responsibility"):
         root = fromstring(build(cell, distro).texts[f"graph/{file}.svg"])
-        marks = {one.attrib["id"] for one in root.iter(f"{_SVG}marker")}
-        found = [(name, value) for one in root.iter() for name, value in one.attrib.items()]
+        marks = {element.attrib["id"] for element in root.iter(f"{_SVG}marker")}
+        found = [(name, value) for element in root.iter() for name, value in element.attrib.items()]
         assert [(name, value) for name, value in found if not _allowed(name, value, marks)] == []
         assert all(0.0 <= float(value) <= 1.0 for name, value in found if name.endswith("opacity"))
-        assert {one.tag.removeprefix(_SVG) for one in root.iter()} <= _DRAWN
+        assert {element.tag.removeprefix(_SVG) for element in root.iter()} <= _DRAWN
 
 
 _DRAWN = {"svg", "defs", "marker", "g", "path", "rect", "polygon", "line", "text"}
@@ -98,7 +98,9 @@ def _boxes(picture: Element) -> list[tuple[str, Rect]]:
 
 
 def _ends(contract: Any) -> set[str]:
-    used = [one for one in contract["interfaces"].values() if one["sources"] and one.get("sinks")]
+    used = [
+        interface for interface in contract["interfaces"].values() if interface["sources"] and interface.get("sinks")
+    ]
     return {end["node"] for one in used for end in (*one["sources"], *one["sinks"])}
 
 
@@ -152,4 +154,4 @@ def test_the_stop_reaches_every_drive_whatever_commands_it(cell: str) -> None:
         if one.get("hardware_component") or one.get("driver") or name in adapted
     ]
     (arrows,) = fromstring((folder / "graph/nodes.svg").read_text(encoding="utf-8")).findall(f"{_SVG}g")
-    assert len([one for one in arrows.iter() if one.get("marker-end") == "url(#stop)"]) == len(driven) > 0
+    assert len([element for element in arrows.iter() if element.get("marker-end") == "url(#stop)"]) == len(driven) > 0

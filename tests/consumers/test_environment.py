@@ -136,9 +136,11 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
     assert home == "lib/${PROJECT_NAME}"
     assert set(programs.split()) == {path for path in texts if path.startswith("scripts/")}
     processes = every_process(build(cell, distro))
-    started = {one.executable for one in processes if one.package == cell}
+    started = {process.executable for process in processes if process.package == cell}
     # The program before another one, and what the bring-up starts itself.
-    started |= {one.prefix[0].rpartition("/")[2] for one in processes if one.prefix} | {"installed_versions"}
+    started |= {process.prefix[0].rpartition("/")[2] for process in processes if process.prefix} | {
+        "installed_versions"
+    }
     # What a person runs to compare the graph with the package, and what that imports.
     started |= {"observe", "observe_checks.py"}
     assert started == {path.rpartition("/")[2] for path in programs.split()}

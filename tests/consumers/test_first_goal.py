@@ -353,11 +353,11 @@ def test_it_is_started_behind_the_proofs_of_every_motion_client() -> None:
     package = build("ur5e_pick", "jazzy")
     (process,) = launched(package, "goal", confirm_goal=_WORD, joint=_WRIST).processes
     assert process.prefix[-4:] == ("--target", "real", "move", "--")
-    arguments = {one.get("name"): one for one in fromstring(package.texts["launch/goal.launch.xml"]).findall("arg")}
+    arguments = {arg.get("name"): arg for arg in fromstring(package.texts["launch/goal.launch.xml"]).findall("arg")}
     assert "default" not in arguments["confirm_goal"].attrib
     assert {choice.get("value") for choice in arguments["joint"]} == _START.keys() - {"finger"}
     (enclave,) = policy_of(package.texts).findall(".//enclave[@path='/ur5e_pick/first_goal']")
-    called = [one.text for one in enclave.findall(".//actions[@call='ALLOW']/action")]
+    called = [action.text for action in enclave.findall(".//actions[@call='ALLOW']/action")]
     assert called == ["/arm_trajectory/follow_joint_trajectory"]
 
 

@@ -132,7 +132,7 @@ def test_each_right_installation_is_accepted_and_everything_read_is_depended_on(
             assert where == f"package:{device(holder).software.packages.driver}"
     read = {where.removeprefix("package:") for where in shown.values() if where.startswith("package:")}
     read |= set(re.findall(r"ros2 pkg xml -t version (\S+)", texts["gates/promotion.md"]))
-    depended = {one.text for one in ElementTree.fromstring(texts["package.xml"]).iter("exec_depend")}
+    depended = {exec_depend.text for exec_depend in ElementTree.fromstring(texts["package.xml"]).iter("exec_depend")}
     assert read - depended == set()
     folders = set(re.findall(r"git -C src/(\S+) rev-parse", texts["gates/promotion.md"]))
     assert folders <= set(safe_load(texts.get("sources.repos", "repositories: {}"))["repositories"])

@@ -61,13 +61,13 @@ def test_real_target_is_refused_without_its_confirmation(cell: str, distro: str)
         for file in ("cell", *hosts(built)):
             with pytest.raises(LaunchError, match=r"confirm_real|target"):
                 launched(built, file, **given)
-    assert all(one.processes for one in bring_ups(built, "real"))
+    assert all(bring_up.processes for bring_up in bring_ups(built, "real"))
 
 
 @every_build
 def test_real_target_is_not_started_from_one_computer_where_it_has_several(cell: str, distro: str) -> None:
     built = build(cell, distro)
-    started = [[node_name(one) for one in launch.processes] for launch in bring_ups(built, "real")]
+    started = [[node_name(process) for process in launch.processes] for launch in bring_ups(built, "real")]
     assert len(started) == max(1, len(hosts(built)))
     if hosts(built):
         with pytest.raises(LaunchError, match="'host' is 'all'"):
@@ -84,10 +84,10 @@ def test_nothing_asks_for_motion_before_a_person_releases_it(cell: str, distro: 
         name for name, node in written(cell).get("nodes", {}).items() if node["run"].split("/")[0] == "cell_tasks"
     }
     for target in TARGETS:
-        started = {node_name(one) for launch in bring_ups(built, target) for one in launch.processes}
+        started = {node_name(process) for launch in bring_ups(built, target) for process in launch.processes}
         assert not started & {f"/{name}" for name in clients}
-        assert {node_name(one) for one in moves(built, target)} == {f"/{name}" for name in clients}
-        assert all(one.prefix[-4:] == ("--target", target, "move", "--") for one in moves(built, target))
+        assert {node_name(move) for move in moves(built, target)} == {f"/{name}" for name in clients}
+        assert all(move.prefix[-4:] == ("--target", target, "move", "--") for move in moves(built, target))
     if clients:
         for given in ({"target": "real"}, {"target": "real", "confirm_motion": "yes"}):
             with pytest.raises(LaunchError, match="confirm_motion"):
@@ -163,7 +163,7 @@ def test_spawners_follow_the_spec_and_activate_nothing(cell: str, distro: str, t
         wanted = [name for name in order if _has_hardware(cell, distro, target, f"{namespace}/{name}")]
         # What one target alone has is spawned by itself, after what both have.
         assert sorted(names, key=order.index) == wanted
-        assert all(list(line[: line.index("-c")]) == [one for one in order if one in line] for line in own)
+        assert all(list(line[: line.index("-c")]) == [name for name in order if name in line] for line in own)
         # Humble's manager hands its own remaps to its controllers; later ones warn, and ask it of the spawner.
         moved = () if distro == "humble" or not namespace else (f"--remap {namespace}/joint_states:=/joint_states",)
         told = ("--inactive", *(("--controller-ros-args", *moved) if moved else ()))
@@ -177,10 +177,10 @@ def _has_hardware(cell: str, distro: str, target: str, node: str) -> bool:
     """
     texts = build(cell, distro).texts
     contract = contract_data(texts["contract.json"])
-    own = (one for manager in contract["managers"].values() for one in manager["controllers"].values())
+    own = (controller for manager in contract["managers"].values() for controller in manager["controllers"].values())
     if any(one["full_name"] == node and target not in one.get("targets", TARGETS) for one in own):
         return False
-    managers = [one for one in processes(cell, distro, target) if one.executable == "ros2_control_node"]
+    managers = [process for process in processes(cell, distro, target) if process.executable == "ros2_control_node"]
     (files,) = [manager.files for manager in managers if manager.namespace == node.rpartition("/")[0]]
     return set(claimed(told(texts, files, node))) <= interfaces(build(cell, distro).urdf(target))
 

@@ -75,7 +75,7 @@ def test_commands_and_prefixes_are_split_into_words() -> None:
         '<node pkg="p" exec="e" launch-prefix="bash $(find-pkg-share pkg)/file.yaml other"/>'
     )
     run = launched(actions)
-    assert [(one.name, one.words) for one in run.commands] == [("a", ("bash", "file.yaml", "step"))]
+    assert [(command.name, command.words) for command in run.commands] == [("a", ("bash", "file.yaml", "step"))]
     assert run.processes[0].prefix == ("bash", "file.yaml", "other")
 
 

@@ -43,7 +43,7 @@ _BOUNDS = ("min_position", "max_position", "max_velocity", "max_acceleration", "
 
 def _told(cell: str, distro: str) -> dict[str, Any]:
     texts = build(cell, distro).texts
-    planners = [one for one in processes(cell, distro, "mock") if one.executable == "move_group"]
+    planners = [process for process in processes(cell, distro, "mock") if process.executable == "move_group"]
     return told(texts, planners[0].files, "/move_group") if planners else {}
 
 
@@ -52,17 +52,19 @@ def _semantic(cell: str, distro: str) -> Element:
 
 
 def _joints(cell: str, distro: str) -> dict[str, Element]:
-    return {one.attrib["name"]: one for one in fromstring(build(cell, distro).urdf("mock")).findall("joint")}
+    return {joint.attrib["name"]: joint for joint in fromstring(build(cell, distro).urdf("mock")).findall("joint")}
 
 
 def _commanded(cell: str, distro: str) -> dict[str, list[str]]:
     """Return the joints of each active controller with an action, under the name that MoveIt has for it."""
     texts, found = build(cell, distro).texts, {}
-    for manager in (one for one in processes(cell, distro, "mock") if one.executable == "ros2_control_node"):
+    for manager in (
+        process for process in processes(cell, distro, "mock") if process.executable == "ros2_control_node"
+    ):
         types = told(texts, manager.files, node_name(manager))
         for name in activated(cell, distro, "mock", node_name(manager)):
             values = told(texts, manager.files, f"{manager.namespace}/{name}")
-            joints = [one.rpartition("/")[0] for one in claimed(values)]
+            joints = [claim.rpartition("/")[0] for claim in claimed(values)]
             if joints and types[f"{name}.type"] != "forward_command_controller/ForwardCommandController":
                 found[f"{manager.namespace}/{name}".removeprefix("/")] = joints
     return found
@@ -106,16 +108,16 @@ def _expected(cell: str, distro: str) -> set[str]:
     names |= {f"{manager}.controller_names"}
     names |= {f"{manager}.{one}.{key}" for one in _planned(cell, distro) for key in _CALLED}
     planning = "robot_description_planning"
-    names |= {f"{planning}.default_{one}_scaling_factor" for one in ("velocity", "acceleration")}
-    names |= {f"{planning}.cartesian_limits.max_{one}" for one in ("trans_vel", "trans_acc", "trans_dec", "rot_vel")}
+    names |= {f"{planning}.default_{name}_scaling_factor" for name in ("velocity", "acceleration")}
+    names |= {f"{planning}.cartesian_limits.max_{name}" for name in ("trans_vel", "trans_acc", "trans_dec", "rot_vel")}
     joints = {joint for one in (*commanded.values(), *_adapted(cell, distro).values()) for joint in one}
-    names |= {f"{planning}.joint_limits.{joint}.has_{one}" for joint in joints for one in _LIMITS}
+    names |= {f"{planning}.joint_limits.{joint}.has_{limit}" for joint in joints for limit in _LIMITS}
     turning = {joint for joint in joints if _joints(cell, distro)[joint].get("type") == "continuous"}
     names |= {
-        f"{planning}.joint_limits.{joint}.{one}"
+        f"{planning}.joint_limits.{joint}.{bound}"
         for joint in joints
-        for one in _BOUNDS
-        if not (joint in turning and one.endswith("_position"))  # URDF: a continuous joint has no lower and upper
+        for bound in _BOUNDS
+        if not (joint in turning and bound.endswith("_position"))  # URDF: a continuous joint has no lower and upper
     }
     solver = ("kinematics_solver", "kinematics_solver_search_resolution", "kinematics_solver_timeout")
     names |= {f"robot_description_kinematics.{group}.{one}" for group in groups for one in solver}
@@ -153,12 +155,14 @@ def test_pipelines_name_plugins_and_adapters_that_exist(cell: str, distro: str) 
         if distro == "humble":
             assert found[f"{pipeline}.planning_plugin"] == plugin
             adapters = found[f"{pipeline}.request_adapters"].split()
-            assert {one.removeprefix("default_planner_request_adapters/") for one in adapters} <= _REQUEST_HUMBLE
+            assert {
+                adapter.removeprefix("default_planner_request_adapters/") for adapter in adapters
+            } <= _REQUEST_HUMBLE
         else:
             assert found[f"{pipeline}.planning_plugins"] == [plugin]
             for side, known in (("request", _REQUEST), ("response", _RESPONSE)):
                 adapters = found[f"{pipeline}.{side}_adapters"]
-                found_here = [one.removeprefix(f"default_planning_{side}_adapters/") for one in adapters]
+                found_here = [adapter.removeprefix(f"default_planning_{side}_adapters/") for adapter in adapters]
                 assert set(found_here) <= known
                 # moveit_configs_utils, default_configs/*_planning.yaml (2.12.3): the planner of a pipeline may leave
                 # out that it times a path by itself, and nothing else.
@@ -169,9 +173,9 @@ def test_pipelines_name_plugins_and_adapters_that_exist(cell: str, distro: str) 
     if found:
         assert found["planning_pipelines"] == list(_PLUGINS)
         switches = ("execution_duration_monitoring", "wait_for_trajectory_completion")
-        assert all(isinstance(found[f"trajectory_execution.{one}"], bool) for one in switches)
+        assert all(isinstance(found[f"trajectory_execution.{switch}"], bool) for switch in switches)
         for name in (name for name in found if name.endswith(".planner_configs")):
-            configured = {one.split(".")[2] for one in found if one.startswith("ompl.planner_configs.")}
+            configured = {finding.split(".")[2] for finding in found if finding.startswith("ompl.planner_configs.")}
             assert found[name.replace("planner_configs", "default_planner_config")] in found[name]
             assert set(found[name]) == configured
         assert found["default_planning_pipeline"] in found["planning_pipelines"]
@@ -210,7 +214,7 @@ def test_limits_of_moveit_are_those_of_the_description(cell: str, distro: str) -
         assert limit is not None
         values = {name.removeprefix(f"{start}{joint}."): one for name, one in found.items() if f".{joint}." in name}
         turns = joints[joint].attrib["type"] == "continuous"  # it has no limit of position to tell
-        assert all(values[f"has_{one}"] is True for one in _LIMITS if not (turns and "position" in one)), joint
+        assert all(values[f"has_{limit}"] is True for limit in _LIMITS if not (turns and "position" in limit)), joint
         assert values.get("min_position") == (None if turns else float(limit.attrib["lower"]))
         assert values.get("max_position") == (None if turns else float(limit.attrib["upper"]))
         assert values["max_velocity"] == float(limit.attrib["velocity"])
@@ -273,7 +277,7 @@ def test_links_that_a_joint_connects_are_never_checked_against_each_other(cell: 
     # MoveIt's setup assistant leaves them out as adjacent, whether they touch or not: neighbours do at every joint.
     robot, joints = fromstring(build(cell, distro).urdf("mock")), _joints(cell, distro)
     solid = {link.attrib["name"] for link in robot.findall("link") if link.find("collision") is not None}
-    above = {_link_of(one, "child"): _link_of(one, "parent") for one in joints.values()}
+    above = {_link_of(joint, "child"): _link_of(joint, "parent") for joint in joints.values()}
     left_out = {
         frozenset((tag.attrib["link1"], tag.attrib["link2"]))
         for tag in _semantic(cell, distro).findall("disable_collisions")
@@ -294,7 +298,7 @@ def _link_of(joint: Element, end: str) -> str:
 @every_planning_build
 def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -> None:
     semantic, joints = _semantic(cell, distro), _joints(cell, distro)
-    parents = {_link_of(one, "child"): one for one in joints.values()}
+    parents = {_link_of(joint, "child"): joint for joint in joints.values()}
     told: dict[str, set[str]] = {}
     for group in semantic.findall("group"):
         names = {joint.attrib["name"] for joint in group.findall("joint")}
@@ -314,7 +318,7 @@ def test_named_states_state_every_joint_of_their_group(cell: str, distro: str) -
 
 @every_planning_build
 def test_move_group_gets_both_descriptions(cell: str, distro: str) -> None:
-    for process in (one for one in processes(cell, distro, "real") if one.executable == "move_group"):
+    for process in (process for process in processes(cell, distro, "real") if process.executable == "move_group"):
         texts = build(cell, distro).texts
         assert process.values["robot_description"] == (texts[f"urdf/{cell}.real.urdf"], "str")
         assert process.values["robot_description_semantic"] == (texts[f"config/moveit/{cell}.srdf"], "str")

@@ -441,9 +441,10 @@ def test_its_enclave_may_look_and_nothing_else(cell: str, distro: str) -> None:
     read = {*observe_program.READS, "list_hardware_interfaces", "get_available_transitions"}
     assert asked <= read
     may = permissions(texts)[enclave]
-    for one in contract_data(texts["contract.json"])["interfaces"]:
+    for interface in contract_data(texts["contract.json"])["interfaces"]:
         assert (
-            may.allow("subscribe", one) or contract_data(texts["contract.json"])["interfaces"][one]["kind"] != "topic"
+            may.allow("subscribe", interface)
+            or contract_data(texts["contract.json"])["interfaces"][interface]["kind"] != "topic"
         )
 
 

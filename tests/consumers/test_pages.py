@@ -21,7 +21,7 @@ def tables(cell: str, distro: str) -> dict[str, list[list[str]]]:
     parts = re.split(r"^## (.+)$", build(cell, distro).texts["audit.md"], flags=re.MULTILINE)
     sections = dict(zip(parts[1::2], parts[2::2], strict=True))
     return {
-        name: [[one.strip() for one in line.split(" | ")] for line in _rows(text)] for name, text in sections.items()
+        name: [[part.strip() for part in line.split(" | ")] for line in _rows(text)] for name, text in sections.items()
     }
 
 
@@ -206,7 +206,7 @@ def test_people_of_the_spec_answer_for_what_it_says(cell: str, distro: str) -> N
 
 @every_build
 def test_audit_expects_no_name_of_a_driver_that_the_launch_file_gives_to_another(cell: str, distro: str) -> None:
-    given_away = {source for one in processes(cell, distro, "real") for source in one.remaps}
+    given_away = {source for process in processes(cell, distro, "real") for source in process.remaps}
     assert not {row[0].strip("`") for row in tables(cell, distro)["Other driver interfaces"]} & given_away
 
 
@@ -214,22 +214,22 @@ def test_audit_expects_no_name_of_a_driver_that_the_launch_file_gives_to_another
 def test_audit_expects_the_nodes_that_are_launched_with_what_they_are_told(cell: str, distro: str) -> None:
     rows = {row[0].strip("`"): row for row in tables(cell, distro)["Expected nodes"]}
     started = {
-        node_name(one): one
-        for one in processes(cell, distro, "real")
-        if one.executable not in ("spawner", "bring_up", "claim_watch")
+        node_name(process): process
+        for process in processes(cell, distro, "real")
+        if process.executable not in ("spawner", "bring_up", "claim_watch")
     }
     contract = contract_data(build(cell, distro).texts["contract.json"])
     plugins = {
-        one["full_name"]: one["plugin"]
+        controller["full_name"]: controller["plugin"]
         for manager in contract["managers"].values()
-        for one in manager["controllers"].values()
+        for controller in manager["controllers"].values()
     }
     assert {name: rows[name][1] for name in plugins} == plugins
     assert set(rows) == set(plugins) | set(started)
     for name in started:
         process = started[name]
         assert rows[name][1].removesuffix(" (real target)") == f"{process.package}/{process.executable}"
-        told = {one.strip("`") for one in rows[name][4].split(", ")}
+        told = {part.strip("`") for part in rows[name][4].split(", ")}
         assert set(process.files) <= told
         if process.executable != "ros2_control_node":  # Humble's is given the description as well
             assert set(process.values) - {"use_sim_time"} <= told

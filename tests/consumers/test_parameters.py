@@ -58,7 +58,7 @@ def test_every_section_belongs_to_a_node_that_runs(cell: str, distro: str) -> No
         if path.startswith("config/") and "ros__parameters:" in text:
             named = {key for key in sections(text) if not key.startswith("/**")}
             assert named <= nodes, path
-            started = [one for target in ("mock", "real") for one in processes(cell, distro, target)]
+            started = [process for target in ("mock", "real") for process in processes(cell, distro, target)]
             read = {node_name(one) for one in started if path in one.files}
             assert {node_name(one) for one in started} & named <= read, path
 

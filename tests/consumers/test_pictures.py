@@ -82,33 +82,33 @@ def test_every_arrow_is_labelled_and_its_text_stays_inside(cell: str, distro: st
 @every_build
 def test_boxes_hold_their_names_and_arrows_lie_level(cell: str, distro: str) -> None:
     picture = sheet(cell, distro)
-    assert {one.tag.removeprefix(_SPACE) for one in picture.iter()} == _DRAWN
+    assert {element.tag.removeprefix(_SPACE) for element in picture.iter()} == _DRAWN
     assert "href" not in build(cell, distro).texts[f"graph/{SHEET}"]
     assert picture.find(f"{_SPACE}defs/{_SPACE}marker[@id='head']") is not None
     arrows = list(picture.iter(f"{_SPACE}line"))
-    assert all(place(one, "y1") == place(one, "y2") and place(one, "x1") < place(one, "x2") for one in arrows)
-    assert {one.get("marker-end") for one in arrows} == {"url(#head)"}
-    boxes = [one for one in picture.iter(f"{_SPACE}rect") if one.get("rx") == "5"]
+    assert all(place(arrow, "y1") == place(arrow, "y2") and place(arrow, "x1") < place(arrow, "x2") for arrow in arrows)
+    assert {arrow.get("marker-end") for arrow in arrows} == {"url(#head)"}
+    boxes = [element for element in picture.iter(f"{_SPACE}rect") if element.get("rx") == "5"]
     assert len(boxes) == 2 * len(arrows)
     for box in boxes:
         left, top, high = place(box, "x", "y", "height")
-        places = [place(one, "x", "y") for one in picture.iter(f"{_SPACE}text")]
+        places = [place(element, "x", "y") for element in picture.iter(f"{_SPACE}text")]
         lines = [y for x, y in places if x == left + 8 and top < y < top + high]
         assert lines == [top + 16 + 18 * number for number in range(len(lines))]
         assert high == 18 * len(lines) + 8 > 8
-    assert len({tuple(box.get(one) for one in ("width", "fill", "stroke")) for box in boxes}) == 1
-    styles = {tuple(sorted(set(one.attrib) - {"x", "y"})) for one in picture.iter(f"{_SPACE}text")}
+    assert len({tuple(box.get(name) for name in ("width", "fill", "stroke")) for box in boxes}) == 1
+    styles = {tuple(sorted(set(element.attrib) - {"x", "y"})) for element in picture.iter(f"{_SPACE}text")}
     assert styles == {(), ("fill",), ("font-weight",), ("font-size", "font-weight")}
-    assert {one.get("font-weight") for one in picture.iter(f"{_SPACE}text")} == {None, "bold"}
-    assert len({one.get("fill") for one in picture.iter(f"{_SPACE}text")} - {None}) == 1
-    assert len({place(one, "x") for one in picture.iter(f"{_SPACE}text")}) <= _COLUMNS
+    assert {element.get("font-weight") for element in picture.iter(f"{_SPACE}text")} == {None, "bold"}
+    assert len({element.get("fill") for element in picture.iter(f"{_SPACE}text")} - {None}) == 1
+    assert len({place(element, "x") for element in picture.iter(f"{_SPACE}text")}) <= _COLUMNS
 
 
 @every_build
 def test_vendor_control_and_physical_safety_are_bold_and_apart(cell: str, distro: str) -> None:
-    bands = [one for one in sheet(cell, distro).iter(f"{_SPACE}rect") if one.get("rx") == "6"]
-    assert [one.get("stroke-width") for one in bands] == ["1", "5", "5"]
-    edges = [place(one, "y", "height") for one in bands]
+    bands = [element for element in sheet(cell, distro).iter(f"{_SPACE}rect") if element.get("rx") == "6"]
+    assert [band.get("stroke-width") for band in bands] == ["1", "5", "5"]
+    edges = [place(band, "y", "height") for band in bands]
     assert all(top + high < below for (top, high), (below, _) in pairwise(edges))
 
 

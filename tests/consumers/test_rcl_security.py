@@ -33,8 +33,8 @@ CELLS = ("ur5e_pick", "fr3_hand", "two_arms")
 _SIDES: dict[str, tuple[Right, Right]] = {"topic": ("publish", "subscribe"), "service": ("reply", "request")}
 # rcl_action: an action is three services and two topics, the other way round for who calls it.
 _OF_ACTION = (
-    *(("service", one) for one in ("send_goal", "cancel_goal", "get_result")),
-    *(("topic", one) for one in ("feedback", "status")),
+    *(("service", name) for name in ("send_goal", "cancel_goal", "get_result")),
+    *(("topic", name) for name in ("feedback", "status")),
 )
 
 
@@ -55,7 +55,7 @@ def _ends(cell: str, node: str) -> list[tuple[Right, str]]:
 @lru_cache(maxsize=8)
 def opened(cell: str) -> dict[str, list[tuple[Right, str]]]:
     """Return what the nodes of a cell open, by their names."""
-    nodes = [one for one in build(cell, _DISTRO).graph.cell.nodes if one.package == "cell_tasks" or one.lifecycle]
+    nodes = [node for node in build(cell, _DISTRO).graph.cell.nodes if node.package == "cell_tasks" or node.lifecycle]
     steps = plan(cell, _DISTRO)
     phases = {step["phase"] for target in ("mock", "real") for step in steps[target]}
     job = {
@@ -123,7 +123,7 @@ def test_each_grant_that_is_missing_refuses_a_real_node(capsys: pytest.CaptureFi
 def test_the_bring_up_asks_managers_and_never_for_motion() -> None:
     own = (found for node, found in opened("ur5e_pick").items() if "up_" in node)
     asks = {name for found in own for right, name in found if right == "request"}
-    assert {f"/controller_manager/{one}" for one in ("list_controllers", "switch_controller")} <= asks
+    assert {f"/controller_manager/{name}" for name in ("list_controllers", "switch_controller")} <= asks
     assert not [name for name in asks if "/_action/" in name]
 
 

@@ -17,13 +17,15 @@ from tests.emit.cells import contract_data
 def profiles(cell: str, distro: str) -> dict[str, Element]:
     """Return the profile of every node by its fully qualified name."""
     policy = policy_of(build(cell, distro).texts)
-    return {f"{one.attrib['ns'].rstrip('/')}/{one.attrib['node']}": one for one in policy.iter("profile")}
+    return {
+        f"{profile.attrib['ns'].rstrip('/')}/{profile.attrib['node']}": profile for profile in policy.iter("profile")
+    }
 
 
 def granted(profile: Element, plural: str, right: str) -> set[str]:
     """Return the names that a profile grants for one right."""
-    lists = [one for one in profile.findall(plural) if one.get(right) == "ALLOW"]
-    return {entry.text or "" for one in lists for entry in one}
+    lists = [element for element in profile.findall(plural) if element.get(right) == "ALLOW"]
+    return {entry.text or "" for item in lists for entry in item}
 
 
 @every_build
@@ -33,7 +35,9 @@ def test_processes_start_in_enclaves_of_the_policy(cell: str, distro: str) -> No
     for process in processes(cell, distro, "real"):
         flag, path = process.ros_arguments
         assert flag == "--enclave"
-        inside = {f"{one.attrib['ns'].rstrip('/')}/{one.attrib['node']}" for one in enclaves[path].iter("profile")}
+        inside = {
+            f"{profile.attrib['ns'].rstrip('/')}/{profile.attrib['node']}" for profile in enclaves[path].iter("profile")
+        }
         # A spawner calls itself spawner_CONTROLLER after the first one that it is given, in the manager's namespace.
         first = f"spawner_{process.arguments[0]}" if process.executable == "spawner" else ""
         assert {name for name in inside if name.endswith(first)} if first else node_name(process) in inside
@@ -109,8 +113,8 @@ def test_unused_topics_are_said_and_heard_by_one_node_alone(cell: str, distro: s
 # ros2_control.md: what every controller manager serves, and what `spawner --inactive` calls of it: it loads, configures
 # and asks what is loaded; to activate is the bring-up's, after its conditions.
 _OF_A_MANAGER = {
-    *(f"list_{one}" for one in ("controllers", "controller_types", "hardware_components", "hardware_interfaces")),
-    *(f"{one}_controller" for one in ("load", "configure", "switch", "unload")),
+    *(f"list_{name}" for name in ("controllers", "controller_types", "hardware_components", "hardware_interfaces")),
+    *(f"{name}_controller" for name in ("load", "configure", "switch", "unload")),
     *("reload_controller_libraries", "set_hardware_component_state"),
 }
 _BY_SPAWNER = {"list_controllers", "load_controller", "configure_controller"}
@@ -132,10 +136,10 @@ def test_managers_serve_what_they_have_and_spawners_may_call_what_they_need_and_
 @every_build
 def test_who_serves_parameters_serves_them_all(cell: str, distro: str) -> None:
     # network_security.md 5.3: what every node needs.
-    every = {f"~/{one}_parameters" for one in ("describe", "get", "list", "set")}
+    every = {f"~/{name}_parameters" for name in ("describe", "get", "list", "set")}
     every |= {"~/get_parameter_types", "~/set_parameters_atomically"}
     for name, profile in profiles(cell, distro).items():
-        served = {one for one in granted(profile, "services", "reply") if "parameter" in one}
+        served = {name for name in granted(profile, "services", "reply") if "parameter" in name}
         assert served in (set(), every), name
 
 
@@ -155,7 +159,7 @@ def test_what_one_node_calls_another_serves(cell: str, distro: str) -> None:
 @every_build
 def test_descriptions_and_joint_states_pass(cell: str, distro: str) -> None:
     found = profiles(cell, distro)
-    for process in (one for one in processes(cell, distro, "mock") if one.executable != "spawner"):
+    for process in (process for process in processes(cell, distro, "mock") if process.executable != "spawner"):
         may_say = granted(found[node_name(process)], "topics", "publish")
         may_hear = granted(found[node_name(process)], "topics", "subscribe")
         if process.executable == "robot_state_publisher":
@@ -184,8 +188,8 @@ def _typed(cell: str, distro: str, enclave: str = "people") -> Permissions:
 @every_build
 def test_people_may_do_what_the_gates_have_them_type(cell: str, distro: str) -> None:
     may, asked = _typed(cell, distro), 0
-    typed = (one for text in sections(cell, distro).values() for one in commands(text))
-    for command in (re.sub(r"^timeout \d+ ", "", one).split(" | ")[0] for one in typed):
+    typed = (command for text in sections(cell, distro).values() for command in commands(text))
+    for command in (re.sub(r"^timeout \d+ ", "", word).split(" | ")[0] for word in typed):
         words = command.split()
         ends: list[tuple[Right, str]] = []
         if re.search(r"ros2 topic (echo|hz|delay|bw)", command):
@@ -197,7 +201,7 @@ def test_people_may_do_what_the_gates_have_them_type(cell: str, distro: str) -> 
         elif command.startswith("ros2 lifecycle get"):
             ends = [("request", f"{words[-1]}/get_state")]
         elif command.startswith("ros2 lifecycle set"):
-            ends = [("request", f"{words[-2]}/{one}") for one in ("change_state", "get_available_transitions")]
+            ends = [("request", f"{words[-2]}/{name}") for name in ("change_state", "get_available_transitions")]
         elif command.startswith("ros2 service call") and words[3].endswith("/get_parameters"):
             ends = [("request", words[3])]
         elif "tf2_echo" in command or "tf2_monitor" in command:
@@ -239,7 +243,7 @@ def test_bring_up_may_call_what_its_steps_ask(cell: str, distro: str) -> None:
     may = permissions(build(cell, distro).texts)[steps["enclave"]]
     for step in (*steps["mock"], *steps["real"]):
         proofs = (*step["proof"], *step.get("effect", ()))
-        ends = [(one, _CALLED_BY_BRING_UP.get(one["kind"], ())) for one in proofs]
+        ends = [(proof, _CALLED_BY_BRING_UP.get(proof["kind"], ())) for proof in proofs]
         if "request" in step:
             ends.append((step["request"], _REQUESTED_BY_BRING_UP.get(step["request"]["kind"], ())))
         for one, services in ends:
@@ -257,8 +261,8 @@ def test_a_person_may_act_where_a_gate_or_a_recovery_says_so(cell: str, distro: 
     pages = " ".join(" ".join(texts[page].split()) for page in ("gates/promotion.md", "gates/network.md", "audit.md"))
     found = list(_ACTS.finditer(pages))
     claiming = any(step["phase"] == "claim" for step in plan(cell, distro)["real"])
-    assert ("switch_controller" in {one[2] for one in found}) is claiming
-    assert cell == "minimal" or any((one[1] or "").endswith("/cancel_goal") for one in found)
+    assert ("switch_controller" in {finding[2] for finding in found}) is claiming
+    assert cell == "minimal" or any((finding[1] or "").endswith("/cancel_goal") for finding in found)
     for one in found:
         managers = [f"{namespace}/controller_manager/{one[2]}" for namespace, _ in written_managers(cell, distro)]
         for name in [one[1]] if one[1] else managers:
@@ -296,7 +300,7 @@ def test_rviz_may_show_what_its_configuration_shows(cell: str, distro: str) -> N
         assert may.allow("subscribe", topic), topic
     # moveit2, planning_scene_display.cpp: the whole scene is asked for once.
     assert "/monitored_planning_scene" not in topics or may.allow("request", "/get_planning_scene")
-    for one in ("/rviz/reset_time", "/rviz/get_parameters", "/rviz_private_94213/list_parameters"):
-        assert may.allow("reply", one) or (
-            one.startswith("/rviz_private") and "/monitored_planning_scene" not in topics
+    for name in ("/rviz/reset_time", "/rviz/get_parameters", "/rviz_private_94213/list_parameters"):
+        assert may.allow("reply", name) or (
+            name.startswith("/rviz_private") and "/monitored_planning_scene" not in topics
         )

@@ -131,7 +131,7 @@ def test_who_has_no_enclave_does_not_start_and_neither_is_heard_nor_hears(keysto
         ((_, _, message),) = inside.start(f"{_HOME}/stranger", broadcaster).opened().refused
         assert "SECURITY ERROR" in message
         speakers = outside.start("/", says), inside.start(f"{_HOME}/controller_manager", broadcaster)
-        assert [one.opened().refused for one in speakers] == [[], []]
+        assert [speaker.opened().refused for speaker in speakers] == [[], []]
         without_keys = outside.start("/", hears, until={_IMAGE[0]: _ENOUGH})
         with_keys = inside.start(f"{_HOME}/people", hears, until={_JOINTS[0]: _ENOUGH})
         # Each hears its own side for seconds, and nothing of the other.

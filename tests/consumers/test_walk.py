@@ -54,7 +54,7 @@ def test_table_says_what_the_sections_say_and_leads_to_them(cell: str, distro: s
         section = sections(cell, distro)[gate.split("]")[0].strip("[")]
         ((page, anchor),) = re.findall(r"\(([\w/.]+)#([\w-]+)\)", gate)
         titles = re.findall(r"^#+ (.*)$", texts[page], re.MULTILINE)
-        assert [re.sub(r"[^a-z0-9 -]", "", one.lower()).replace(" ", "-") for one in titles].count(anchor) == 1
+        assert [re.sub(r"[^a-z0-9 -]", "", title.lower()).replace(" ", "-") for title in titles].count(anchor) == 1
         assert f"Passed when {shows}." in section
         assert f"Signed by: `{owner}`. **Stop on:** " in section
         assert command == "manual" or command.strip("`") in section
@@ -126,11 +126,11 @@ def test_commands_name_what_the_cell_has(cell: str, distro: str) -> None:
     artifacts = build(cell, distro).texts
     contract = contract_data(artifacts["contract.json"])
     kinds = {name: one["kind"] for name, one in contract["interfaces"].items()}
-    managers = {f"{one['namespace']}/controller_manager" for one in contract["managers"].values()}
+    managers = {f"{manager['namespace']}/controller_manager" for manager in contract["managers"].values()}
     frames = set(safe_load(artifacts["config/frames.yaml"])["frames"])
     seen = 0
-    typed = (one for text in sections(cell, distro).values() for one in commands(text))
-    for command in (re.sub(r"^timeout \d+ ", "", one) for one in typed):
+    typed = (command for text in sections(cell, distro).values() for command in commands(text))
+    for command in (re.sub(r"^timeout \d+ ", "", word) for word in typed):
         words = command.split()
         if (topic := re.search(r"ros2 topic \w+ (?:-v |--once |--field \S+ )*(\S+)", command)) is not None:
             assert kinds[topic.group(1)] == "topic", command
@@ -160,7 +160,7 @@ def test_commands_name_what_the_cell_has(cell: str, distro: str) -> None:
 
 @every_build
 def test_files_that_commands_read_are_in_the_package(cell: str, distro: str) -> None:
-    for command in (one for text in sections(cell, distro).values() for one in commands(text)):
+    for command in (command for text in sections(cell, distro).values() for command in commands(text)):
         for path in re.findall(rf"generated/{cell}/(\S+)", command):
             assert path in {*build(cell, distro).texts, "manifest.json"}, command
 
@@ -170,7 +170,7 @@ def test_gate_of_enabling_holds_no_command(cell: str, distro: str) -> None:
     # Enabling is a step of the vendor's procedure: no line to paste may stand for it. A gripper that moves as its
     # hardware is activated is released here, because here the area is empty; what the robot says may be read.
     kinds = (f"ros2 launch {cell} activate", "timeout 10 ros2 topic echo --once ")
-    assert all(one.startswith(kinds) for one in commands(sections(cell, distro)["G5"]))
+    assert all(command.startswith(kinds) for command in commands(sections(cell, distro)["G5"]))
 
 
 @every_build
@@ -188,4 +188,4 @@ def test_file_list_of_the_page_is_the_folder(cell: str, distro: str) -> None:
     listed = re.findall(r"^- `(.+?)`:", page, re.MULTILINE)
     assert len(listed) > 10
     for path in listed:
-        assert any(one.startswith(path) for one in build(cell, distro).texts), path
+        assert any(text.startswith(path) for text in build(cell, distro).texts), path

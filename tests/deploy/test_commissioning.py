@@ -99,7 +99,7 @@ def test_robot_listens_before_it_is_claimed_and_is_claimed_before_anything_asks_
     gates = _gates("ur5e_pick", distro)
     lines = gates["G7"]
     play, claim, motion = (
-        _place(lines, one) for one in ("press Play", "Authorize the claims", "Authorize the motion clients")
+        _place(lines, text) for text in ("press Play", "Authorize the claims", "Authorize the motion clients")
     )
     assert play < claim < motion
     assert not [line for code in ("G3", "G4", "G5", "G6") for line in gates[code] if "Authorize the claims" in line]
@@ -132,8 +132,8 @@ def test_program_that_a_stop_has_paused_is_stopped_before_anyone_goes_to_the_rob
     for state in ("protective_stop", "emergency_stop"):
         steps = recovery.split(f"arm, {state}:")[1].split("\n\n")[1].splitlines()
         stopped, person, play, claim = (
-            _place(steps, one)
-            for one in ("Stop the program", "emove the cause", "Play the External", "Authorize the claims")
+            _place(steps, text)
+            for text in ("Stop the program", "emove the cause", "Play the External", "Authorize the claims")
         )
         assert stopped < person < play < claim
 

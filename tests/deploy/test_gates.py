@@ -39,7 +39,7 @@ def test_no_placeholder_is_left_and_every_gate_checks_and_stops(cell: str) -> No
     for gate in (*plan.promotion, *plan.network):
         assert gate.checks
         assert gate.stop
-        said = [check.text for check in gate.checks] + [one for check in gate.checks for one in check.commands]
+        said = [check.text for check in gate.checks] + [command for check in gate.checks for command in check.commands]
         assert not [one for one in (*said, *gate.stop, gate.owner) if "{" in one or "None" in one], gate.code
 
 

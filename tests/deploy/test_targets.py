@@ -25,7 +25,9 @@ def test_claim_of_a_controller_of_the_mock_alone_reaches_no_hardware() -> None:
 
 
 def test_claim_that_differs_between_the_targets_is_told_of_each() -> None:
-    position, effort = (", ".join(f"fr3_joint{one}/{kind}" for one in range(1, 8)) for kind in ("position", "effort"))
+    position, effort = (
+        ", ".join(f"fr3_joint{number}/{kind}" for number in range(1, 8)) for kind in ("position", "effort")
+    )
     claims, ends = _claim("arm_trajectory")
     assert claims == f"{position} on the mock; {effort} on real hardware"
     assert ends == "through franka_hardware/FrankaHardwareInterface; active from startup"

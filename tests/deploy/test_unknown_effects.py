@@ -39,8 +39,8 @@ def built(spec: Path) -> Compiled:
 
 
 def test_a_blocker_says_that_nobody_knows_what_its_activation_moves(spec: Path) -> None:
-    found = [one for one in check(spec).diagnostics if one.code == "unknown-activation"]
-    assert [(one.severity, one.span.line) for one in found] == [(Severity.BLOCKER, 5)]
+    found = [diagnostic for diagnostic in check(spec).diagnostics if diagnostic.code == "unknown-activation"]
+    assert [(finding.severity, finding.span.line) for finding in found] == [(Severity.BLOCKER, 5)]
     assert "the activation of `it`" in found[0].message
 
 

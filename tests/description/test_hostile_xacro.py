@@ -175,8 +175,12 @@ def test_after_an_expansion_that_took_its_time_no_other_of_the_spec_begins(tmp_p
     spec = "format: 1\ncell: demo\nversions: {ros: jazzy}\ndevices:\n  a: {model: ./slow}\n  b: {model: ./quick}\n"
     (tmp_path / "cell.yaml").write_text(spec, encoding="utf-8")
     with in_force(replace(DEFAULTS, xacro_seconds=1)):
-        found = [one for one in check(tmp_path / "cell.yaml").diagnostics if one.code == "xacro-too-large"]
-    assert [Path(one.span.file).parent.name for one in found] == ["quick", "slow"]
+        found = [
+            diagnostic
+            for diagnostic in check(tmp_path / "cell.yaml").diagnostics
+            if diagnostic.code == "xacro-too-large"
+        ]
+    assert [Path(finding.span.file).parent.name for finding in found] == ["quick", "slow"]
     assert "was not started" in found[0].message
 
 

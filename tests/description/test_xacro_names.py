@@ -123,5 +123,5 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (map, filter, zip, enumerate, range, reversed, type(reversed([])), type(reversed({})))):
         return _plain(list(value))
     if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
+        return [_plain(item) for item in value]
     return value

@@ -98,5 +98,5 @@ def test_controllers_are_those_that_drive_joints_and_nodes_are_all() -> None:
 
 def test_no_moving_frame_leaves_the_state_publisher_alone() -> None:
     cell = _cell()
-    still = replace(cell, frames=tuple(one for one in cell.frames if one.kind is not FrameKind.DYNAMIC))
+    still = replace(cell, frames=tuple(frame for frame in cell.frames if frame.kind is not FrameKind.DYNAMIC))
     assert _rows(still, "cell")[0][4] == "robot_state_publisher"

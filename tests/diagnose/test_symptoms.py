@@ -126,15 +126,19 @@ def test_nearest_is_the_one_with_most_weight_of_a_phrase_in_the_text() -> None:
 
 def test_symptom_of_a_driver_that_the_cell_does_not_have_is_not_guessed(hand: Cell) -> None:
     words = "the kinova session times out"
-    assert "the session with the arm times out" in [one.symptom for one in diagnose(words, None)]
-    assert "the session with the arm times out" not in [one.symptom for one in diagnose(words, hand)]
+    assert "the session with the arm times out" in [diagnosis.symptom for diagnosis in diagnose(words, None)]
+    assert "the session with the arm times out" not in [diagnosis.symptom for diagnosis in diagnose(words, hand)]
     assert diagnose(CASES["the session with the arm times out"]["logs"], hand)[0].symptom.startswith("the session")
 
 
 def test_causes_with_something_to_look_at_in_the_cell_come_first(hand: Cell) -> None:
     name = "the robot reaches beside the object"
     written = [hypothesis.cause for hypothesis in SYMPTOMS[name].hypotheses]
-    of_camera = [one.cause for one in SYMPTOMS[name].hypotheses if {each.of for each in one.observations} == {"camera"}]
+    of_camera = [
+        hypothesis.cause
+        for hypothesis in SYMPTOMS[name].hypotheses
+        if {each.of for each in hypothesis.observations} == {"camera"}
+    ]
     shown = [cause.text for cause in diagnose(name, hand)[0].causes]
     assert of_camera
     assert shown == [cause for cause in written if cause not in of_camera] + of_camera

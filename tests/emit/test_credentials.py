@@ -71,6 +71,6 @@ def test_file_beside_the_launch_has_them_instead(tmp_path: Path) -> None:
 @pytest.mark.parametrize("stated", ["gen3", "{ARM_PASSWORD: admin}", "''", '"/a\'.yaml"', "a.yaml"])
 def test_what_is_no_place_of_credentials_is_an_error_at_its_line(stated: str, tmp_path: Path) -> None:
     spec = written(tmp_path, spec_text("gen3_2f").replace("credentials: GEN3", f"credentials: {stated}"))
-    errors = [one for one in diagnose(spec) if "credentials" in ".".join(map(str, one.yaml_path))]
+    errors = [diagnosis for diagnosis in diagnose(spec) if "credentials" in ".".join(map(str, diagnosis.yaml_path))]
     assert errors
-    assert all(one.span.line == 39 for one in errors)
+    assert all(error.span.line == 39 for error in errors)

@@ -65,9 +65,12 @@ def _launched_with(name: str) -> dict[str, str]:
     )
     devices = tuple(
         replace(
-            one, site=replace(one.site, connection=one.site.connection and replace(one.site.connection, address=name))
+            device,
+            site=replace(
+                device.site, connection=device.site.connection and replace(device.site.connection, address=name)
+            ),
         )
-        for one in graph.cell.devices
+        for device in graph.cell.devices
     )
     changed: CellGraph = replace(graph, cell=replace(graph.cell, nodes=nodes, devices=devices))
     made = {artifact.path: artifact.text for artifact in emit(changed, plan_deployment(graph))}

@@ -68,13 +68,16 @@ def test_description_has_each_mount_and_the_hardware_of_its_target(target: str) 
     assert mounts["fixture_A"] == ("world", "0.45 0.1 0.85", None)
     camera = mounts["camera_link"]
     assert camera[:2] == ("arm_tool0", "0 -0.07 0.03")
-    assert [round(float(one), 9) for one in str(camera[2]).split()] == [0.0, -1.308996939, -1.570796327]
+    assert [round(float(part), 9) for part in str(camera[2]).split()] == [0.0, -1.308996939, -1.570796327]
     assert "object" not in mounts  # perception publishes it
-    plugins = {one.get("name"): one.findtext("hardware/plugin") for one in robot.iterfind("ros2_control")}
+    plugins = {
+        ros2_control.get("name"): ros2_control.findtext("hardware/plugin")
+        for ros2_control in robot.iterfind("ros2_control")
+    }
     mocked = target == "mock"
     assert plugins["arm_hardware"] == ("mock_components/GenericSystem" if mocked else "demo_arm_driver/DemoArm")
     parameters = {
-        one.get("name"): one.text for one in robot.iterfind("ros2_control[@name='arm_hardware']/hardware/param")
+        param.get("name"): param.text for param in robot.iterfind("ros2_control[@name='arm_hardware']/hardware/param")
     }
     assert parameters == ({} if mocked else {"robot_ip": "192.168.56.101"})
 
@@ -127,11 +130,11 @@ def test_launch_starts_each_process_once_and_real_hardware_behind_its_gate() -> 
         ("demo", "bring_up", None, real),
         ("demo", "bring_up", real, None),
     ]
-    first, gate = (one for one in launch.iterfind("arg") if one.get("if"))
+    first, gate = (arg for arg in launch.iterfind("arg") if arg.get("if"))
     assert (first.get("name"), first.get("default"), first.get("if")) == ("stage", "10", real)
     assert (gate.get("name"), gate.get("default"), gate.get("if")) == ("confirm_real", None, real)
     assert [choice.get("value") for choice in gate] == ["I_HAVE_PASSED_GATES_G0_TO_G2"]
-    defaults = {one.get("name"): one.get("default") for one in launch.iterfind("arg") if one.get("if") is None}
+    defaults = {arg.get("name"): arg.get("default") for arg in launch.iterfind("arg") if arg.get("if") is None}
     assert defaults == {"target": "mock", "confirm_real": "no", "stage": "100", "arm_address": "192.168.56.101"}
     (mover,) = _xml("complete", "launch/move.launch.xml").iterfind("node")
     assert (mover.get("pkg"), mover.get("name")) == ("cell_tasks", "task")
@@ -150,12 +153,14 @@ def test_first_goal_is_small_and_slow_and_alone() -> None:
     assert round(float(values["--by"]), 7) == 0.0436332
     assert (values["--seconds"], values["--timeout"], values["--absent"]) == ("2.5", "5.0", "/task")
     assert [word.split(":")[0] for word in words[-6:]] == [f"arm_joint_{number}" for number in range(1, 7)]
-    joints = [one.get("value") for one in launch.findall("arg[@name='joint']/choice")]
+    joints = [choice.get("value") for choice in launch.findall("arg[@name='joint']/choice")]
     assert joints == [f"arm_joint_{number}" for number in range(6, 0, -1)]  # the stated one, then from tip to base
 
 
 def test_policy_gives_a_task_its_ends_and_nothing_else() -> None:
-    (task,) = (one for one in policy_of(_artifacts("complete")).iter("enclave") if one.get("path") == "/demo/task")
+    (task,) = (
+        enclave for enclave in policy_of(_artifacts("complete")).iter("enclave") if enclave.get("path") == "/demo/task"
+    )
     rights: dict[tuple[str, str], set[str]] = {}
     for group in task.iterfind("profiles/profile/*"):
         for right in group.attrib:
@@ -172,7 +177,10 @@ def test_policy_gives_a_task_its_ends_and_nothing_else() -> None:
 
 
 def test_package_depends_on_what_is_started_in_the_versions_of_the_spec() -> None:
-    depends = {one.text: one.get("version_gte") for one in _xml("complete", "package.xml").iterfind("exec_depend")}
+    depends = {
+        exec_depend.text: exec_depend.get("version_gte")
+        for exec_depend in _xml("complete", "package.xml").iterfind("exec_depend")
+    }
     versions = {"controller_manager": "4.47.0", "demo_arm_driver": "3.8.0", "moveit_ros_move_group": "2.12.4"}
     assert {name: depends[name] for name in versions} == versions
     assert {"cell_perception", "cell_tasks", "demo_arm_controllers", "robot_state_publisher"} <= depends.keys()

@@ -90,7 +90,7 @@ def test_cyclone_finds_others_by_multicast_or_by_their_addresses(
     assert domain.findtext("{*}Domain/{*}General/{*}AllowMulticast") == multicast
     found = domain.find("{*}Domain/{*}Discovery")
     assert (found is None) is (peers is None)
-    assert [one.get("Address") for one in domain.iterfind(".//{*}Peer")] == (peers or [])
+    assert [element.get("Address") for element in domain.iterfind(".//{*}Peer")] == (peers or [])
 
 
 @pytest.mark.parametrize("distro", ["humble", "kilted"])
@@ -101,13 +101,13 @@ def test_every_host_asks_every_discovery_server(distro: str) -> None:
         (discovery,) = tree.iterfind(".//{*}builtin/{*}discovery_config")
         assert discovery.findtext("{*}discoveryProtocol") == "SUPER_CLIENT"
         asked = [
-            (one.findtext("{*}address"), one.findtext("{*}port"))
-            for one in discovery.iterfind(".//{*}locator/{*}udpv4")
+            (element.findtext("{*}address"), element.findtext("{*}port"))
+            for element in discovery.iterfind(".//{*}locator/{*}udpv4")
         ]
         assert asked == [("10.10.0.10", "11811"), ("10.10.0.11", "12000")]
         # rmw_fastrtps of Humble has Fast DDS 2.6, which knows a server by its number (Fast DDS 2.6, ServerAttributes.h:
         # DEFAULT_ROS2_SERVER_GUIDPREFIX, the third octet of which is the number).
-        prefixes = [one.get("prefix") for one in discovery.iterfind(".//{*}RemoteServer")]
+        prefixes = [element.get("prefix") for element in discovery.iterfind(".//{*}RemoteServer")]
         known = ["44.53.00.5f.45.50.52.4f.53.49.4d.41", "44.53.01.5f.45.50.52.4f.53.49.4d.41"]
         assert prefixes == (known if distro == "humble" else [])
 

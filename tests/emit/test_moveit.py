@@ -128,7 +128,7 @@ def _planning(text: str, distro: str, folder: Path) -> dict[str, Any]:
     (told,) = safe_load(texts["config/moveit/move_group.yaml"]).values()
     (solved,) = safe_load(texts["config/moveit/kinematics.yaml"]).values()
     package = ElementTree.fromstring(texts["package.xml"])
-    needed = {one.text: one.get("version_gte") for one in package.findall("exec_depend")}
+    needed = {exec_depend.text: exec_depend.get("version_gte") for exec_depend in package.findall("exec_depend")}
     return {**told["ros__parameters"], **solved["ros__parameters"], "needed": needed}
 
 

@@ -77,7 +77,7 @@ def test_the_updater_gets_every_parameter_without_which_it_does_not_start(texts:
     assert told[sensor]["image_topic"] == "/camera/depth/image_rect_raw"
     assert told[sensor]["far_clipping_plane_distance"] == 2.0
     assert told[sensor]["near_clipping_plane_distance"] > 0.0
-    needed = {one.text for one in ElementTree.fromstring(texts["package.xml"]).findall("exec_depend")}
+    needed = {exec_depend.text for exec_depend in ElementTree.fromstring(texts["package.xml"]).findall("exec_depend")}
     assert {"moveit_ros_perception", "moveit_servo"} <= needed
 
 
@@ -98,7 +98,7 @@ def test_servo_is_started_by_a_person_and_told_the_robot(texts: dict[str, str]) 
     launch = ElementTree.fromstring(texts["launch/move.launch.xml"])
     (servo,) = (node for node in launch.findall("node") if node.get("name") == "servo")
     assert "bring_up" in servo.get("launch-prefix", "")
-    given = [one.get("from", "").rpartition("/")[2] or one.get("name") for one in servo.findall("param")]
+    given = [param.get("from", "").rpartition("/")[2] or param.get("name") for param in servo.findall("param")]
     assert {"robot_description", "robot_description_semantic", "kinematics.yaml", "servo.yaml"} <= set(given)
     assert not [node for node in ElementTree.fromstring(texts["launch/cell.launch.xml"]) if node.get("name") == "servo"]
 
@@ -107,8 +107,10 @@ def test_the_policy_lets_servo_command_that_controller_and_the_audit_that_the_mo
     texts: dict[str, str],
 ) -> None:
     policy = policy_of(texts)
-    (enclave,) = (one for one in policy.iter("enclave") if one.get("path", "").endswith("/servo"))
-    published = {topic.text for one in enclave.iter("topics") if one.get("publish") for topic in one.iter("topic")}
+    (enclave,) = (enclave for enclave in policy.iter("enclave") if enclave.get("path", "").endswith("/servo"))
+    published = {
+        topic.text for topics in enclave.iter("topics") if topics.get("publish") for topic in topics.iter("topic")
+    }
     assert "/arm_jog/commands" in {f"/{(name or '').lstrip('/')}" for name in published}
     proof = texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
     assert "(MoveIt Servo): the mock does not execute it" in proof

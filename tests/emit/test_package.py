@@ -113,7 +113,7 @@ def test_alternates_are_configured_and_not_activated(tmp_path: Path) -> None:
     ]
     plan = json.loads(artifacts["config/bring_up.json"])
     requests = [step["request"] for step in plan["mock"] if "request" in step]
-    activated = [one["controllers"] for one in requests if one["kind"] == "controllers"]
+    activated = [request["controllers"] for request in requests if request["kind"] == "controllers"]
     assert activated == [["joint_states"], ["arm_trajectory", "gripper_action"]]
 
 

@@ -106,15 +106,15 @@ def test_written_parameters_are_held_against_the_declared_ones(written: str, cod
     scaling = f"    scaling: {{type: speed_scaling_state_broadcaster, device: arm, parameters: {{{written}}}}}\n"
     file = tmp_path / "cell.yaml"
     file.write_text(_arm_and_gripper(scaling), encoding="utf-8")
-    found = [one for one in diagnose(file) if one.code == code]
-    assert [one.yaml_path[:3] for one in found] == [("control", "controllers", "scaling")]
+    found = [diagnosis for diagnosis in diagnose(file) if diagnosis.code == code]
+    assert [finding.yaml_path[:3] for finding in found] == [("control", "controllers", "scaling")]
 
 
 def test_second_claimant_of_a_service_is_reported(tmp_path: Path) -> None:
     twice = "".join(f"    {name}: {{type: gripper_activation, device: gripper, client: task}}\n" for name in ("a", "b"))
     file = tmp_path / "cell.yaml"
     file.write_text(_arm_and_gripper(twice), encoding="utf-8")
-    assert "double-claim" in {one.code for one in diagnose(file)}
+    assert "double-claim" in {diagnosis.code for diagnosis in diagnose(file)}
 
 
 def test_topics_and_services_are_promised_and_permitted() -> None:

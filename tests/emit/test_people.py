@@ -157,7 +157,9 @@ def test_line_of_the_log_is_that_of_the_newest_launch_with_a_controller_manager(
         (tmp_path / name / "launch.log").write_text(text, encoding="utf-8")
         utime(tmp_path / name / "launch.log", (1000.0 + age, 1000.0 + age))
     page = artifacts_of("ur5e_pick")["gates/promotion.md"]
-    (block,) = (one for one in re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL) if "Calibration checked" in one)
+    (block,) = (
+        element for element in re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL) if "Calibration checked" in element
+    )
     command = block.replace("E/G4-transitions.md", "E/evidence")
     env = {"ROS_LOG_DIR": str(tmp_path), "E": str(tmp_path), "PATH": environ["PATH"]}
     said = run(["sh", "-c", command], env=env, capture_output=True, text=True, check=True).stdout
@@ -174,7 +176,7 @@ def test_first_motion_is_read_at_both_ends_and_by_the_name_of_its_joint() -> Non
 def test_first_motion_of_a_robot_whose_driver_holds_it_is_read_at_its_panel() -> None:
     # libfranka, overview.rst:58: Desk cannot jog while FCI is active, and without FCI there are no states.
     gate = artifacts_of("fr3_hand")["gates/promotion.md"].split("\n## G6")[1].split("\n## ")[0]
-    released, guided, again = (gate.index(one) for one in ("release FCI in Desk", "Guide the joint", "/joint_states"))
+    released, guided, again = (gate.index(text) for text in ("release FCI in Desk", "Guide the joint", "/joint_states"))
     assert released < guided < again
     assert "ros2 bag record" not in gate
 

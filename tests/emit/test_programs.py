@@ -83,7 +83,7 @@ def test_a_device_with_another_address_is_refused_at_its_line(tmp_path: Path) ->
     assert "help: write `https://HOST/PATH`, `ssh://HOST/PATH` or `git@HOST:PATH`" in ran.out
 
 
-@pytest.mark.parametrize("cell", sorted(one.name for one in (ROOT / "generated").iterdir()))
+@pytest.mark.parametrize("cell", sorted(path.name for path in (ROOT / "generated").iterdir()))
 def test_programs_are_given_names_and_addresses_alone(cell: str) -> None:
     folder = ROOT / "generated" / cell
     assert not list(misled({path: (folder / path).read_text() for path in READ_BY if (folder / path).exists()}))
@@ -141,7 +141,11 @@ _VARIANTS = [
 
 def test_the_real_parser_of_manifests_reads_and_refuses_the_same() -> None:
     package = pytest.importorskip("catkin_pkg.package", reason="catkin_pkg is not installed")
-    for text in [_MANIFEST, *_VARIANTS, *((one / "package.xml").read_text() for one in (ROOT / "generated").iterdir())]:
+    for text in [
+        _MANIFEST,
+        *_VARIANTS,
+        *((path / "package.xml").read_text() for path in (ROOT / "generated").iterdir()),
+    ]:
         read = manifest(text)
         try:
             real = package.parse_package_string(text, warnings=[])

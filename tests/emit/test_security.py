@@ -93,8 +93,8 @@ def test_nothing_is_allowed_by_wildcard_and_enclaves_are_unique() -> None:
     policy = _policy("ur5e_pick")
     assert [entry.text for entry in policy.iter() if entry.text and "*" in entry.text] == []
     # A name that differs at every start opens nothing but what lies below it.
-    changing = [one for one in policy.iter("profile") if "*" in one.attrib["node"]]
-    assert {one.attrib["node"].rstrip("*") for one in changing} == {
+    changing = [profile for profile in policy.iter("profile") if "*" in profile.attrib["node"]]
+    assert {name.attrib["node"].rstrip("*") for name in changing} == {
         *("move_group_private_", "moveit_", "transform_listener_impl_", "_ros2cli_", "tf2_monitor"),
         *("rviz_private_", "rviz_ssp_"),
     }

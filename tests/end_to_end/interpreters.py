@@ -29,7 +29,10 @@ def interpreters() -> tuple[Interpreter, ...]:
     """Return one for every supported version; of several of one version the running one, then the first that works."""
     known = [_interpreter(path) for path in (sys.executable, *_named())]
     return tuple(
-        next((one for one in known if one.version == version and not one.why_not), _absent(version, known))
+        next(
+            (interpreter for interpreter in known if interpreter.version == version and not interpreter.why_not),
+            _absent(version, known),
+        )
         for version in SUPPORTED
     )
 
@@ -39,7 +42,9 @@ def _named() -> list[str]:
 
 
 def _absent(version: str, known: list[Interpreter]) -> Interpreter:
-    broken = [f"{one.path}: {one.why_not}" for one in known if one.version in (version, "")]
+    broken = [
+        f"{interpreter.path}: {interpreter.why_not}" for interpreter in known if interpreter.version in (version, "")
+    ]
     reason = "; ".join(broken) or f"CELLC_INTERPRETERS names no Python {version}"
     return Interpreter(version, "", reason)
 

@@ -41,7 +41,7 @@ def test_every_cell_is_built_as_it_is_committed(python: str, tmp_path: Path) -> 
 
 def test_findings_are_the_same(python: str) -> None:
     cells = [f"cells/{cell}/cell.yaml" for cell in CELLS]
-    running = next(one for one in interpreters() if one.path and not one.why_not)
+    running = next(interpreter for interpreter in interpreters() if interpreter.path and not interpreter.why_not)
     arguments = ("check", *cells, "--format", "json")
     assert _run(python, *arguments, **SURROUNDINGS[1]) == _run(running.path, *arguments, **SURROUNDINGS[0])
 

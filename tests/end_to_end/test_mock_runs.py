@@ -28,8 +28,8 @@ def test_built_cell_passes_its_rehearsals(pick: Path) -> None:
     told = json.loads(ran.out)
     contract = json.loads((pick / "contract.json").read_text(encoding="utf-8"))
     assert told["configuration_id"] == contract["configuration_id"]
-    assert all(set(one) >= KEYS for one in told["rehearsals"])
-    assert [(one["name"], one["outcome"], one["passed"]) for one in told["rehearsals"]] == [
+    assert all(set(rehearsal) >= KEYS for rehearsal in told["rehearsals"])
+    assert [(rehearsal["name"], rehearsal["outcome"], rehearsal["passed"]) for rehearsal in told["rehearsals"]] == [
         ("pick_and_place", "succeeded", True),
         ("stale_camera", "stale_state", True),
         ("program_stopped", "claim_failure", True),
@@ -83,7 +83,7 @@ def test_mock_runs_a_folder_where_the_compiler_is_absent(pick: Path, tmp_path: P
     assert _python(tmp_path, "-c", "import cellc.compiler.spec").returncode == 1
     done = _python(tmp_path, "-m", "cellc.mock", "folder", "--json")
     assert done.returncode == 0, done.stderr
-    assert all(one["passed"] for one in json.loads(done.stdout)["rehearsals"])
+    assert all(rehearsal["passed"] for rehearsal in json.loads(done.stdout)["rehearsals"])
 
 
 def _python(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -106,7 +106,7 @@ FURTHER = tuple(cell for cell in EVERY_CELL if cell not in CELLS)
 def test_a_further_cell_is_short_and_its_rehearsals_pass(name: str) -> None:
     assert len(spec_text(name).splitlines()) <= 130
     cell = load(ROOT / "generated" / name)
-    ended = {one: cell.run(one, seed=0) for one in cell.rehearsals}
+    ended = {rehearsal: cell.run(rehearsal, seed=0) for rehearsal in cell.rehearsals}
     assert not [f"{one}: {result.outcome}" for one, result in ended.items() if not result.passed]
     assert len(ended) >= 4
 
@@ -124,9 +124,9 @@ def test_wrong_joint_name_fails_as_in_the_real_controller_manager(pick: Path, tm
     ran = process("mock", str(folder), "--edited", "--json")
     assert ran.code == 1
     told = json.loads(ran.out)
-    assert {one["outcome"] for one in told["rehearsals"]} == {"bringup_failure"}
+    assert {rehearsal["outcome"] for rehearsal in told["rehearsals"]} == {"bringup_failure"}
     reason = _reason_of_the_real_one().replace("arm_controller", "arm_trajectory")
-    assert all(reason in one["reason"] for one in told["rehearsals"])
+    assert all(reason in rehearsal["reason"] for rehearsal in told["rehearsals"])
     assert any("controllers.yaml" in note and "edited" in note for note in told["notes"])
 
 

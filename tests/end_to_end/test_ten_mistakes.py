@@ -70,7 +70,7 @@ def test_mistake_is_found_on_its_line(name: str, tmp_path: Path) -> None:
     assert text.count(mistake.old) == 1
     file = tmp_path / "cell.yaml"
     file.write_text(text.replace(mistake.old, mistake.new), encoding="utf-8")
-    found = {(one.code, one.span.line) for one in check(file).diagnostics}
+    found = {(diagnostic.code, diagnostic.span.line) for diagnostic in check(file).diagnostics}
     assert (mistake.code, _line_of(mistake.line or mistake.new, file)) in found
     assert mistake.code not in {code for code, _ in _found_in_the_cell()}
 
@@ -82,4 +82,4 @@ def _line_of(part: str, file: Path) -> int:
 
 
 def _found_in_the_cell() -> set[tuple[str, int]]:
-    return {(one.code, one.span.line) for one in check(PICK).diagnostics}
+    return {(diagnostic.code, diagnostic.span.line) for diagnostic in check(PICK).diagnostics}

@@ -32,7 +32,7 @@ def _graph() -> CellGraph:
 def _question(**changes: Any) -> MotionQuestion:
     """Ask about the cell with another arm."""
     cell = _graph().cell
-    devices = tuple(replace(one, **changes) if one.name == "arm" else one for one in cell.devices)
+    devices = tuple(replace(device, **changes) if device.name == "arm" else device for device in cell.devices)
     return motion_question(build_graph(replace(cell, devices=devices)))
 
 

@@ -69,7 +69,7 @@ def _found(folder: Path, text: str, name: str = "arm.urdf") -> list[tuple[str, i
     (folder / name).write_text(text, encoding="utf-8")
     ran = run("check", (folder / name).as_posix(), "--format", "json")
     assert "Traceback" not in ran.err
-    return [(one["code"], one["line"]) for one in json.loads(ran.out)["diagnostics"]]
+    return [(diagnostic["code"], diagnostic["line"]) for diagnostic in json.loads(ran.out)["diagnostics"]]
 
 
 def test_clean_description_has_no_finding(tmp_path: Path) -> None:

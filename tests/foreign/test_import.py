@@ -192,13 +192,13 @@ def test_pair_that_a_person_took_out_stays_out(here: Path) -> None:
     assert _import(here, robot)[0] == 0
     device = here / "odd_arm" / "device.yaml"
     facts = yaml.safe_load(device.read_text(encoding="utf-8"))
-    assert [one["links"] for one in facts["allowed_collisions"]] == [["a", "c"], ["a", "d"]]
+    assert [collision["links"] for collision in facts["allowed_collisions"]] == [["a", "c"], ["a", "d"]]
     facts["allowed_collisions"] = facts["allowed_collisions"][:1]
     device.write_text(yaml.safe_dump(facts), encoding="utf-8")
     code, out = _import(here, robot)
     assert (code, "pose-in-self-collision" in out or "start-in-collision" in out) == (1, True)
     facts = yaml.safe_load(device.read_text(encoding="utf-8"))
-    assert [one["links"] for one in facts["allowed_collisions"]] == [["a", "c"]]
+    assert [collision["links"] for collision in facts["allowed_collisions"]] == [["a", "c"]]
 
 
 def test_what_the_files_do_not_say_is_a_question(here: Path) -> None:

@@ -83,7 +83,7 @@ def test_kind_is_what_the_joints_show(name: str) -> None:
     text, kind, certain = _ROBOTS[name]
     role = _role(text)
     assert (role.kind.kind, role.kind.certain) == (kind, certain), role.kind.because
-    assert any("`kind` may be wrong" in one for one in role.questions()) is not certain
+    assert any("`kind` may be wrong" in question for question in role.questions()) is not certain
 
 
 @pytest.mark.parametrize("name", ["tool0", "left_tcp", "ee_link", "gripper_frame_link", "flange", "arm/tool_link"])

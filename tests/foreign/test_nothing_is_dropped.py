@@ -153,7 +153,7 @@ def test_a_second_plugin_is_asked_about_and_the_real_target_stays_closed(tmp_pat
 def test_a_component_that_only_reads_is_asked_about(tmp_path: Path) -> None:
     second = '<ros2_control name="f" type="sensor"><hardware><plugin>vendor/Force</plugin></hardware></ros2_control>'
     read = _read(tmp_path, robot=second)
-    assert any("`f` of `<ros2_control>` with vendor/Force is left out" in one for one in _asked(read))
+    assert any("`f` of `<ros2_control>` with vendor/Force is left out" in question for question in _asked(read))
     facts = device_facts(read, role_of(read.description), Judged(), "2026-01-01")
     assert facts["control"]["hardware"]["real"]["plugin"] == "vendor/Arm"
 

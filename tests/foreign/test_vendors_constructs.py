@@ -73,7 +73,7 @@ def test_variable_of_the_environment_is_its_default_whatever_the_machine_has(
     read = read_description(file, {}, tmp_path)
     assert read.value is not None
     assert [link.name for link in read.value.links] == ["a_0", "b"]
-    assert ["`$(optenv LASER)`" in one.message for one in read.diagnostics] == [True, True]
+    assert ["`$(optenv LASER)`" in diagnostic.message for diagnostic in read.diagnostics] == [True, True]
 
 
 def test_argument_that_is_used_and_not_declared_is_asked_for_and_can_be_given(tmp_path: Path) -> None:

@@ -41,7 +41,7 @@ def test_xml_shows_it_and_means_it_where_xml_can(text: str) -> None:
     assert not hides(written)
     # XML 1.0, production Char: no reference to a control character of ASCII either, but tab and ends of lines.
     assert fromstring(written).attrib["b"] == "".join(
-        "\ufffd" if one < " " and one not in "\t\n\r" else one for one in text
+        "\ufffd" if character < " " and character not in "\t\n\r" else character for character in text
     )
 
 

@@ -112,5 +112,12 @@ def test_a_name_cannot_leave_its_element() -> None:
     root = fromstring(
         two_views(_cell(Part(hostile, (0.0, 0.0, 0.0), frames=((hostile, Pose((0.0, 0.0, 0.0), _UPRIGHT)),))))
     )
-    assert {one.tag.removeprefix(_SVG) for one in root.iter()} <= {"svg", "g", "rect", "text", "line", "polygon"}
+    assert {element.tag.removeprefix(_SVG) for element in root.iter()} <= {
+        "svg",
+        "g",
+        "rect",
+        "text",
+        "line",
+        "polygon",
+    }
     assert any("<script>" in name for name, _ in _boxes(root))

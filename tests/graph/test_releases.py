@@ -26,7 +26,11 @@ def _found(folder: Path, cell: str, changes: dict[str, str]) -> list[tuple[str, 
         text = text.replace(old, new)
     found = check(written(folder, text)).diagnostics
     lines = text.splitlines()
-    return [(one.code, lines[one.span.line - 1].strip(), one.message) for one in found if one.code in _OF_VERSIONS]
+    return [
+        (finding.code, lines[finding.span.line - 1].strip(), finding.message)
+        for finding in found
+        if finding.code in _OF_VERSIONS
+    ]
 
 
 def _ur(driver: str, sdk: str, description: str) -> dict[str, str]:
@@ -73,7 +77,7 @@ def test_line_of_another_distribution_remains_an_error(tmp_path: Path) -> None:
 
 
 def test_package_holds_from_the_day_on_which_it_changed() -> None:
-    sets = {one.name: one.packages for one in release_sets("jazzy")}
+    sets = {release.name: release.packages for release in release_sets("jazzy")}
     assert sets["jazzy of 2025-10-14"]["ur_robot_driver"] == "3.4.0"
     assert sets["jazzy of 2025-11-19"]["ur_robot_driver"] == "3.6.0"
     assert "realsense2_camera" not in sets["jazzy of 2024-05-23"]
@@ -84,6 +88,6 @@ def test_audit_says_which_release_the_packages_of_a_device_are_of(tmp_path: Path
     for old, new in _ur("3.4.0", "2.3.0", "3.3.0").items():
         text = text.replace(old, new)
     graph = there(check(written(tmp_path, text)).graph)
-    judged = {(one.pin.holder, one.pin.part): one for one in compatibility(graph.cell)}
+    judged = {(requirement.pin.holder, requirement.pin.part): requirement for requirement in compatibility(graph.cell)}
     assert judged["arm", "sdk"].answer is Answer.OK
     assert "jazzy of 2025-09-19" in judged["arm", "sdk"].evidence

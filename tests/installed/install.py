@@ -142,7 +142,11 @@ def _applying(lines: Iterable[str], wanted: Requirement) -> list[Requirement]:
     """Return what a library that is wanted, with its extras, requires here."""
     found = [Requirement(line) for line in lines]
     extras = ("", *wanted.extras)
-    return [one for one in found if one.marker is None or any(one.marker.evaluate({"extra": it}) for it in extras)]
+    return [
+        finding
+        for finding in found
+        if finding.marker is None or any(finding.marker.evaluate({"extra": extra}) for extra in extras)
+    ]
 
 
 def _copy(place: Path) -> None:

@@ -35,12 +35,12 @@ def texts_fixture(cell: Cell) -> dict[str, str]:
     """Return what is launched, told and granted."""
     graph = build_graph(cell)
     plan = plan_deployment(graph)
-    return {one.path: one.text for emit in _EMITTERS for one in emit(graph, plan)}
+    return {artifact.path: artifact.text for emit in _EMITTERS for artifact in emit(graph, plan)}
 
 
 def test_an_adapter_has_a_node_that_is_started_on_the_real_target_alone(texts: dict[str, str]) -> None:
     nodes = fromstring(texts["launch/control_pc.launch.xml"]).findall("node")
-    (node,) = (one for one in nodes if one.get("name") == "arm")
+    (node,) = (node for node in nodes if node.get("name") == "arm")
     assert (node.get("pkg"), node.get("exec")) == ("cell_drivers", "fr3_loop")
     assert "real" in node.get("if", "")
     assert node.get("ros_args") == "--enclave /hybrid_sdk/arm"
@@ -154,7 +154,7 @@ def test_the_nodes_of_a_vendor_s_driver_are_not_started_beside_an_adapter(tmp_pa
 def test_a_controller_runs_where_something_moves_each_of_its_joints() -> None:
     # The rail has no plugin on the real target, the arm has: one controller has joints of both.
     cell = linked(spec_of("rail_arm"))
-    targets = {one.name: one.targets for one in cell.controllers}
+    targets = {controller.name: controller.targets for controller in cell.controllers}
     assert targets == {
         "joint_states": ("mock", "real"),
         "trajectory": ("mock",),

@@ -55,7 +55,7 @@ def test_node_that_needs_a_newer_firmware_is_not_run(firmware: str, run: bool, t
 )
 def test_device_stands_at_an_end_with_the_node_that_drives_it(more: str, name: str, tmp_path: Path) -> None:
     cell = _cell(tmp_path, more)
-    (action,) = (one for one in cell.interfaces if one.name == "/arm/go")
+    (action,) = (interface for interface in cell.interfaces if interface.name == "/arm/go")
     assert [(end.node, end.full_name) for end in action.sources] == [("arm", name)]
     assert "arm_dashboard_client" in {node.name for node in cell.nodes}
 

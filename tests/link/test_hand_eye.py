@@ -183,7 +183,7 @@ def test_a_fixture_may_be_measured_too(tmp_path: Path) -> None:
     (tmp_path / "cell.yaml").write_text(spec)
     found = linking(tmp_path / "cell.yaml")
     assert found.diagnostics == ()
-    (frame,) = (one for one in there(found.value).frames if one.name == "fixture_A")
+    (frame,) = (frame for frame in there(found.value).frames if frame.name == "fixture_A")
     assert there(frame.transform_to_parent).rpy() == pytest.approx((0.0, 0.0, math.pi / 2), abs=1e-6)
 
 

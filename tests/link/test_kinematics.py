@@ -78,9 +78,9 @@ def test_gates_compare_the_file_and_read_what_the_driver_says_of_it(tmp_path: Pa
 
 
 def test_nominal_kinematics_keep_the_real_cell_closed_until_a_file_is_named(tmp_path: Path) -> None:
-    codes = [one.code for one in diagnose(written(tmp_path, spec_text("ur5e_pick")))]
+    codes = [diagnosis.code for diagnosis in diagnose(written(tmp_path, spec_text("ur5e_pick")))]
     assert "nominal-kinematics" in codes
-    codes = [one.code for one in diagnose(written(tmp_path, _spec(tmp_path)))]
+    codes = [diagnosis.code for diagnosis in diagnose(written(tmp_path, _spec(tmp_path)))]
     assert "nominal-kinematics" not in codes
     assert "implausible-kinematics" not in codes
 

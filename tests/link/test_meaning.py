@@ -37,7 +37,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Enum):
         return value.value
     if isinstance(value, Entity):
-        return {one.name: _plain(one.value) for one in members(value)}
+        return {member.name: _plain(member.value) for member in members(value)}
     if names := field_names(value):
         return {name: _plain(getattr(value, name)) for name in names}
     if isinstance(value, Mapping):
@@ -45,16 +45,16 @@ def _plain(value: Any) -> Any:
     if not isinstance(value, (tuple, list)):
         return value
     listed = list(map(_plain, value))
-    known = {one["name"] for one in listed if isinstance(one, dict) and "name" in one}
-    return {one["name"]: one for one in listed} if known and len(known) == len(listed) else listed
+    known = {entry["name"] for entry in listed if isinstance(entry, dict) and "name" in entry}
+    return {entry["name"]: entry for entry in listed} if known and len(known) == len(listed) else listed
 
 
 def _missing(meant: Any, said: Any, path: str) -> list[str]:
     """Return where a part is not what was meant."""
     if isinstance(meant, dict) and isinstance(said, dict) and meant:
-        return [one for key, value in meant.items() for one in _missing(value, said.get(key), f"{path}/{key}")]
+        return [place for key, value in meant.items() for place in _missing(value, said.get(key), f"{path}/{key}")]
     if isinstance(meant, list) and isinstance(said, list) and len(meant) == len(said):
-        return [one for at, value in enumerate(meant) for one in _missing(value, said[at], f"{path}/{at}")]
+        return [place for at, value in enumerate(meant) for place in _missing(value, said[at], f"{path}/{at}")]
     same = said == (pytest.approx(meant, rel=1e-6) if isinstance(meant, float) else meant)
     return [] if same and (type(meant) is type(said)) else [f"{path}: expected {meant!r}, got {said!r}"]
 

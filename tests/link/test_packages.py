@@ -89,7 +89,7 @@ def _spec(repository: Path, places: str = "../../vendor") -> Path:
 
 def test_xacro_and_mesh_of_a_named_folder_are_found_by_check_build_and_mock(repository: Path) -> None:
     spec = _spec(repository)
-    assert "mesh-not-found" not in {one.code for one in diagnose(spec)}
+    assert "mesh-not-found" not in {diagnosis.code for diagnosis in diagnose(spec)}
     cell = load(build_into(repository / "generated" / "bench", spec))
     assert cell.run("wave").outcome == "succeeded"
 
@@ -105,8 +105,10 @@ def test_answer_follows_the_folder_that_is_named_first(repository: Path) -> None
     hand = repository / "other" / "src" / "repo" / "arm_parts" / "hand.stl"
     hand.unlink()
     # The description of the first folder names a mesh that the second has.
-    assert "mesh-not-found" not in {one.code for one in diagnose(_spec(repository, "../../other, ../../vendor"))}
-    assert "mesh-not-found" in {one.code for one in diagnose(_spec(repository, "../../other"))}
+    assert "mesh-not-found" not in {
+        diagnosis.code for diagnosis in diagnose(_spec(repository, "../../other, ../../vendor"))
+    }
+    assert "mesh-not-found" in {diagnosis.code for diagnosis in diagnose(_spec(repository, "../../other"))}
 
 
 def test_vendors_shapes_are_taken_from_a_named_folder(tmp_path: Path) -> None:
@@ -150,7 +152,7 @@ def test_link_in_a_named_folder_leads_to_no_file_out_of_the_repository(
     outside = tmp_path_factory.mktemp("elsewhere") / "secret.xacro"
     hand.rename(outside)
     hand.symlink_to(outside)
-    assert {one.code for one in linking(_spec(repository)).diagnostics} == {"xacro-outside-root"}
+    assert {diagnostic.code for diagnostic in linking(_spec(repository)).diagnostics} == {"xacro-outside-root"}
 
 
 def test_contract_names_the_folders_from_the_spec(repository: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -35,7 +35,7 @@ interfaces:
 
 def _linked(folder: Path, text: str) -> tuple[Cell | None, list[str]]:
     outcome = linking(written(folder, text))
-    return outcome.value, [f"{one.code}: {one.help}" for one in outcome.diagnostics]
+    return outcome.value, [f"{diagnostic.code}: {diagnostic.help}" for diagnostic in outcome.diagnostics]
 
 
 def _heard_from(source: str) -> str:
@@ -50,7 +50,9 @@ def test_name_of_two_controllers_is_ambiguous(tmp_path: Path) -> None:
 def test_full_name_tells_which_of_two_controllers_is_meant(tmp_path: Path) -> None:
     cell, problems = _linked(tmp_path, _heard_from("/right/arm_trajectory"))
     assert problems == []
-    (topic,) = (one for one in there(cell).interfaces if one.name == "/left/arm_trajectory/controller_state")
+    (topic,) = (
+        interface for interface in there(cell).interfaces if interface.name == "/left/arm_trajectory/controller_state"
+    )
     assert [end.full_name for end in topic.sources] == ["/right/arm_trajectory"]
 
 
@@ -58,13 +60,19 @@ def test_node_stands_at_its_interfaces_under_its_namespace(tmp_path: Path) -> No
     text = TWO_ARMS.read_text(encoding="utf-8").replace("  left_task: {", "  left_task: {namespace: /left, ", 1)
     cell, problems = _linked(tmp_path, text)
     assert problems == []
-    (action,) = (one for one in there(cell).interfaces if one.name == "/left/gripper_action/gripper_cmd")
+    (action,) = (
+        interface for interface in there(cell).interfaces if interface.name == "/left/gripper_action/gripper_cmd"
+    )
     assert [(end.node, end.full_name) for end in action.sinks] == [("left_task", "/left/left_task")]
 
 
 def test_ends_of_a_cell_have_names_of_their_own(tmp_path: Path) -> None:
     cell, _ = _linked(tmp_path, TWO_ARMS.read_text(encoding="utf-8"))
-    ends = {(end.node, end.full_name) for one in there(cell).interfaces for end in (*one.sources, *one.sinks)}
+    ends = {
+        (end.node, end.full_name)
+        for interface in there(cell).interfaces
+        for end in (*interface.sources, *interface.sinks)
+    }
     assert len({node for node, _ in ends}) == len({full for _, full in ends}) == len(ends)
 
 
@@ -83,7 +91,7 @@ def test_wrong_parent_is_told_once_and_where_it_stands(old: str, new: str, tmp_p
     assert text.count(old) == 1
     line = text[: text.index(old)].count("\n") + 1
     found = diagnose(written(tmp_path, text.replace(old, new)))
-    assert [(one.code, one.span.line) for one in found] == [("unknown-frame", line)]
+    assert [(finding.code, finding.span.line) for finding in found] == [("unknown-frame", line)]
 
 
 @pytest.mark.parametrize(
@@ -99,7 +107,7 @@ def test_wrong_parent_is_told_once_and_where_it_stands(old: str, new: str, tmp_p
 )
 def test_program_of_a_node_is_a_package_and_an_executable(run: str, refused: bool, tmp_path: Path) -> None:
     spec = f"{HEAD}{ARM}nodes: {{task: {{run: {run}}}}}\n"
-    found = [(one.code, one.yaml_path) for one in linking(written(tmp_path, spec)).diagnostics]
+    found = [(diagnostic.code, diagnostic.yaml_path) for diagnostic in linking(written(tmp_path, spec)).diagnostics]
     assert (("not-an-executable", ("nodes", "task", "run")) in found) is refused, found
 
 
@@ -219,7 +227,7 @@ def test_inner_nodes_are_named_in_the_namespace_of_their_process_and_below_thems
     assert (inner.full_name, inner.parameters) == ("/left/inner", False)
     assert inner.endpoints.publishes == ("~/state", "/left/pose", "/tf")
     assert (elsewhere.full_name, elsewhere.endpoints.serves) == ("/elsewhere", ("/get",))
-    assert [one.full_name for one in inner_nodes(facts, "", Distro("kilted"), str)][-1] == "/late"
+    assert [node.full_name for node in inner_nodes(facts, "", Distro("kilted"), str)][-1] == "/late"
 
 
 def test_what_is_implied_follows_kind_and_distribution() -> None:

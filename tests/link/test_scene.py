@@ -158,10 +158,10 @@ def test_a_name_of_no_shape_is_refused(tmp_path: Path) -> None:
 
 def test_a_mesh_that_is_not_there_or_outside_is_reported_at_its_line(tmp_path: Path) -> None:
     text = spec_text("minimal") + _SHAPES
-    (found,) = (one for one in diagnose(written(tmp_path, text)) if one.code == "mesh-not-found")
+    (found,) = (diagnosis for diagnosis in diagnose(written(tmp_path, text)) if diagnosis.code == "mesh-not-found")
     assert found.message.endswith("contact with it is not checked")
     assert found.span.line == text[: text.index("jig.stl")].count("\n") + 1
     (tmp_path / "bench").mkdir()
     (tmp_path / "bench" / "jig.stl").symlink_to("/etc/hostname")
-    (found,) = (one for one in diagnose(written(tmp_path, text)) if one.code.startswith("mesh-"))
+    (found,) = (diagnosis for diagnosis in diagnose(written(tmp_path, text)) if diagnosis.code.startswith("mesh-"))
     assert found.code == "mesh-outside-root"

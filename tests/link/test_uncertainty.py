@@ -77,7 +77,10 @@ def test_figures_are_halves_in_si_and_a_confidence_is_95_percent_unless_stated(t
     assert found.uncertainty.regions["object"].half_m == pytest.approx((0.04, 0.04, 0.0))
     assert found.uncertainty.regions["object"].half_yaw_rad == pytest.approx(3.141592653589793 / 6.0)
     assert found.uncertainty.tolerances_m == {"pick": 0.004, "place": 0.003}
-    assert [(one.success, one.confidence) for one in found.rehearsals][:2] == [(0.99, 0.95), (None, 0.95)]
+    assert [(rehearsal.success, rehearsal.confidence) for rehearsal in found.rehearsals][:2] == [
+        (0.99, 0.95),
+        (None, 0.95),
+    ]
 
 
 def test_a_cell_that_says_nothing_of_it_has_none(tmp_path: Path) -> None:

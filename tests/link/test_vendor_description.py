@@ -30,7 +30,7 @@ def _spec(folder: Path, name: str = "vendored_arm") -> Path:
 
 def _shapes(spec: Path) -> list[type]:
     (device,) = linked(spec).devices
-    return [type(one.geometry) for link in device.body.description.links for one in link.collisions]
+    return [type(collision.geometry) for link in device.body.description.links for collision in link.collisions]
 
 
 def test_links_have_the_shapes_of_a_package_that_is_at_hand(tmp_path: Path) -> None:
@@ -59,7 +59,11 @@ def test_package_is_found_on_the_package_path_and_every_target_has_its_shapes(tm
 
 
 def test_difference_is_told_with_its_figures(tmp_path: Path) -> None:
-    (found,) = [one for one in diagnose(_spec(tmp_path, "bent_arm")) if one.code == "vendor-description-differs"]
+    (found,) = [
+        diagnosis
+        for diagnosis in diagnose(_spec(tmp_path, "bent_arm"))
+        if diagnosis.code == "vendor-description-differs"
+    ]
     # 210 mm instead of 200 mm, 12 N m instead of 10 N m.
     assert "`arm_arm` is 10 mm off" in found.message
     assert "effort of `arm_turn` is 10, and 12 there" in found.message
@@ -67,7 +71,7 @@ def test_difference_is_told_with_its_figures(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["vendored_arm", "unread_arm"])
 def test_equal_or_unread_descriptions_differ_in_nothing(tmp_path: Path, name: str) -> None:
-    assert "vendor-description-differs" not in {one.code for one in diagnose(_spec(tmp_path, name))}
+    assert "vendor-description-differs" not in {diagnosis.code for diagnosis in diagnose(_spec(tmp_path, name))}
 
 
 def test_link_that_the_vendor_calls_otherwise_has_its_shape_and_place_too(tmp_path: Path) -> None:
@@ -80,4 +84,4 @@ def test_link_that_the_vendor_calls_otherwise_has_its_shape_and_place_too(tmp_pa
     told = device.read_text(encoding="utf-8")
     device.write_text(told.replace("vendor: {", "vendor: {links: {vendors_arm: arm}, "), encoding="utf-8")
     assert _shapes(spec) == [Sphere]
-    assert "vendor-description-differs" not in {one.code for one in diagnose(spec)}
+    assert "vendor-description-differs" not in {diagnosis.code for diagnosis in diagnose(spec)}

@@ -33,7 +33,7 @@ def test_completion_in_a_text_that_is_being_written(place: str) -> None:
     text, expected = _BROKEN[place]
     before, _, after = text.partition("^")
     line, column = before.count("\n") + 1, len(before.split("\n")[-1]) + 1
-    assert expected in [one.word for one in completions(before + after, line, column, Known())]
+    assert expected in [completion.word for completion in completions(before + after, line, column, Known())]
 
 
 _HIT = {
@@ -58,8 +58,8 @@ def test_completion_offers_what_a_fault_hits(kind: str) -> None:
     cells.check(spec, {})
     text = f"rehearsals:\n  a:\n    inject: {{{kind}: }}\n"
     proposed = completions(text, 3, len(f"    inject: {{{kind}: ") + 1, cells.known(spec))
-    assert _HIT[kind] in [one.word for one in proposed]
-    assert "world" not in [one.word for one in proposed] or kind == "drop_frame"
+    assert _HIT[kind] in [proposal.word for proposal in proposed]
+    assert "world" not in [proposal.word for proposal in proposed] or kind == "drop_frame"
 
 
 _NAMED = {
@@ -77,7 +77,9 @@ def test_completion_offers_what_a_step_names(kind: StepKind) -> None:
     cells = Cells()
     cells.check(spec, {})
     text = f"rehearsals:\n  a:\n    steps: [{kind}: ]\n"
-    proposed = {one.word for one in completions(text, 3, len(f"    steps: [{kind}: ") + 1, cells.known(spec))}
+    proposed = {
+        completion.word for completion in completions(text, 3, len(f"    steps: [{kind}: ") + 1, cells.known(spec))
+    }
     assert _NAMED.get(kind, set()) <= proposed
     assert "home" not in proposed or kind is StepKind.MOVE
 
@@ -105,7 +107,7 @@ def test_a_link_or_joint_is_defined_where_its_description_writes_it(asked: str, 
 
 def test_keys_of_a_device_are_explained_by_what_their_models_say() -> None:
     text = "format: 1\nmodel: my_arm\nvendor: me\ncommissioning:\n  - {gate: G5, does: it is pushed, run: []}\n\n"
-    meant = {one.word: one.meaning for one in completions(text, 6, 1, Known())}
+    meant = {completion.word: completion.meaning for completion in completions(text, 6, 1, Known())}
     assert meant["base"].startswith("Link that a mount places")
     assert "versions" in meant
     assert "vendor" not in meant  # it stands there
@@ -124,8 +126,8 @@ def test_yaml_of_others_is_none_of_ours() -> None:
 def test_file_of_a_device_is_checked_by_itself() -> None:
     file = "/home/me/arm/device.yaml"
     found, _ = Cells().check(file, {file: "format: 1\nmodel: my_arm\nkind: arn\n"})
-    kinds = [one for one in found if one.yaml_path == ("kind",)]
-    assert [(one.code, one.span.line) for one in kinds] == [("catalog-entry-invalid", 3)]
+    kinds = [finding for finding in found if finding.yaml_path == ("kind",)]
+    assert [(finding.code, finding.span.line) for finding in kinds] == [("catalog-entry-invalid", 3)]
 
 
 _SPOTS = """\

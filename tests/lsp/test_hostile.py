@@ -55,7 +55,7 @@ class _Server:
         while True:
             told = self._next()
             if told.get("method") == "textDocument/publishDiagnostics" and told["params"]["uri"] == uri:
-                return [one["code"] for one in told["params"]["diagnostics"]]
+                return [diagnostic["code"] for diagnostic in told["params"]["diagnostics"]]
 
     def hover(self, file: Path, line: int, character: int) -> str:
         place = {"textDocument": {"uri": file.as_uri()}, "position": {"line": line, "character": character}}

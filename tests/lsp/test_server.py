@@ -105,13 +105,13 @@ class Editor:
         everywhere = lsp.Range(lsp.Position(0, 0), lsp.Position(self.text.count("\n"), 0))
         asked = lsp.CodeActionParams(self.document, everywhere, lsp.CodeActionContext(found))
         told = await self.client.text_document_code_action_async(asked)
-        return [one for one in told or () if isinstance(one, lsp.CodeAction)]
+        return [finding for finding in told or () if isinstance(finding, lsp.CodeAction)]
 
     async def completion(self, before: str, after: str = "") -> list[str]:
         place = lsp.CompletionParams(self.document, self.at(before, after))
         told = await self.client.text_document_completion_async(place)
         assert isinstance(told, list)
-        return [one.label for one in told]
+        return [finding.label for finding in told]
 
 
 @dataclass
@@ -192,12 +192,12 @@ async def _ask(editor: Editor, done: Session) -> None:
         before = new.partition("^")[0]
         done.completions[name] = await editor.completion(before)
     symbols = await editor.client.text_document_document_symbol_async(lsp.DocumentSymbolParams(editor.document))
-    done.symbols = [one.name for one in symbols or () if isinstance(one, lsp.DocumentSymbol)]
+    done.symbols = [symbol.name for symbol in symbols or () if isinstance(symbol, lsp.DocumentSymbol)]
 
 
 async def _mend(editor: Editor, done: Session) -> None:
     editor.change(_WRONG)
-    while not any(one.code == "unknown-key" for one in done.found_wrong):
+    while not any(finding.code == "unknown-key" for finding in done.found_wrong):
         done.found_wrong = await editor.findings()
     done.actions = await editor.actions(done.found_wrong)
     made = await editor.client.text_document_formatting_async(
@@ -226,14 +226,14 @@ def _edits(actions: list[lsp.CodeAction]) -> Iterator[lsp.TextEdit]:
 
 
 def test_what_is_open_is_checked_not_what_is_saved(session: Session) -> None:
-    assert "empty-file" not in {one.code for one in session.found}
-    assert all(one.severity is not lsp.DiagnosticSeverity.Error for one in session.found)
-    pinned = next(one for one in session.found if one.code == "unknown-version")
+    assert "empty-file" not in {finding.code for finding in session.found}
+    assert all(finding.severity is not lsp.DiagnosticSeverity.Error for finding in session.found)
+    pinned = next(finding for finding in session.found if finding.code == "unknown-version")
     assert pinned.source == "cellc"
 
 
 def test_change_is_checked_and_points_at_the_place(session: Session) -> None:
-    wrong = next(one for one in session.found_wrong if one.code == "unknown-key")
+    wrong = next(finding for finding in session.found_wrong if finding.code == "unknown-key")
     line = _WRONG.split("\n")[wrong.range.start.line]
     assert line[wrong.range.start.character : wrong.range.end.character] == "desigend"
     assert "did you mean" in wrong.message
@@ -279,14 +279,14 @@ def test_completion_knows_the_catalog_the_cell_and_the_keys(session: Session) ->
 
 
 def test_quick_fixes_are_those_of_the_findings_and_mend_the_text(session: Session) -> None:
-    assert [one.title for one in session.actions] == ["desigend becomes designed", "hertz becomes Hz"]
-    assert not {"unknown-key", "wrong-unit"} & {one.code for one in session.found_mended}
+    assert [action.title for action in session.actions] == ["desigend becomes designed", "hertz becomes Hz"]
+    assert not {"unknown-key", "wrong-unit"} & {finding.code for finding in session.found_mended}
 
 
 def test_what_may_be_excused_is_offered_a_comment_that_waits_for_its_reason(session: Session) -> None:
     offered = {edit.new_text for edit in _edits(session.excuses)}
     assert "  # cellc: ignore missing-rollback " in offered
-    assert "unknown-stop-authority" in {one.code for one in session.found}
+    assert "unknown-stop-authority" in {finding.code for finding in session.found}
     assert not any("unknown-stop-authority" in text for text in offered), "nobody may excuse a stop without an owner"
 
 

@@ -121,7 +121,9 @@ def _steps_for_two(told: list[Any]) -> list[Any]:
             request["manager"] = "/grip/controller_manager"
         for name, own in (("gripper_action", "gripper_action"), ("joint_states", "gripper_states")):
             if request.get("kind") == "controllers" and name in request["controllers"]:
-                request["controllers"] = [one for one in request["controllers"] if one != "gripper_action"]
+                request["controllers"] = [
+                    controller for controller in request["controllers"] if controller != "gripper_action"
+                ]
                 asked = {"kind": "controllers", "manager": "/grip/controller_manager", "controllers": [own]}
                 steps.append(step | {"request": asked, "effect": []})
         if request.get("kind") != "restart":

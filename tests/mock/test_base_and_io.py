@@ -45,4 +45,4 @@ def test_arm_on_a_base_moves_and_a_block_of_signals_lights_a_lamp(tmp_path: Path
     assert pose is not None
     assert pose.position == (0.0, 0.0, 0.7)
     result = load(build_into(tmp_path / "folder", spec)).run("ready")
-    assert (result.outcome, [one.outcome for one in result.attempts]) == ("succeeded", ["succeeded"] * 4)
+    assert (result.outcome, [attempt.outcome for attempt in result.attempts]) == ("succeeded", ["succeeded"] * 4)

@@ -87,6 +87,6 @@ def test_name_of_no_service_is_refused(folder: GeneratedFolder) -> None:
 
 def test_service_that_nobody_offers_is_found_where_it_is_called(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick").replace("steps: [", "steps: [call: /arm_io/zero_ftsenso, ", 1)
-    found = [one for one in diagnose(written(tmp_path, text)) if one.code == "unknown-interface"]
-    assert [one.span.line for one in found] == [text[: text.index("zero_ftsenso,")].count("\n") + 1]
+    found = [diagnosis for diagnosis in diagnose(written(tmp_path, text)) if diagnosis.code == "unknown-interface"]
+    assert [finding.span.line for finding in found] == [text[: text.index("zero_ftsenso,")].count("\n") + 1]
     assert f"`{SERVICE}`" in found[0].help

@@ -59,7 +59,9 @@ def _run(cell: MockCell, edit: Edit) -> RehearsalResult:
         stuck = FaultEntry.model_validate({"kind": "stick", "target": edit.stuck, "at_s": 0.1})
         entry = entry.model_copy(update={"faults": (stuck,)})
     result = cell.rehearse(entry)
-    return replace(result, edited=False, attempts=tuple(replace(one, configuration_id="") for one in result.attempts))
+    return replace(
+        result, edited=False, attempts=tuple(replace(attempt, configuration_id="") for attempt in result.attempts)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -146,7 +148,7 @@ def test_every_generated_file_is_executed_or_refused_or_read_by_people_alone(nam
     executed = {"contract.json", "config/uncertainty.json", files.rehearsals, files.urdf_mock, files.bring_up}
     executed |= {*files.parameters.values(), *files.stages.values(), *filter(None, (files.srdf,))}
     assert {*not_executed(whole)} == {
-        one for one in read.listed if one not in executed and not one.endswith(FOR_PEOPLE)
+        entry for entry in read.listed if entry not in executed and not entry.endswith(FOR_PEOPLE)
     }
     assert list(notes_on(read)) == []
 

@@ -21,7 +21,7 @@ _LOOKED_AT_S = 1.0 / 20.0
 
 
 def _took_s(cell: MockCell, step: str) -> float:
-    (done,) = [one for one in cell.run("ready").attempts if one.step == step]
+    (done,) = [attempt for attempt in cell.run("ready").attempts if attempt.step == step]
     return (done.ended_ns - done.started_ns) / 1e9
 
 

@@ -110,7 +110,7 @@ def test_what_a_sweep_draws_is_refused_with_its_file(here: Path) -> None:
             assert ran.code == 0 or ran.err.startswith(f"error: {UNCERTAINTY}: "), text[:200]
     assert len(ends) > 320
     assert ends.count(True) < len(ends) / 10  # names of quantities are free
-    assert [one.name for one in here.iterdir()] == ["here"]
+    assert [path.name for path in here.iterdir()] == ["here"]
 
 
 def _refusal(cell: MockCell) -> str:

@@ -50,7 +50,7 @@ def built_fixture(tmp_path_factory: pytest.TempPathFactory) -> Built:
 
 
 def test_check_lists_all_that_is_missing_in_one_finding_with_the_links_that_move(built: Built) -> None:
-    (found,) = [one for one in diagnose(built.spec) if one.code == "mesh-not-found"]
+    (found,) = [diagnosis for diagnosis in diagnose(built.spec) if diagnosis.code == "mesh-not-found"]
     assert "`package://arm_parts/foot.stl`" in found.message
     assert "`package://arm_parts/hand.stl`" in found.message
     assert "`arm_base`, `arm_hand`, 1 of which move" in found.message
@@ -77,7 +77,7 @@ def test_shapes_that_are_there_are_still_seen(built: Built, tmp_path: Path) -> N
     shutil.copytree(built.spec.parent / "arm", tmp_path / "arm")
     # Turned by 90 degrees, the box of the upper arm, 0.1 to 0.5 m out, lies in the post 0.4 m out.
     text = built.spec.read_text(encoding="utf-8").replace("away: {all: 0.2 rad}", "away: {all: 90 deg}")
-    assert "pose-in-collision-with-scene" in {one.code for one in diagnose(written(tmp_path, text))}
+    assert "pose-in-collision-with-scene" in {diagnosis.code for diagnosis in diagnose(written(tmp_path, text))}
 
 
 def test_pairs_of_a_link_without_its_mesh_are_those_of_the_tree(built: Built, tmp_path: Path) -> None:

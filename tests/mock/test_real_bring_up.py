@@ -61,7 +61,7 @@ def with_steps(folder: GeneratedFolder, change: Change) -> GeneratedFolder:
 def reason(result: RehearsalResult) -> str:
     """Return why a run failed, of its bring-up or of its first attempt that failed."""
     problems = [problem for stage in result.bringup for problem in stage.problems]
-    return "; ".join(problems) or next(one.fault_code for one in result.attempts if one.fault_code)
+    return "; ".join(problems) or next(attempt.fault_code for attempt in result.attempts if attempt.fault_code)
 
 
 def test_fingers_run_while_nothing_listens_and_hold_the_manager_for_seconds(ur5e: GeneratedFolder) -> None:

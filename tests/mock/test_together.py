@@ -21,7 +21,7 @@ def _seen(cell: MockCell) -> Plant:
     plants: list[Plant] = []
     result = cell.rehearse(cell.entry("both_reach"), watch=plants.append)
     assert result.passed
-    both = [one for one in result.attempts if one.step.startswith("move together")]
+    both = [attempt for attempt in result.attempts if attempt.step.startswith("move together")]
     assert [one.controller_name for one in both] == ["left_trajectory and right_trajectory"] * 4
     return plants[0]
 

@@ -59,7 +59,7 @@ def test_jerk_changes_at_the_ends_of_the_phases() -> None:
 )
 def test_curve_of_a_cubic_is_that_cubic(samples: list[float], at: float, expected: tuple[float, ...]) -> None:
     found = SectionCurve([(value,) for value in samples]).derivatives(np.array([at]))
-    assert [float(one[0, 0]) for one in found] == pytest.approx(expected, abs=1e-9)
+    assert [float(finding[0, 0]) for finding in found] == pytest.approx(expected, abs=1e-9)
 
 
 def test_straight_line_is_as_fast_as_its_slowest_joint() -> None:

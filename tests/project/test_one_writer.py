@@ -84,12 +84,14 @@ def _of_call(call: ast.Call) -> Iterator[tuple[int, str, str]]:
 
 
 def _opens_a_path(call: ast.Call) -> bool:
-    first = call.args[0] if call.args else next((one.value for one in call.keywords if one.arg == "mode"), None)
+    first = (
+        call.args[0] if call.args else next((keyword.value for keyword in call.keywords if keyword.arg == "mode"), None)
+    )
     return first is None or (isinstance(first, ast.Constant) and set(str(first.value)) <= set("rwaxbt+"))
 
 
 def _of_mode(call: ast.Call, place: int) -> str:
-    given = [one.value for one in call.keywords if one.arg == "mode"] + call.args[place : place + 1]
+    given = [keyword.value for keyword in call.keywords if keyword.arg == "mode"] + call.args[place : place + 1]
     if not given:
         return "reads"
     mode = given[0].value if isinstance(given[0], ast.Constant) else "w"

@@ -154,4 +154,4 @@ def test_what_a_notebook_shows_quotes_text_of_strangers_as_text(value: Checked |
     assert "&lt;script&gt;alert(1)&lt;/script&gt;" in shown
     assert escaped(shown) == shown
     tree = ElementTree.fromstring(shown)
-    assert {one.tag for one in tree.iter()} == {"table", "caption", "thead", "tbody", "tr", "th", "td"}
+    assert {element.tag for element in tree.iter()} == {"table", "caption", "thead", "tbody", "tr", "th", "td"}

@@ -14,12 +14,12 @@ from packaging.utils import canonicalize_name
 from tests.cells import ROOT
 
 TEXT = (ROOT / ".ci/requirements.txt").read_text(encoding="utf-8")
-LOCKED = {one: Requirement(one) for one in re.findall(r"^([^\s#-].*?) *\\$", TEXT, re.MULTILINE)}
+LOCKED = {element: Requirement(element) for element in re.findall(r"^([^\s#-].*?) *\\$", TEXT, re.MULTILINE)}
 PROJECT = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
 WANTED = [
-    Requirement(one)
+    Requirement(element)
     for section in (r"^requires = \[(.*?)\]$", r"^dependencies = \[(.*?)^\]$")
-    for one in re.findall(r'"([^"]+)"', re.findall(section, PROJECT, re.MULTILINE | re.DOTALL)[0])
+    for element in re.findall(r'"([^"]+)"', re.findall(section, PROJECT, re.MULTILINE | re.DOTALL)[0])
 ]
 PYTHONS = ("3.10", "3.11", "3.12", "3.13")
 
@@ -35,8 +35,8 @@ def _applies(one: Requirement, environment: dict[str, str]) -> bool:
 
 def _versions(environment: dict[str, str]) -> dict[str, str]:
     """Return what is installed there, each package once."""
-    found = [one for one in LOCKED.values() if _applies(one, environment)]
-    versions = {canonicalize_name(one.name): str(one.specifier).removeprefix("==") for one in found}
+    found = [lock for lock in LOCKED.values() if _applies(lock, environment)]
+    versions = {canonicalize_name(finding.name): str(finding.specifier).removeprefix("==") for finding in found}
     assert len(versions) == len(found)
     return {str(name): version for name, version in versions.items()}
 
@@ -45,7 +45,9 @@ def _versions(environment: dict[str, str]) -> dict[str, str]:
 def test_what_the_action_installs_satisfies_pyproject(python: str) -> None:
     environment = _environment(python)
     versions = _versions(environment)
-    missing = [one for one in WANTED if _applies(one, environment) and versions.get(one.name, "") not in one.specifier]
+    missing = [
+        name for name in WANTED if _applies(name, environment) and versions.get(name.name, "") not in name.specifier
+    ]
     assert len(WANTED) > 10
     assert missing == []
 
@@ -55,7 +57,7 @@ def test_what_it_installs_needs_nothing_else() -> None:
     versions, missing = _versions(environment), []
     for name in versions:
         with suppress(PackageNotFoundError):  # a tool that builds, which an editable installation need not have
-            needed = [Requirement(one) for one in requires(name) or ()]
+            needed = [Requirement(requirement) for requirement in requires(name) or ()]
             missing += [
                 one for one in needed if _applies(one, environment) and canonicalize_name(one.name) not in versions
             ]
@@ -69,4 +71,4 @@ def test_each_pin_has_hashes_and_nothing_else_is_told_to_pip() -> None:
         first, *hashes = re.split(r" *\\\n *", pin)
         assert re.fullmatch(r"[\w.-]+==[\w.]+( ; [^\\@/]+)?", first), first
         assert hashes
-        assert all(re.fullmatch(r"--hash=sha256:[0-9a-f]{64}", one) for one in hashes), first
+        assert all(re.fullmatch(r"--hash=sha256:[0-9a-f]{64}", digest) for digest in hashes), first

@@ -66,7 +66,7 @@ BANNED = {
 }
 """Pattern → what to write instead. Keys, codes and values that a user types stay: only texts are searched."""
 
-_PATTERN = re.compile("|".join(rf"\b(?:{one})\b" for one in BANNED))
+_PATTERN = re.compile("|".join(rf"\b(?:{word})\b" for word in BANNED))
 _CODE = re.compile(
     r"```.*?```|``[^`]+``|`[^`\n]*`|\[[^\]]*\]\([^)]*\)|<[^>\n]*>|^## [a-z-]+ \(", re.DOTALL | re.MULTILINE
 )

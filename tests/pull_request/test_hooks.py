@@ -48,7 +48,7 @@ def _ran(folder: Path, module: str, *words: str) -> subprocess.CompletedProcess[
 
 
 def _failing(ran: subprocess.CompletedProcess[str]) -> list[str]:
-    return [one for one in ("cellc-format", "cellc-check", "cellc-build-check") if f"hook id: {one}" in ran.stdout]
+    return [text for text in ("cellc-format", "cellc-check", "cellc-build-check") if f"hook id: {text}" in ran.stdout]
 
 
 def test_generated_file_that_was_changed_alone_is_stopped(repository: Path) -> None:

@@ -319,7 +319,9 @@ def test_another_claim_another_type_and_one_gate_more_are_told(repository: Repos
     )
     found = changes_of(main, package_of(repository, repository.commit(edited(*edits))))
     gripper, software = "parallel_gripper_action_controller/GripperActionController", "ur_controllers/URConfiguration"
-    assert [one for one in found if one.split()[1] in ("control", "interfaces", "QoS", "gates", "safety")] == [
+    assert [
+        finding for finding in found if finding.split()[1] in ("control", "interfaces", "QoS", "gates", "safety")
+    ] == [
         f"dangerous control | arm_software | controller removed | {software}Controller -> None",
         f"dangerous control | gripper_action | controller removed | {gripper} -> None",
         "dangerous control | gripper_robotiq_85_left_knuckle_joint/position | controller that claims it | "

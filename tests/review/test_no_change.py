@@ -107,7 +107,7 @@ def test_an_edit_by_hand_is_told_wherever_it_is(main: Package) -> None:
         assert old in text, (path, old)
         facts = facts_of({**folder.files, path: text.replace(old, new)})
         found = [told(change) for change in changes_between(folder.facts, facts)]
-        assert [one.startswith(expected) for one in found] == ([True] if expected else []), (path, found)
+        assert [finding.startswith(expected) for finding in found] == ([True] if expected else []), (path, found)
 
 
 def test_a_mount_that_moves_by_a_millimetre_changes_few_files_and_lines(tmp_path: Path, main: Package) -> None:

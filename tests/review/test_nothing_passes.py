@@ -69,13 +69,15 @@ def test_a_blocker_that_a_comment_silences_did_not_go(repository: Repository, ma
     silenced = (rollback, f"{rollback}  # cellc: ignore missing-rollback no image yet")
     after = package_of(repository, repository.commit(edited(silenced)))
     found = reviewed(main, after)
-    assert [(str(one.grade), one.quantity, one.approval) for one in found.changes] == [
+    assert [(str(change.grade), change.quantity, change.approval) for change in found.changes] == [
         ("dangerous", "excuse of a blocker added", "safety")
     ]
-    assert "missing-rollback" not in {one.code for one in found.gone_findings}
+    assert "missing-rollback" not in {finding.code for finding in found.gone_findings}
     back = reviewed(after, main)
-    assert [(str(one.grade), one.quantity) for one in back.changes] == [("safe", "excuse of a blocker removed")]
-    assert "missing-rollback" in {one.code for one in back.new_findings}
+    assert [(str(change.grade), change.quantity) for change in back.changes] == [
+        ("safe", "excuse of a blocker removed")
+    ]
+    assert "missing-rollback" in {finding.code for finding in back.new_findings}
 
 
 def test_who_approved_before_a_change_approves_it(repository: Repository, main: Package) -> None:
@@ -84,7 +86,9 @@ def test_who_approved_before_a_change_approves_it(repository: Repository, main: 
         ("states: [protective_stop, safeguard_stop, ", "states: [protective_stop, "),
     )
     found = reviewed(main, package_of(repository, repository.commit(text)))
-    of_safety = {one.quantity: (str(one.grade), one.owner) for one in found.changes if one.area == "safety"}
+    of_safety = {
+        change.quantity: (str(change.grade), change.owner) for change in found.changes if change.area == "safety"
+    }
     assert of_safety["states that need recovery"] == ("dangerous", "safety and integration")
     assert of_safety["approver of safety changes"] == ("dangerous", "safety and integration")
 
@@ -102,9 +106,9 @@ def test_an_offer_that_shrinks_breaks_who_asked_for_it(main: Package) -> None:
         for one in contract["interfaces"]["/object_pose"][end]:
             one["qos"]["reliability"] = "best_effort"
     weaker = facts_of({**main.files, "contract.json": json.dumps(contract)})
-    broken = [one for one in changes_between(main.facts, weaker) if one.breaking]
+    broken = [change for change in changes_between(main.facts, weaker) if change.breaking]
     assert [(one.subjects, one.quantity) for one in broken] == [(("/object_pose: perception",), "offered QoS")]
-    assert not [one for one in changes_between(weaker, main.facts) if one.breaking]
+    assert not [change for change in changes_between(weaker, main.facts) if change.breaking]
 
 
 def test_a_rate_of_success_that_sinks_is_dangerous(repository: Repository, main: Package) -> None:

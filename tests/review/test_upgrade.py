@@ -106,7 +106,11 @@ def test_parameters_that_appear_vanish_and_change_are_those_of_upstream(cell: st
         if kind not in DECLARATIONS:
             continue
         was, now = (upstream_parameters(str(kind), distro) for distro in (of.distro, target))
-        own = [one for one in found if controller.full_name in one.nodes and one.parameter != "thread_priority"]
+        own = [
+            finding
+            for finding in found
+            if controller.full_name in finding.nodes and finding.parameter != "thread_priority"
+        ]
         assert {one.parameter for one in own if one.change == "appears"} == now.keys() - was.keys()
         assert {one.parameter for one in own if one.change == "vanishes"} == was.keys() - now.keys()
         assert {one.parameter for one in own if one.what == "default"} == {
@@ -121,7 +125,7 @@ def test_a_default_that_changes_unseen_is_asked_about_and_one_that_the_cell_stat
         "`hardware_components_initial_state.shutdown_on_initial_state_failure` of /controller_manager",
         "`rollback`",
     ]
-    (limits,) = (one for one in upgrade.parameters if one.parameter == "enforce_command_limits")
+    (limits,) = (parameter for parameter in upgrade.parameters if parameter.parameter == "enforce_command_limits")
     assert (limits.before, limits.after, limits.stated, limits.question) == ("false", "true", True, "")
 
 
@@ -131,7 +135,10 @@ def test_names_at_the_graph_are_those_that_nodes_of_the_distribution_have() -> N
     assert (gained.change, gained.right, gained.name) == ("gained", "publish", "~/hardware_status")
     assert gained.nodes == ("/arm_hardware", "/gripper_hardware")
     lost = {
-        node for one in _upgrade("ur5e_pick", Distro.HUMBLE).interfaces if one.change == "lost" for node in one.nodes
+        node
+        for interface in _upgrade("ur5e_pick", Distro.HUMBLE).interfaces
+        if interface.change == "lost"
+        for node in interface.nodes
     }
     assert lost >= {"/arm_hardware", "/gripper_hardware"}
 

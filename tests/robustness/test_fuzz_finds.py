@@ -49,7 +49,7 @@ def test_a_changed_device_is_told_on_its_line(device: str, old: str, new: str, t
     file.write_text(text.replace(old, new), encoding="utf-8")
     line = text[: text.index(old)].count("\n") + 1
     found = check(written(tmp_path, MOUNTED)).diagnostics
-    assert (Path(file).name, line) in {(Path(one.span.file).name, one.span.line) for one in found}
+    assert (Path(file).name, line) in {(Path(finding.span.file).name, finding.span.line) for finding in found}
 
 
 def _folder_with(folder: Path, cell: str, change: Callable[[Any, Any], None]) -> MockCell:
@@ -182,7 +182,7 @@ def test_a_cell_whose_mesh_is_not_there_runs_and_says_what_nobody_sees(tmp_path:
     """`description 2105`; the check warns of the mesh, and the mock plans with the shapes that are there."""
     shape = '<link name="tool"><collision><geometry><mesh filename="arm/base_link"/></geometry></collision></link>'
     spec = _tiny_with(tmp_path, '<link name="tool"/>', shape)
-    assert {one.code for one in check(spec).diagnostics if one.severity is Severity.ERROR} == set()
+    assert {diagnostic.code for diagnostic in check(spec).diagnostics if diagnostic.severity is Severity.ERROR} == set()
     cell = load(build_into(tmp_path / "folder", spec))
     result = cell.run("there")
     assert (result.outcome, result.unseen) == (AttemptOutcome.SUCCEEDED, ("stage_tool",))
@@ -196,9 +196,9 @@ def test_a_joint_of_a_group_without_a_limit_is_told(limit: str, tmp_path: Path) 
     facts = tmp_path / "device" / "device.yaml"
     kept = [line for line in facts.read_text(encoding="utf-8").splitlines() if not line.startswith(f"  {limit}:")]
     facts.write_text("\n".join(kept), encoding="utf-8")
-    assert "unplannable-joint" in {one.code for one in check(spec).diagnostics}
+    assert "unplannable-joint" in {diagnostic.code for diagnostic in check(spec).diagnostics}
 
 
 def test_a_joint_of_a_group_without_a_range_is_told(tmp_path: Path) -> None:
     spec = _tiny_with(tmp_path, 'lower="-3" upper="3"', 'lower="0" upper="0"')
-    assert "unplannable-joint" in {one.code for one in check(spec).diagnostics}
+    assert "unplannable-joint" in {diagnostic.code for diagnostic in check(spec).diagnostics}

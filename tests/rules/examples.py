@@ -75,7 +75,7 @@ def marks(rule: Rule, example: Example) -> list[Place]:
 
 def places(diagnosed: Iterable[Diagnostic], example: Example, folder: Path) -> list[Place]:
     """Return where findings stand in an example that was merged into the complete cell in ``folder``."""
-    return [_place(one, example, folder) for one in diagnosed]
+    return [_place(diagnosis, example, folder) for diagnosis in diagnosed]
 
 
 def _place(found: Diagnostic, example: Example, folder: Path) -> Place:
@@ -153,7 +153,7 @@ def _with_first_motions(cell: Any, fragment: Any) -> Any:
     extended = _merged(cell, fragment)
     takers = {name for name, device in extended["devices"].items() if device.get("architecture") == "direct_sdk"}
     managers = (extended["control"], *extended.get("managers", {}).values())
-    for controller in (one for manager in managers for one in manager.get("controllers", {}).values()):
+    for controller in (controller for manager in managers for controller in manager.get("controllers", {}).values()):
         if str(controller.get("type", "")).endswith("trajectory"):
             takers.add(controller.get("device", "arm"))
     motions = [cell["bringup"]["first_motion"]]

@@ -38,8 +38,8 @@ FIGURES = {
 
 @pytest.mark.parametrize("code", FIGURES)
 def test_figure_of_a_rule_is_that_of_the_hand(code: str, folder: Path) -> None:
-    (rule,) = (one for one in ALL_RULES if one.code == code)
-    told = [one.message for one in diagnose_example(examples(rule)[0], folder) if one.code == code]
+    (rule,) = (rule for rule in ALL_RULES if rule.code == code)
+    told = [diagnostic.message for diagnostic in diagnose_example(examples(rule)[0], folder) if diagnostic.code == code]
     assert len(told) == 1
     assert FIGURES[code] in told[0]
 
@@ -74,11 +74,11 @@ IN_A_DESCRIPTION = {
 def test_what_a_rule_says_of_an_element_is_shown_where_the_description_has_it(
     code: str, element: str, folder: Path
 ) -> None:
-    (rule,) = (one for one in ALL_RULES if one.code == code)
+    (rule,) = (rule for rule in ALL_RULES if rule.code == code)
     cases = sorted((CORPUS / "invalid").glob(f"{code}-*.yaml"))
-    told = [one for case in cases for one in check(case)]
+    told = [diagnostic for case in cases for diagnostic in check(case)]
     told += diagnose_example(examples(rule)[0], folder)
-    places = [related.span for one in told if one.code == code for related in one.related]
+    places = [related.span for finding in told if finding.code == code for related in finding.related]
     assert places
     for span in places:
         assert Path(span.file).suffix in (".urdf", ".xacro")
@@ -89,5 +89,5 @@ def test_a_joint_of_the_catalog_is_not_shown_there(tmp_path: Path) -> None:
     spec = (ROOT / "cells/ur5e_pick/cell.yaml").read_text(encoding="utf-8")
     file = tmp_path / "cell.yaml"
     file.write_text(spec.replace("0 -90 90 -90 -90 0 deg", "0 -90 190 -90 -90 0 deg"), encoding="utf-8")
-    (finding,) = (one for one in check(file) if one.code == "pose-outside-limits")
+    (finding,) = (diagnostic for diagnostic in check(file) if diagnostic.code == "pose-outside-limits")
     assert finding.related == ()

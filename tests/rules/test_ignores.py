@@ -63,7 +63,7 @@ def test_comment_without_reason_has_no_effect_and_is_reported(tmp_path: Path) ->
 
 def test_code_that_does_not_exist_is_reported_with_the_nearest(tmp_path: Path) -> None:
     checked = checked_with(tmp_path, on_revision(f"# cellc: ignore unknown-versions {REASON}"))
-    (found,) = (one for one in checked.diagnostics if one.code == "unknown-ignored-code")
+    (found,) = (diagnostic for diagnostic in checked.diagnostics if diagnostic.code == "unknown-ignored-code")
     assert "`unknown-version`" in found.help
     line = PICK.read_text(encoding="utf-8").splitlines()[found.span.line - 1]
     assert found.span.column == len(line) + 1 + len("  # cellc: ignore ")
@@ -99,7 +99,7 @@ def test_text_that_looks_like_a_comment_is_none(tmp_path: Path) -> None:
 )
 def test_what_nobody_may_ignore_is_refused(tmp_path: Path, code: str, reason: str) -> None:
     checked = checked_with(tmp_path, on_revision(f"# cellc: ignore {code} {REASON}"))
-    (found,) = (one for one in checked.diagnostics if one.code == "ignore-refused")
+    (found,) = (diagnostic for diagnostic in checked.diagnostics if diagnostic.code == "ignore-refused")
     assert reason in found.message
     assert not checked.ok
 
@@ -125,10 +125,15 @@ def test_comment_in_an_included_file_counts_there(tmp_path: Path) -> None:
     (tmp_path / "cell.yaml").write_text(root, encoding="utf-8")
     checked = check(tmp_path / "cell.yaml")
     line = part.split("ignore unknown-version")[0].count("\n") + 1
-    assert line not in {one.span.line for one in checked.diagnostics if one.span.file.endswith("devices.yaml")}
-    assert "unused-ignore" not in {one.code for one in checked.diagnostics}
-    unknown = [one for one in check(PICK).diagnostics if one.code == "unknown-version"]
-    assert len([one for one in checked.diagnostics if one.code == "unknown-version"]) == len(unknown) - 1
+    assert line not in {
+        diagnostic.span.line for diagnostic in checked.diagnostics if diagnostic.span.file.endswith("devices.yaml")
+    }
+    assert "unused-ignore" not in {diagnostic.code for diagnostic in checked.diagnostics}
+    unknown = [diagnostic for diagnostic in check(PICK).diagnostics if diagnostic.code == "unknown-version"]
+    assert (
+        len([diagnostic for diagnostic in checked.diagnostics if diagnostic.code == "unknown-version"])
+        == len(unknown) - 1
+    )
 
 
 def spot(line: int, file: str = "cell.yaml") -> Span:
@@ -142,7 +147,7 @@ def warning(code: str, place: Span) -> Diagnostic:
 def judged(text: str, *found: Diagnostic) -> list[tuple[str, Span]]:
     """Return code and place of what remains when the comments of ``cell.yaml`` are applied."""
     ignores = ignore_comments({"cell.yaml": text, "part.yaml": "a: 1\n"})
-    return [(one.code, one.span) for one in apply_ignores(found, ignores, all_codes())]
+    return [(ignore.code, ignore.span) for ignore in apply_ignores(found, ignores, all_codes())]
 
 
 @pytest.mark.parametrize("place", [spot(2), spot(1, "part.yaml")])
@@ -221,5 +226,5 @@ def test_one_finding_of_each_family_and_severity_is_excused_or_refused(tmp_path:
         text = case.read_text(encoding="utf-8")
         file = folder / case.name
         file.write_text(_MARK.sub(f"# cellc: ignore {rule.code} the test asks for it", text), encoding="utf-8")
-        codes = {one.code for one in check(file).diagnostics}
+        codes = {diagnostic.code for diagnostic in check(file).diagnostics}
         assert codes == ({rule.code, "ignore-refused"} if _is_protected(rule) else set()), case.name

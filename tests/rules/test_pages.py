@@ -77,11 +77,11 @@ def test_every_section_of_the_principles_is_the_source_of_a_rule() -> None:
 def test_reported_example_is_reported_where_it_is_marked_and_nowhere_else(rule: Rule, folder: Path) -> None:
     reported, _ = examples(rule)
     diagnosed = diagnose_example(reported, folder)
-    for one in diagnosed:
-        if one.code == rule.code:
-            assert one.severity is rule.severity
-            assert one.help
-            assert "\n" not in one.message + one.help
+    for diagnosis in diagnosed:
+        if diagnosis.code == rule.code:
+            assert diagnosis.severity is rule.severity
+            assert diagnosis.help
+            assert "\n" not in diagnosis.message + diagnosis.help
     found = sorted(places(diagnosed, reported, folder), key=lambda place: (place.code, place.line))
     expected = sorted(marks(rule, reported), key=lambda place: (place.code, place.line))
     assert rule.code in {place.code for place in expected}

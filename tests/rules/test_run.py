@@ -86,7 +86,7 @@ TAGS = """
 
 def test_each_fault_of_a_tag_is_named(folder: Path) -> None:
     found = diagnose_example(Example("xml", TAGS), folder)
-    assert sorted(one.message for one in found if one.code == "unusable-ros2-control") == [
+    assert sorted(finding.message for finding in found if finding.code == "unusable-ros2-control") == [
         "`position` of `slide` must have `min` at most `max`, got 2 and 1",
         "`slide` of `second` has no interface",
         "`turn` has the command interface `positon`, which is not `position`",

@@ -78,7 +78,7 @@ def test_example_of_a_stage_is_reported_at_its_mark_and_nowhere_else(code: str, 
 def test_example_of_a_file_is_reported_at_its_mark_and_nowhere_else(code: str, text: str, tmp_path: Path) -> None:
     file = tmp_path / "cell.yaml"
     file.write_text(text, encoding="utf-8")
-    found = [(one.code, one.span.line) for one in read(file).diagnostics]
+    found = [(diagnostic.code, diagnostic.span.line) for diagnostic in read(file).diagnostics]
     assert found == [(code, number) for number, line in enumerate(text.splitlines(), 1) if "# expect" in line]
 
 
@@ -92,7 +92,7 @@ def test_example_of_a_description_is_reported_at_its_mark_and_nowhere_else(
         diagnostics = expand_here(file.as_posix(), {}, tmp_path.as_posix(), tmp_path.as_posix()).diagnostics
     else:
         diagnostics = read_urdf(text, "arm.urdf", from_user=True).diagnostics
-    found = [(one.code, one.span.line) for one in diagnostics]
+    found = [(diagnostic.code, diagnostic.span.line) for diagnostic in diagnostics]
     assert found == [(code, number) for number, line in enumerate(text.splitlines(), 1) if "expect -->" in line]
 
 
@@ -106,4 +106,4 @@ def test_example_of_a_comment_is_reported_on_its_line(code: str, text: str, tmp_
     spec = spec[: start.end()] + after
     number = spec[: spec.index(line)].count("\n") + 1
     found = check(written(tmp_path, spec)).diagnostics
-    assert [one.span.line for one in found if one.code == code] == [number]
+    assert [finding.span.line for finding in found if finding.code == code] == [number]

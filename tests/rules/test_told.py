@@ -40,7 +40,7 @@ _PLANT = "hosts: {control_pc: {clock: {domain: plant}}}\n"
 
 
 def _told(code: str, fragment: str, folder: Path) -> list[Diagnostic]:
-    return [one for one in diagnose_example(Example("yaml", fragment), folder) if one.code == code]
+    return [diagnostic for diagnostic in diagnose_example(Example("yaml", fragment), folder) if diagnostic.code == code]
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def _told(code: str, fragment: str, folder: Path) -> list[Diagnostic]:
     ],
 )
 def test_range_of_a_simulated_figure(fragment: str, message: str, folder: Path) -> None:
-    assert [one.message for one in _told("impossible-simulation", fragment, folder)] == [message]
+    assert [finding.message for finding in _told("impossible-simulation", fragment, folder)] == [message]
 
 
 @pytest.mark.parametrize(
@@ -94,7 +94,7 @@ def test_ends_of_the_range_of_a_simulated_figure_belong_to_it(fragment: str, fol
 def test_queue_that_fits_into_the_age_is_advised(max_age: str, depth: int, most: str | None, folder: Path) -> None:
     fragment = _QUEUE.format("newest", max_age, "best_effort", depth)
     advice = [] if most is None else [f"use {most}, or allow a greater age"]
-    assert [one.help for one in _told("queue-older-than-max-age", fragment, folder)] == advice
+    assert [finding.help for finding in _told("queue-older-than-max-age", fragment, folder)] == advice
 
 
 @pytest.mark.parametrize(
@@ -111,8 +111,8 @@ def test_queue_that_fits_into_the_age_is_advised(max_age: str, depth: int, most:
 )
 def test_clock_of_a_sensor_is_that_of_a_host_or_bound_to_it(fragment: str, field: str | None, folder: Path) -> None:
     told = _told("unsynchronized-sensor-clock", fragment, folder)
-    assert [one.yaml_path for one in told] == ([] if field is None else [("devices", "camera", "stamp", field)])
-    assert all(f"of `camera` does not state `{field}`" in one.message for one in told)
+    assert [finding.yaml_path for finding in told] == ([] if field is None else [("devices", "camera", "stamp", field)])
+    assert all(f"of `camera` does not state `{field}`" in finding.message for finding in told)
 
 
 @pytest.mark.parametrize(
@@ -128,7 +128,7 @@ def test_commands_of_a_direct_sdk_are_bounded_by_an_action_with_a_timeout(
 ) -> None:
     told = _told("direct-sdk-without-bounded-command", _FINGERS.format(head, bound), folder)
     advice = "declare an action with `server: gripper` and a timeout"
-    assert [one.help for one in told] == ([advice] if reported else [])
+    assert [finding.help for finding in told] == ([advice] if reported else [])
 
 
 def test_trajectory_controller_of_the_device_that_scales_is_advised(folder: Path) -> None:
@@ -183,7 +183,11 @@ _SHAPE = '<collision><geometry><mesh filename="package://nowhere/{}.stl"/></geom
 )
 def test_links_whose_contact_is_not_checked(links: tuple[str, ...], told_of_them: str, folder: Path) -> None:
     fragment = "\n".join(f'<link name="{link}">{_SHAPE.format(link)}</link>' for link in links)
-    (told,) = (one for one in diagnose_example(Example("xml", fragment), folder) if one.code == "mesh-not-found")
+    (told,) = (
+        diagnostic
+        for diagnostic in diagnose_example(Example("xml", fragment), folder)
+        if diagnostic.code == "mesh-not-found"
+    )
     assert told.message.endswith(f"; {told_of_them}")
     assert [f"/{link}.stl`" in told.message for link in ("base", "carriage", "tool")] == [
         link in links for link in ("base", "carriage", "tool")

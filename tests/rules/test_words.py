@@ -89,7 +89,7 @@ def test_help_that_is_always_the_same_is_the_fix_of_the_page() -> None:
 )
 def test_words_fit_what_is_missing(rollback: str, message: str, help_: str, folder: Path) -> None:
     example = Example("yaml", f"versions: {{rollback: {{{rollback}}}}}")
-    (found,) = [one for one in diagnose_example(example, folder) if one.code == "missing-rollback"]
+    (found,) = [diagnostic for diagnostic in diagnose_example(example, folder) if diagnostic.code == "missing-rollback"]
     assert (found.message, found.help) == (message, help_)
 
 
@@ -107,7 +107,9 @@ def test_words_fit_what_is_missing(rollback: str, message: str, help_: str, fold
 def test_suggested_name_is_legal(written: str, suggested: str, folder: Path) -> None:
     def found(name: str) -> list[str]:
         example = Example("yaml", _INTERFACE.format(name=name))
-        return [one.help for one in diagnose_example(example, folder) if one.code == "illegal-ros-name"]
+        return [
+            diagnostic.help for diagnostic in diagnose_example(example, folder) if diagnostic.code == "illegal-ros-name"
+        ]
 
     assert found(written) == [f"write `{suggested}`, as the nodes do"]
     assert found(suggested) == []

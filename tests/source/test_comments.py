@@ -35,7 +35,7 @@ MARKER = re.compile(r"# mark")
     ],
 )
 def test_hash_counts_only_outside_of_values(text: str, places: list[tuple[int, int]], pure: bool) -> None:
-    assert [(one.line, one.column) for one in comments(text, MARKER, pure=pure)] == places
+    assert [(comment.line, comment.column) for comment in comments(text, MARKER, pure=pure)] == places
 
 
 def test_comment_is_given_from_its_marker_to_the_end_of_the_line() -> None:
@@ -50,7 +50,7 @@ _MARK = re.compile(r"# cellc:")
 def test_many_comments_beside_many_scalars_are_told_apart() -> None:
     text = "".join(f'a{number}: "# cellc: not {number}"  # cellc: ignore x {number}\n' for number in range(4000))
     found = comments(text, _MARK)
-    assert [one.text for one in found] == [f"# cellc: ignore x {number}" for number in range(4000)]
+    assert [finding.text for finding in found] == [f"# cellc: ignore x {number}" for number in range(4000)]
 
 
 def test_text_of_many_lines_is_read() -> None:

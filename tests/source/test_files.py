@@ -136,4 +136,4 @@ def test_json_means_what_it_means_to_a_json_reader(tmp_path: Path, data: dict[st
 def test_text_of_an_editor_is_bounded_as_a_file_is(tmp_path: Path) -> None:
     name = (tmp_path / "cell.yaml").as_posix()
     found = read(name, {name: "#" * (limits().spec_bytes + 1)}).diagnostics
-    assert [one.code for one in found] == ["file-too-large"]
+    assert [finding.code for finding in found] == ["file-too-large"]

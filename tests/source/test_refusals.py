@@ -109,5 +109,7 @@ def test_numbers_with_commas_in_braces_are_told_as_what_they_were_meant_as(
     text: str, words: str, tmp_path: Path
 ) -> None:
     (tmp_path / "cell.yaml").write_text(text)
-    found = [one for one in read(tmp_path / "cell.yaml").diagnostics if one.code == "non-string-key"]
-    assert [words in one.help for one in found] == [True]
+    found = [
+        diagnostic for diagnostic in read(tmp_path / "cell.yaml").diagnostics if diagnostic.code == "non-string-key"
+    ]
+    assert [words in finding.help for finding in found] == [True]

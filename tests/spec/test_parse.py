@@ -178,7 +178,7 @@ def test_each_value_of_a_pose_has_the_unit_behind_it(
 @pytest.mark.parametrize("written", ["400 mm 0 -90", "400 mm 0 -90 kg", "deg 400 mm", "1 2 mm 3", "0 mm,, x deg"])
 def test_pose_with_a_value_without_its_unit_is_refused(written: str, tmp_path: Path) -> None:
     found = parsed(HEAD + ARM + f'motion: {{poses: {{home: {{all: "{written}"}}}}}}\n', tmp_path).diagnostics
-    assert [one.code for one in found] in (["wrong-unit"], ["not-a-quantity"])
+    assert [finding.code for finding in found] in (["wrong-unit"], ["not-a-quantity"])
 
 
 def test_tolerance_has_at_most_one_figure_of_a_kind(tmp_path: Path) -> None:

@@ -103,7 +103,7 @@ PARAMETER = "nodes: {{task: {{run: a/b, parameters: {{p: {}}}}}}}\n"
 
 def _found(text: str, folder: Path) -> list[tuple[str, str]]:
     head = HEAD if text.startswith("devices") else HEAD + ARM
-    return [(one.code, one.message) for one in parsed(head + text, folder).diagnostics]
+    return [(diagnostic.code, diagnostic.message) for diagnostic in parsed(head + text, folder).diagnostics]
 
 
 @pytest.mark.parametrize(

@@ -191,7 +191,7 @@ def counted(names: Iterable[str]) -> Iterator[str]:
         if counted is None:
             yield name
         else:
-            yield from (f"{counted[1]}{one}{counted[4]}" for one in range(int(counted[2]), int(counted[3]) + 1))
+            yield from (f"{counted[1]}{number}{counted[4]}" for number in range(int(counted[2]), int(counted[3]) + 1))
 
 
 def update_rate(release: Release) -> int | None:

@@ -39,9 +39,9 @@ of_the_arm = pytest.mark.parametrize(
     "case",
     here(
         [
-            Case(one.cell, one.release, added=_ADDED)
-            for one in CASES
-            if one.cell == "ur5e_pick" and one.release.device == "ur5e"
+            Case(case.cell, case.release, added=_ADDED)
+            for case in CASES
+            if case.cell == "ur5e_pick" and case.release.device == "ur5e"
         ]
     ),
     ids=str,
@@ -50,7 +50,7 @@ every_kind = pytest.mark.parametrize("kind", _KINDS)
 
 
 def _controller(target: RealTarget, kind: str) -> Controller:
-    (found,) = (one for one in target.cell.controllers if one.kind == kind)
+    (found,) = (controller for controller in target.cell.controllers if controller.kind == kind)
     return found
 
 
@@ -81,7 +81,7 @@ def test_a_kind_takes_the_interfaces_that_its_plugin_takes(case: Case, kind: str
     target, told = real_target(case), _told(case, kind)["claims"]
     controller = _controller(target, kind)
     for side, names in (("command", controller.claims("real")), ("state", controller.state_interfaces)):
-        listed = [one.replace("<tf_prefix>", target.prefix) for one in told[side]["interfaces"]]
+        listed = [interface.replace("<tf_prefix>", target.prefix) for interface in told[side]["interfaces"]]
         if (
             kind in ("force_torque_sensor_broadcaster", "tcp_pose_broadcaster", "passthrough_trajectory")
             and side == "state"
@@ -113,7 +113,7 @@ def test_a_kind_is_told_what_the_vendor_s_own_configuration_tells(case: Case, ki
     declared = told.get("declared_parameters")
     assert declared is None or set(given) <= set(declared)
     for name, value in told["parameters"].items():
-        filled = [_filled(one, target) for one in value] if isinstance(value, list) else _filled(value, target)
+        filled = [_filled(item, target) for item in value] if isinstance(value, list) else _filled(value, target)
         if name in ("topic_name", "state_interface_names", "tf", "frame_id"):
             continue  # no parameter of the plugin, or the cell's own choice: one writer of fixed frames
         assert given[name] == (tuple(filled) if isinstance(filled, list) else filled), name
@@ -157,13 +157,13 @@ def test_only_ways_of_commanding_that_the_driver_takes_at_once_are_let_through(c
     assert hardware is not None
     assert hardware.modes is not None
     pairs = facts(case.release, "hardware_interfaces")["modes_that_may_run_together"]["pairs"]
-    told = {frozenset(_GPIOS.get(way, way) for way in one.split("+")) for one in pairs}
+    told = {frozenset(_GPIOS.get(way, way) for way in pair.split("+")) for pair in pairs}
     ours = {frozenset(name.removeprefix("arm_") for name in pair) for pair in hardware.modes.together}
     named = {name.removeprefix("arm_") for name in hardware.modes.names}
     assert ours == {pair for pair in told if pair <= named}
 
 
-@pytest.mark.parametrize("case", here([one for one in CASES if one.release.device == "franka_fr3"]), ids=str)
+@pytest.mark.parametrize("case", here([case for case in CASES if case.release.device == "franka_fr3"]), ids=str)
 def test_the_state_of_an_fr3_is_published_as_its_vendor_publishes_it(case: Case) -> None:
     target = real_target(case)
     controller = _controller(target, "robot_state_broadcaster")
@@ -178,7 +178,7 @@ def test_the_state_of_an_fr3_is_published_as_its_vendor_publishes_it(case: Case)
         assert enclave.allow("publish", name.replace("~", "/arm_state")), name
 
 
-@pytest.mark.parametrize("case", here([one for one in CASES if one.release.repository == "ros2_kortex"]), ids=str)
+@pytest.mark.parametrize("case", here([case for case in CASES if case.release.repository == "ros2_kortex"]), ids=str)
 def test_faults_of_a_gen3_are_told_and_reset_as_its_vendor_has_it(case: Case) -> None:
     target = real_target(case)
     controller = _controller(target, "reset_fault")
@@ -199,7 +199,7 @@ def test_faults_of_a_gen3_are_told_and_reset_as_its_vendor_has_it(case: Case) ->
     assert watch["controllers"] == ["arm_trajectory", "gripper_action"]
 
 
-@pytest.mark.parametrize("case", here([one for one in CASES if one.release.repository == "ros2_kortex"]), ids=str)
+@pytest.mark.parametrize("case", here([case for case in CASES if case.release.repository == "ros2_kortex"]), ids=str)
 def test_fingers_and_arm_of_one_component_are_driven_by_controllers_of_their_own(case: Case) -> None:
     target = real_target(case)
     told = facts(case.release, "controllers")["gen3"]
@@ -210,7 +210,7 @@ def test_fingers_and_arm_of_one_component_are_driven_by_controllers_of_their_own
     assert type_ == told["robotiq_gripper_controller"]["type"]
 
 
-@pytest.mark.parametrize("case", here([one for one in CASES if one.release.repository == "ros2_kortex"]), ids=str)
+@pytest.mark.parametrize("case", here([case for case in CASES if case.release.repository == "ros2_kortex"]), ids=str)
 def test_errors_of_joints_without_an_end_count_the_shorter_way_round(case: Case) -> None:
     # follow_joint_trajectory.md: from the URDF since jazzy, by angle_wraparound on humble.
     told = real_target(case).yaml("config/controllers.yaml")["arm_trajectory"]["ros__parameters"].get("gains", {})

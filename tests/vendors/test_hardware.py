@@ -48,7 +48,7 @@ def test_every_interface_of_the_description_is_one_that_the_plugin_exports(case:
         for part in target.component:
             if part.tag in ("joint", "sensor", "gpio"):
                 name = "<joint>" if part.tag == "joint" else part.get("name", "")
-                stated = {one.get("name", "") for one in part.findall(f"{side}_interface")}
+                stated = {element.get("name", "") for element in part.findall(f"{side}_interface")}
                 assert stated <= exported.get(name, set()), (part.get("name"), side)
 
 
@@ -83,7 +83,8 @@ def test_joints_stand_in_the_order_and_with_the_interfaces_that_the_plugin_deman
     target = real_target(case)
     joints = {
         joint.get("name", "").removeprefix(target.prefix): tuple(
-            tuple(one.get("name") for one in joint.findall(f"{side}_interface")) for side in ("command", "state")
+            tuple(element.get("name") for element in joint.findall(f"{side}_interface"))
+            for side in ("command", "state")
         )
         for joint in target.component.findall("joint")
     }

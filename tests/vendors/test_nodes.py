@@ -49,7 +49,7 @@ def _served(case: Case, target: RealTarget) -> set[str]:
     }
     listed = facts(case.release, "controllers")["controllers"].values()
     for controller in target.cell.controllers:
-        for told in (one for one in listed if one["type"] == controller.plugin):
+        for told in (entry for entry in listed if entry["type"] == controller.plugin):
             ends = told["endpoints"] if isinstance(told["endpoints"], list) else []
             there |= {end["name"].replace("~", controller.full_name) for end in ends}
     return there
@@ -79,7 +79,7 @@ def test_the_policy_grants_a_node_everything_that_its_program_has(case: Case) ->
     policy = policy_of(target.texts)
     for node in _started(target):
         told = _told(case)[node.get("exec", "")]
-        (profile,) = (one for one in policy.iter("profile") if one.get("node") == node.get("name"))
+        (profile,) = (profile for profile in policy.iter("profile") if profile.get("node") == node.get("name"))
         for names, tag, right in (
             (told.get("services", {}), "services", "reply"),
             (told.get("clients", {}), "services", "request"),

@@ -82,13 +82,13 @@ def test_every_process_may_have_what_every_node_has(cell: str, distro: str) -> N
 def test_controller_managers_may_have_what_theirs_have(cell: str, distro: str) -> None:
     built = build(cell, distro)
     facts = _facts(f"ros2_control/{_CONTROL[distro]}/nodes.yaml")["nodes"]["controller_manager"]
-    for process in (one for one in every_process(built) if one.executable == "ros2_control_node"):
+    for process in (process for process in every_process(built) if process.executable == "ros2_control_node"):
         enclave = _granted(cell, distro)[process.ros_arguments[1]]
         for right, name in _ends(facts, node_name(process)):
             told = process.remaps["~/robot_description"] if name.endswith("/robot_description") else name
             assert enclave.allow(right, told), (right, name)
         # A controller says its transitions although it has no services of a life cycle.
-        for own in (f"{process.namespace}/{one}" for one in _controllers(built, process.namespace)):
+        for own in (f"{process.namespace}/{controller}" for controller in _controllers(built, process.namespace)):
             for right, name in (
                 *_ends(_implied(distro, "rclcpp_node"), own),
                 ("publish", f"{own}/transition_event"),
@@ -98,7 +98,7 @@ def test_controller_managers_may_have_what_theirs_have(cell: str, distro: str) -
 
 
 def _controllers(built: Build, namespace: str) -> list[str]:
-    spawned = [one.arguments for one in every_process(built) if one.executable == "spawner"]
+    spawned = [process.arguments for process in every_process(built) if process.executable == "spawner"]
     return [
         name
         for words in spawned
@@ -121,7 +121,7 @@ def test_move_group_may_have_what_all_nodes_of_its_process_have(cell: str, distr
         "/move_group/moveit": "/move_group/moveit",
         "moveit_<random>": "/moveit_2857311",
     }
-    assert any(one.executable == "move_group" for one in every_process(built))
+    assert any(process.executable == "move_group" for process in every_process(built))
     for key, node in nodes.items():
         for right, name in _ends(facts["nodes_in_the_process"].get(key), node):
             assert enclave.allow(right, name), (right, name)

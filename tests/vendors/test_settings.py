@@ -15,7 +15,7 @@ from tests.vendors.oracle import facts
 from tests.vendors.packages import CASES, Case, real_target
 
 of_the_arm = pytest.mark.parametrize(
-    "case", here(one for one in CASES if one.release.device == "ur5e" and one.cell == "ur5e_pick"), ids=str
+    "case", here(case for case in CASES if case.release.device == "ur5e" and case.cell == "ur5e_pick"), ids=str
 )
 
 
@@ -52,7 +52,7 @@ def test_the_speed_scaling_of_the_arm_is_followed_by_a_controller_that_is_not_de
         assert parameters["speed_scaling"]["state_interface"] == scaling
 
 
-@pytest.mark.parametrize("case", here([one for one in CASES if one.release.device == "franka_fr3"]), ids=str)
+@pytest.mark.parametrize("case", here([case for case in CASES if case.release.device == "franka_fr3"]), ids=str)
 def test_trajectories_on_the_robot_claim_and_weigh_what_the_vendor_s_do(case: Case) -> None:
     told = facts(case.release, "controllers")["vendor_moveit"]["active"]["fr3_arm_controller"]
     parameters = real_target(case).yaml("config/controllers.real.yaml")["arm_trajectory"]["ros__parameters"]
@@ -88,7 +88,7 @@ def test_what_no_distribution_releases_is_built_from_the_commit_that_is_pinned()
 
 def test_packages_are_wanted_at_the_pinned_number_at_least() -> None:
     package = ElementTree.fromstring(artifacts_of("ur5e_pick")["package.xml"])
-    least = {one.text: one.get("version_gte") for one in package.iter("exec_depend")}
+    least = {exec_depend.text: exec_depend.get("version_gte") for exec_depend in package.iter("exec_depend")}
     assert least["ur_robot_driver"] == "3.8.0"
     assert least["controller_manager"] == "4.47.0"
     assert least["moveit_ros_move_group"] == "2.12.4"

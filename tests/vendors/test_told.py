@@ -34,7 +34,7 @@ def test_a_program_of_the_driver_is_told_to_plugin_and_helper_and_needs_remote_c
     # operation_modes.rst of ur_robot_driver 6.0.0: it needs remote control; ur_driver.cpp:148-160: it stops what runs.
     texts = _ways(tmp_path, "program: {played_by: driver, mode: remote}")
     robot = ElementTree.fromstring(texts["urdf/ur5e_pick.real.urdf"])
-    assert [one.text for one in robot.iter("param") if one.get("name") == "headless_mode"] == ["true"]
+    assert [param.text for param in robot.iter("param") if param.get("name") == "headless_mode"] == ["true"]
     helper = safe_load(texts["config/drivers.yaml"])["arm_state_helper"]["ros__parameters"]
     assert helper["headless_mode"] is True
     gates = texts["gates/promotion.md"]
@@ -47,7 +47,7 @@ def test_a_program_of_the_driver_is_told_to_plugin_and_helper_and_needs_remote_c
 def test_a_person_plays_at_the_pendant_or_over_the_dashboard(tmp_path: Path) -> None:
     pendant = artifacts_of("ur5e_pick")
     robot = ElementTree.fromstring(pendant["urdf/ur5e_pick.real.urdf"])
-    assert [one.text for one in robot.iter("param") if one.get("name") == "headless_mode"] == ["false"]
+    assert [param.text for param in robot.iter("param") if param.get("name") == "headless_mode"] == ["false"]
     assert "Have operator load the External Control program and press Play" in _gate(
         pendant["gates/promotion.md"], "G7"
     )

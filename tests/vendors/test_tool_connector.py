@@ -23,7 +23,7 @@ def _spec(connector: str = _LINE) -> str:
     return text.replace(_GRIPPER_BY_USB, "connection: {host: control_pc, through: arm}")
 
 
-@pytest.mark.parametrize("release", here([one for one in RELEASES if one.device == "ur5e"]), ids=str)
+@pytest.mark.parametrize("release", here([release for release in RELEASES if release.device == "ur5e"]), ids=str)
 def test_the_plugin_gets_every_parameter_that_it_reads_with_tool_communication(
     release: Release, tmp_path: Path
 ) -> None:
@@ -52,14 +52,16 @@ def test_the_line_is_forwarded_to_the_port_that_the_gripper_opens(tmp_path: Path
     )
     assert "'real'" in program.get("if", "")
     robot = ElementTree.fromstring(texts["urdf/ur5e_pick.real.urdf"])
-    assert [one.text for one in robot.iter("param") if one.get("name") == "COM_port"] == ["/run/user/1000/arm_tool"]
-    needed = {one.text for one in ElementTree.fromstring(texts["package.xml"]).findall("exec_depend")}
+    assert [param.text for param in robot.iter("param") if param.get("name") == "COM_port"] == [
+        "/run/user/1000/arm_tool"
+    ]
+    needed = {exec_depend.text for exec_depend in ElementTree.fromstring(texts["package.xml"]).findall("exec_depend")}
     assert {"socat", "ur_client_library"} <= needed
 
 
 def test_the_voltage_is_named_before_anything_has_power(tmp_path: Path) -> None:
     gates = emitted(tmp_path, _spec())["gates/promotion.md"].replace("\\", "").split("\n## ")
-    inventory, enabling = (next(one for one in gates if one.startswith(code)) for code in ("G0 ", "G5 "))
+    inventory, enabling = (next(gate for gate in gates if gate.startswith(code)) for code in ("G0 ", "G5 "))
     assert "The tool connector of arm supplies 24 V to gripper" in inventory
     # The settings reach the connector as the program starts, and the gripper is activated with no program.
     played, activated = enabling.index("start the program once and stop it"), enabling.index("hardware that moves")

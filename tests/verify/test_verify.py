@@ -16,10 +16,10 @@ import pytest
 
 from cellc.compiler.graph.cell_graph import build_graph
 from cellc.compiler.graph.frame_tree import FrameTree
+from cellc.compiler.verify import verify
 from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import cell_poses
 from cellc.compiler.verify.parsers import read_by_pinocchio, read_by_yourdfpy
-from cellc.compiler.verify.verify import verify
 from cellc.contract.codes import STAGES
 from cellc.contract.transforms import Pose, apart, from_xyz_rpy, identity
 from tests.cells import CELLS, ROOT, built

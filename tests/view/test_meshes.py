@@ -54,13 +54,13 @@ def _unpacked(text: str) -> NDArray[np.uint16]:
 
 def test_a_link_is_drawn_with_its_mesh_where_that_is_at_hand(page: Page) -> None:
     scene: Any = page.data["scene"]
-    shapes = {one["link"]: (one["kind"], one["size"]) for one in scene["shapes"]}
+    shapes = {shape["link"]: (shape["kind"], shape["size"]) for shape in scene["shapes"]}
     assert shapes == {"seen": ("mesh", [0]), "boxed": ("box", [0.1, 0.1, 0.1])}
     (mesh,) = scene["meshes"]
     points = np.array(mesh["low"]) + mesh["step"] * _unpacked(mesh["vertices"])
     # By hand: a corner of a cube of 4 cm, written in mm, mirrored at y.
     written = {(0, 0, 0), (0.04, 0, 0), (0, -0.04, 0), (0, 0, 0.04)}
-    assert {tuple(np.round(one, 3) + 0.0) for one in points} == written
+    assert {tuple(np.round(point, 3) + 0.0) for point in points} == written
     assert _volume(points, _unpacked(mesh["triangles"])) == pytest.approx(0.04**3 / 6, rel=2e-3)
 
 

@@ -52,7 +52,7 @@ def of_folder() -> Content:
 def test_the_page_loads_nothing_and_names_nothing_to_load(written: Path, page: Page) -> None:
     loading = ("src", "href", "srcset", "action", "data", "poster", "background")
     named = {found[key] for _, found in page.elements for key in loading if key in found}
-    assert {one for one in named if not one.startswith(("#", "data:image/svg+xml;base64,"))} == set()
+    assert {name for name in named if not name.startswith(("#", "data:image/svg+xml;base64,"))} == set()
     assert not any(re.search(r"url\(|@import", style) for style in page.styles)
     assert written.stat().st_size < 2_000_000
 
@@ -97,7 +97,7 @@ def test_names_of_strangers_are_data(of_folder: Content) -> None:
     hostile = replace(
         of_folder,
         subject=replace(of_folder.subject, name=HOSTILE, folder=folder, pictures={"graph/responsibility.svg": HOSTILE}),
-        scene=replace(scene, frames=tuple(replace(one, name=HOSTILE) for one in scene.frames)),
+        scene=replace(scene, frames=tuple(replace(frame, name=HOSTILE) for frame in scene.frames)),
         runs=(replace(first, name=HOSTILE, reason=HOSTILE),),
     )
     restore_topic, found = Page(to_html(of_folder, three_js())), Page(to_html(hostile, three_js()))
@@ -212,10 +212,10 @@ def test_a_spec_with_mistakes_of_every_kind_is_drawn_as_far_as_it_can_be_linked(
     ran, found = _viewed(tmp_path, text)
     assert (ran.code, ran.err) == (1, "")
     scene = found.data["scene"]
-    assert {one["owner"] for one in scene["shapes"]} == {"arm", "camera", ""}
-    assert [one["link"] for one in scene["shapes"] if not one["owner"]] == ["floor"]
+    assert {shape["owner"] for shape in scene["shapes"]} == {"arm", "camera", ""}
+    assert [shape["link"] for shape in scene["shapes"] if not shape["owner"]] == ["floor"]
     # By hand: the arm is mounted 0.8 m above the world, and the camera stands where it is drawn, on the flange.
-    base = next(one for one in scene["frames"] if one["name"] == "arm_base_link")
+    base = next(frame for frame in scene["frames"] if frame["name"] == "arm_base_link")
     assert base["pose"][:3] == [0, 0, 0.8]
     told = found.text[found.text.index("Not drawn what why") :]
     assert re.search(r"devices\.gripper the catalog has no model `robotiq_2f_58` \(\S+:\d+:12\)", told)
@@ -232,7 +232,7 @@ def test_what_hangs_in_a_circle_is_told_and_the_rest_is_drawn(tmp_path: Path) ->
     text = re.sub(r"fixture_A: \{parent: world.*\n  ", circle, spec_text("ur5e_pick"))
     ran, found = _viewed(tmp_path, text)
     assert ran.code == 1
-    assert {one["owner"] for one in found.data["scene"]["shapes"]} == {"arm", "camera", "gripper", ""}
+    assert {shape["owner"] for shape in found.data["scene"]["shapes"]} == {"arm", "camera", "gripper", ""}
     assert re.search(r"frames\.fixture_A [^.]*`fixture_A`.* frames\.jig .* frames\.object", found.text)
 
 
@@ -241,7 +241,7 @@ def test_a_robot_alone_is_drawn(tmp_path: Path) -> None:
     ran = run("view", file.as_posix(), "-o", (tmp_path / "x.html").as_posix())
     found = Page((tmp_path / "x.html").read_text(encoding="utf-8"))
     assert (ran.code, ran.err) == (0, "")
-    assert {one["owner"] for one in found.data["scene"]["shapes"]} == {"robot"}
+    assert {shape["owner"] for shape in found.data["scene"]["shapes"]} == {"robot"}
     assert "a robot alone: a cell that mounts it" in found.text
 
 

@@ -56,9 +56,9 @@ def test_frames_of_a_named_pose_stand_where_pinocchio_has_them(subject: Subject,
     for joint, value in degrees.items():
         positions[model.joints[model.getJointId(joint)].idx_q] = math.radians(value)
     pinocchio.framesForwardKinematics(model, data, positions)
-    home = next(one.groups for one in scene.poses if one.name == "home")
+    home = next(pose.groups for pose in scene.poses if pose.name == "home")
     # The fingers stand as the mock begins, not at zero; what follows them is left out here.
-    compared = [one for one in scene.frames if model.existFrame(one.name) and "85" not in one.name]
+    compared = [frame for frame in scene.frames if model.existFrame(frame.name) and "85" not in frame.name]
     assert len(compared) > 20
     for frame in compared:
         shown = _pose(home, frame.group) @ _pose(frame.pose)
@@ -69,20 +69,20 @@ def test_frames_of_a_named_pose_stand_where_pinocchio_has_them(subject: Subject,
 
 
 def test_every_body_of_the_description_is_drawn_for_its_device(scene: Scene) -> None:
-    assert {one.owner for one in scene.shapes} == {"arm", "gripper", "camera", ""}
-    assert [one.link for one in scene.shapes if not one.owner] == ["table", "floor"]
+    assert {shape.owner for shape in scene.shapes} == {"arm", "gripper", "camera", ""}
+    assert [shape.link for shape in scene.shapes if not shape.owner] == ["table", "floor"]
     assert scene.left_out == ()
 
 
 def test_a_camera_sees_as_its_data_sheet_says(scene: Scene) -> None:
     # D400 series datasheet 337029: RGB 69 x 42 degrees.
-    cone = next(one for one in scene.cones if one.name == "camera_color_optical_frame")
+    cone = next(cone for cone in scene.cones if cone.name == "camera_color_optical_frame")
     assert cone.angles == pytest.approx((math.radians(69), math.radians(42)), abs=1e-3)
 
 
 def test_a_part_is_played_back_from_where_it_lay_to_where_it_is_put(scene: Scene, runs: dict[str, Run]) -> None:
     run, part = runs["pick_and_place"], scene.groups.index("object")
-    track = next(one.poses for one in run.tracks if one.group == part)
+    track = next(track.poses for track in run.tracks if track.group == part)
     # By hand from the spec: fixture_A at 450 100 850 mm, the part 250 mm beside it; both goals hold it alike.
     assert _pose(track).position == pytest.approx((0.450, -0.150, 0.850), abs=1e-4)
     assert _pose(track, len(run.times) - 1).position == pytest.approx((0.450, 0.100, 0.850), abs=3e-3)
@@ -93,7 +93,7 @@ def test_a_run_is_shown_25_times_a_second_while_something_moves(runs: dict[str, 
     assert list(run.times) == sorted(set(run.times))
     assert run.times[0] == 0.0
     assert run.times[-1] == pytest.approx(run.end_s)
-    moving = next(one for one in run.moments if one.name == "move place")
+    moving = next(moment for moment in run.moments if moment.name == "move place")
     within = [time for time in run.times if moving.from_s + 0.5 < time < moving.until_s - 0.5]
     assert max(np.diff(within)) < 0.045
     assert all(len(track.poses) == 7 * len(run.times) for track in run.tracks)

@@ -26,7 +26,6 @@ from cellc.compiler.link.device_facts import (
     network_needs,
     vendor_procedures,
 )
-from cellc.compiler.link.gripper import gripper_of
 from cellc.compiler.link.hardware import hardware_component
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.kinematics import kinematic_parameters, link_kinematics
@@ -34,7 +33,7 @@ from cellc.compiler.link.names import Placeholders, home_host, placeholders, por
 from cellc.compiler.link.ports import port_shifts
 from cellc.compiler.link.quantities import pose
 from cellc.compiler.link.robot import program_parameters, robot_controller, robot_words
-from cellc.compiler.link.tool import gripper_words, host_programs, tool_parameters, tool_words
+from cellc.compiler.link.tool import gripper_of, gripper_words, host_programs, tool_parameters, tool_words
 from cellc.compiler.link.vendor_description import link_vendor_description, with_vendor_shapes
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.text import lies_under

@@ -1,15 +1,17 @@
-"""What the tool connector of a robot gives, what forwards its serial line, and what hangs on it."""
+"""What the tool connector of a robot gives, what forwards its serial line, and the gripper that hangs on it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
 
-from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.device_model import DeviceModel, GripperFacts
 from cellc.compiler.catalog.robot_facts import PlugFacts, ToolConnectorFacts, ToolSerialFacts
+from cellc.compiler.cell.device import Gripper
 from cellc.compiler.cell.robot import HostProgram, Plug, ToolConnector, ToolFacts, ToolSerial
 from cellc.compiler.link.names import Placeholders
-from cellc.compiler.spec.devices import DeviceSpec
+from cellc.compiler.link.quantities import si
+from cellc.compiler.spec.devices import DeviceSpec, GripSpec
 from cellc.compiler.spec.tool import ToolSerialSpec
 
 
@@ -127,3 +129,34 @@ def _serial(written: ToolSerialSpec, facts: ToolSerialFacts | None) -> ToolSeria
         tx_idle_chars=facts.tx_idle_chars.usual if stated.tx_idle_chars is None else stated.tx_idle_chars,
         tcp_port=facts.tcp_port if stated.tcp_port is None else stated.tcp_port,
     )
+
+
+def gripper_of(facts: DeviceModel, written: DeviceSpec, prefix: str) -> Gripper | None:
+    """Return the gripper that the device is, with the speed and force that the spec states."""
+    gripper, stated = facts.gripper, written.grip or GripSpec()
+    if gripper is None:
+        return None
+    speed = gripper.max_speed.si if stated.speed is None else min(stated.speed.si, gripper.max_speed.si)
+    return Gripper(
+        joint=prefix + gripper.joint,
+        open=gripper.open.si,
+        closed=gripper.closed.si,
+        max_force=gripper.max_force.si,
+        max_velocity=_joint_speed(gripper, speed),
+        goal_tolerance=float(gripper.goal_tolerance.si),
+        stroke_m=gripper.stroke.si,
+        swing=si(gripper.swing),
+        max_speed_m_s=gripper.max_speed.si,
+        min_force=si(gripper.min_force),
+        grip_speed_m_s=si(stated.speed),
+        grip_force=si(stated.force),
+    )
+
+
+def _joint_speed(gripper: GripperFacts, speed_m_s: float) -> float | None:
+    """Return the joint speed that corresponds to a speed of the jaws, in rad/s or m/s; None where it has no value.
+
+    Jaw travel is taken as linear in the joint position. The limit in a vendor's URDF differs, and was not measured.
+    """
+    way, stroke = abs(float(gripper.closed.si) - float(gripper.open.si)), gripper.stroke.si
+    return speed_m_s * way / stroke or None if stroke > 0.0 else None

@@ -24,8 +24,8 @@ class WriteReport:
     unchanged: tuple[str, ...]
 
     def __repr__(self) -> str:
-        told = f"{len(self.written)} written, {len(self.removed)} removed, {len(self.unchanged)} unchanged"
-        return f"<WriteReport: {told}>"
+        counts = f"{len(self.written)} written, {len(self.removed)} removed, {len(self.unchanged)} unchanged"
+        return f"<WriteReport: {counts}>"
 
 
 def write(

@@ -1,4 +1,4 @@
-"""`cellc sweep`, and the runs of it that `cellc replay` makes again."""
+"""`cellc sweep` with the runs of it that `cellc replay` makes again, and `cellc gates`, which judges all evidence."""
 
 from __future__ import annotations
 
@@ -9,15 +9,19 @@ from pathlib import Path
 from time import perf_counter
 
 from cellc.contract.compute.work import ComputeError
+from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.limits import limits
 from cellc.contract.printing import progress, remark, show, show_document
 from cellc.contract.rehearsals import RehearsalEntry
-from cellc.mock.cell import MockCell
-from cellc.mock.command.campaign import executor, pace
+from cellc.mock.cell import MockCell, in_turn
+from cellc.mock.command.campaign import conduct_all, executor, load_for_campaign, pace
 from cellc.mock.command.ending import refusing
-from cellc.mock.command.options import FolderOptions, ReplayOptions, SweepOptions
+from cellc.mock.command.options import FolderOptions, GatesOptions, ReplayOptions, SweepOptions
 from cellc.mock.command.rehearsals import keep_evidence, load_seeded
 from cellc.mock.errors import MockError
+from cellc.mock.gates.gate import Verdict, gate_lines, gates_as_data
+from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
+from cellc.mock.gates.sign import sign_gates
 from cellc.mock.sweep.figures import interval
 from cellc.mock.sweep.journal import Journal
 from cellc.mock.sweep.names import SWEPT
@@ -56,6 +60,29 @@ def run_sweep(options: SweepOptions) -> int:
         lines = (line for each in sweeps for line in sweep_lines(each, cell.contract, _replay(options, each)))
         show(*(f"note: {note}" for note in cell.notes), *lines)
     return 0 if all(each.verdict or each.expected is None for each in sweeps) else 1
+
+
+@refusing
+def run_gates(options: GatesOptions) -> int:
+    """Run everything that is evidence, and print each gate with its lines.
+
+    Returns:
+        0 where no line failed, UNKNOWN ones among them; 1 where one did; 2 where the folder or an option is unusable.
+    """
+    cell, wanted = load_for_campaign(options), options.sweep
+    entries = () if wanted is None else entries_to_sweep(cell, wanted)  # or it refuses, before the minutes of the rest
+    results = [cell.run(name, seed=options.seed) for name in in_turn(cell, cell.rehearsals)]
+    campaign = conduct_all(cell, options)
+    sweeps = () if wanted is None else tuple(sweep_entry(cell, entry, wanted) for entry in entries)
+    keep_evidence(cell, dict.fromkeys(cell.rehearsals), options, campaign, sweeps)
+    runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
+    gates = sign_gates(cell.folder, runs, options.seed, sweeps)
+    if options.as_json:
+        judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
+        show_document(json_document(judged))
+    else:
+        show(*(f"note: {note}" for note in cell.notes), *list(gate_lines(gates))[:-1])
+    return 1 if any(gate.verdict is Verdict.FAILED for gate in gates) else 0
 
 
 def entries_to_sweep(cell: MockCell, options: SweepOptions) -> Sequence[RehearsalEntry]:

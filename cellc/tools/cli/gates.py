@@ -33,7 +33,7 @@ def gates(options: GatesOptions) -> None:
     cellc gates generated/bench --sweep 10000 --journal sweep.jsonl
     cellc gates generated/bench --evidence evidence/1
     """
-    from cellc.mock.command.gates import run_gates
+    from cellc.mock.command.sweep import run_gates
 
     if options.journal is not None and options.runs is None:
         raise click.UsageError("--journal needs --sweep.")

@@ -23,12 +23,12 @@ _NAMED: tuple[YamlPath, ...] = (("devices",), ("frames",), ("scene",), ("motion"
 _BESIDE = frozenset(("since", "designed", "reference_points", "rate", "buffer", "published_by", "kind", "transform_at"))
 """What an entry may lose and still stand where it is written to stand."""
 _PLACING = ("parent", "xyz", "rpy", "box", "frame", "group")
-_NOBODY = "nobody"
+_NO_DEVICE = "no_device"
 _STAND_INS: dict[str, Plain] = {
     "format": 1,
     "cell": "cell",
     "versions": {"ros": tuple(Distro)[-1].value},
-    "devices": {_NOBODY: {"model": "./nobody"}},
+    "devices": {_NO_DEVICE: {"model": "./no_device"}},
 }
 """Sections that a spec cannot do without, and a drawing can."""
 
@@ -85,7 +85,7 @@ def _linked(document: SourceDocument) -> tuple[Cell | None, tuple[Diagnostic, ..
     spec = parse(document)
     if spec.value is None:
         return None, spec.diagnostics
-    devices = {name: device for name, device in spec.value.devices.items() if name != _NOBODY}
+    devices = {name: device for name, device in spec.value.devices.items() if name != _NO_DEVICE}
     cell = link(spec.value.model_copy(update={"devices": devices}), document)
     return cell.value, tuple(diagnostic for diagnostic in cell.diagnostics if diagnostic.severity is Severity.ERROR)
 

@@ -74,7 +74,7 @@ def _with_devices(spec: str) -> dict[str, str]:
 def _from_corpus(name: str) -> dict[str, str]:
     files = {"cell.yaml": (_VALID / f"{name}.yaml").read_text(encoding="utf-8")}
     parts = _VALID / "parts"
-    for path in sorted(one for one in parts.rglob("*") if one.is_file()):
+    for path in sorted(path for path in parts.rglob("*") if path.is_file()):
         if "stage" not in path.parent.name:  # devices of other specs
             files[f"parts/{path.relative_to(parts).as_posix()}"] = path.read_text(encoding="utf-8")
     return files

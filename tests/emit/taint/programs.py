@@ -88,7 +88,9 @@ def manifest(text: str) -> Manifest:
         "name": not re.fullmatch("[a-zA-Z0-9][a-zA-Z0-9_-]*", name),
         "version": not _NUMBER.fullmatch(version),
         "description": not description,
-        "maintainer": not all(_ADDRESS.fullmatch(one.get("email", "")) for one in root.findall("maintainer")),
+        "maintainer": not all(
+            _ADDRESS.fullmatch(maintainer.get("email", "")) for maintainer in root.findall("maintainer")
+        ),
         "license": not all(_texts(root, "license")),
         "depend": name in keys,
     }
@@ -130,7 +132,9 @@ def cmake(text: str) -> Commands:
     """Return every argument of a command of CMake; a variable that is ours is filled in."""
     told = "\n".join(line for line in text.splitlines() if not line.startswith("#"))
     told = told.replace("${PROJECT_NAME}", "PROJECT_NAME")
-    return [["cmake", *re.findall(r'"[^"]*"|[^\s"]+', one)] for one in re.findall(r"^\w+\(([^)]*)\)$", told, re.M)]
+    return [
+        ["cmake", *re.findall(r'"[^"]*"|[^\s"]+', element)] for element in re.findall(r"^\w+\(([^)]*)\)$", told, re.M)
+    ]
 
 
 READ_BY: dict[str, tuple[Callable[[str], Commands], ...]] = {

@@ -78,7 +78,7 @@ def tried(
 
 def errors_of(checked: Checked) -> list[Diagnostic]:
     """Return the findings that keep artifacts from being written."""
-    return [one for one in checked.diagnostics if one.severity is Severity.ERROR]
+    return [diagnostic for diagnostic in checked.diagnostics if diagnostic.severity is Severity.ERROR]
 
 
 def _culprit(folder: Path, files: Files, texts: Mapping[Place, str], error: Diagnostic) -> tuple[str, Diagnostic]:
@@ -91,7 +91,7 @@ def _culprit(folder: Path, files: Files, texts: Mapping[Place, str], error: Diag
         some = set(several[:middle])
         given = {place: text for place, text in texts.items() if text in some}
         found = errors_of(checked_with(folder, files, given))
-        if same := [one for one in found if (one.code, one.yaml_path) == (error.code, error.yaml_path)]:
+        if same := [finding for finding in found if (finding.code, finding.yaml_path) == (error.code, error.yaml_path)]:
             high, error = middle, same[0]
         else:
             low = middle

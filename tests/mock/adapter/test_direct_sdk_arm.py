@@ -235,7 +235,7 @@ def test_every_fault_at_every_step_ends_in_a_named_outcome(cell: MockCell) -> No
 def test_a_campaign_expects_the_stop_of_a_watchdog_that_waits_less_than_the_missed_cycles_last() -> None:
     # Five cycles beyond none, of 4 ms: the next command is 24 ms after the last, the watchdog waits 20 ms.
     loop = load(ROOT / "generated/hybrid_sdk")
-    (case,) = (one for one in possible_faults(loop.contract) if one.entry.kind == "skip_cycles")
+    (case,) = (fault for fault in possible_faults(loop.contract) if fault.entry.kind == "skip_cycles")
     named = {outcome for ending in case.endings.values() for outcome in ending.outcomes}
     assert {"missed_cycle", "protective_stop"} <= named
 
@@ -258,4 +258,4 @@ def test_start_beside_the_last_command_is_noted_an_instant_after_it(
     assert response.accepted, response.log_reason
     _, interruptions = server.journal.take()
     # What was commanded at the same instant is no jump: it becomes one with the next command.
-    assert [one.stamp_ns for one in interruptions] == noted
+    assert [interruption.stamp_ns for interruption in interruptions] == noted

@@ -43,7 +43,7 @@ def test_json_names_every_run_with_its_bound_digest_and_replay(folders: dict[str
     assert told["passed"] is True
     assert told["seed"] == 0
     attempts = [json.loads(line) for line in records.read_text(encoding="utf-8").splitlines()]
-    assert {attempt["rehearsal"] for attempt in attempts} == {one["id"] for one in told["runs"]}
+    assert {attempt["rehearsal"] for attempt in attempts} == {run["id"] for run in told["runs"]}
     one = told["runs"][-1]
     command = shlex.split(one["replay"])
     assert command[:2] == ["cellc", "replay"]

@@ -137,7 +137,7 @@ def test_trajectory_controller_does_as_recorded(path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "path", [one for one in recorded_cases("joint_trajectory", "cases/*.yaml") if "nan" in str(one)]
+    "path", [case for case in recorded_cases("joint_trajectory", "cases/*.yaml") if "nan" in str(case)]
 )
 def test_published_output_is_frozen_while_a_command_is_nan_and_empty_afterwards(path: Path) -> None:
     case = read_yaml(path)

@@ -23,11 +23,11 @@ def contract(tmp_path_factory: pytest.TempPathFactory) -> Contract:
 
 def test_controllers_of_one_name_have_topics_of_their_own_that_ros_accepts(contract: Contract) -> None:
     told = [(name, key) for name, manager in contract.managers.items() for key in manager.controllers]
-    states = [controller_state_topic(contract, *one).name for one in told if one[1].endswith("trajectory")]
+    states = [controller_state_topic(contract, *finding).name for finding in told if finding[1].endswith("trajectory")]
     goals = [goal_topic(key, gripper=False).name for _, key in told if key.endswith("trajectory")]
     assert states == ["/left/trajectory/controller_state", "/right/trajectory/controller_state"]
     assert goals == ["/cellc/left/trajectory/goal", "/cellc/right/trajectory/goal"]
-    joints = [joint_states_topic(contract, *one).name for one in told]
+    joints = [joint_states_topic(contract, *finding).name for finding in told]
     assert all(_LEGAL.fullmatch(name) for name in (*states, *goals, *joints))
 
 
@@ -37,4 +37,4 @@ def test_controller_that_no_other_manager_has_keeps_its_short_name() -> None:
 
 def test_states_of_two_managers_that_meet_on_one_topic_stand_there(contract: Contract) -> None:
     keys = [(name, key) for name, one in contract.managers.items() for key in one.controllers if "states" in key]
-    assert [joint_states_topic(contract, *one).name for one in keys] == ["/joint_states"] * 2
+    assert [joint_states_topic(contract, *key).name for key in keys] == ["/joint_states"] * 2

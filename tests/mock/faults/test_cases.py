@@ -137,7 +137,9 @@ def test_refusal_of_a_group_that_moves_after_another_may_come_after_its_motion()
     in_turn = CellStep("move", "home", ("loader_trajectory", "unloader_trajectory"))
     # Each goal of an arm may take what the action that plans and executes allows.
     (allowed_s,) = {
-        one.timeout_s for one in bounds.contract.interfaces.values() if one.type == "moveit_msgs/action/MoveGroup"
+        interface.timeout_s
+        for interface in bounds.contract.interfaces.values()
+        if interface.type == "moveit_msgs/action/MoveGroup"
     }
     assert allowed_s is not None
     assert bounds.refused_s(alone) == bounds.asked_s()

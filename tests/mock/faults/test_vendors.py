@@ -52,8 +52,10 @@ def of(name: str, *faults: FaultEntry, steps: tuple[StepEntry, ...] = (), watche
 
 def component(run: Run, name: str) -> str:
     """Return the state of a hardware component at the end of a run."""
-    listed = [one for each in run.plant.control.managers.values() for one in each.list_hardware_components()]
-    return next(one.state for one in listed if one.name == name)
+    listed = [
+        component for each in run.plant.control.managers.values() for component in each.list_hardware_components()
+    ]
+    return next(entry.state for entry in listed if entry.name == name)
 
 
 @pytest.mark.parametrize("kind", STOPS)
@@ -141,7 +143,7 @@ def test_a_claim_that_somebody_takes_while_nobody_has_acknowledged_goes_again(
 
     def state(plant: Plant) -> str:
         (manager,) = plant.control.managers.values()
-        return {one.name: one.state for one in manager.list_controllers()}["arm_trajectory"]
+        return {controller.name: controller.state for controller in manager.list_controllers()}["arm_trajectory"]
 
     def claimed(plant: Plant) -> None:
         (manager,) = plant.control.managers.values()

@@ -15,7 +15,7 @@ from tests.mock.gates.conftest import line
 
 
 def _judged(pick: MockCell, *sweeps: Sweep) -> GateCheck:
-    mock_gate = next(one for one in sign_gates(pick.folder, (), 0, sweeps) if one.gate == "G2")
+    mock_gate = next(gate for gate in sign_gates(pick.folder, (), 0, sweeps) if gate.gate == "G2")
     return line(mock_gate, "pick_and_place succeeds in 0.99 of its runs or more")
 
 

@@ -84,7 +84,7 @@ def test_what_joints_and_reach_had_left_is_told_of_each_goal(nest: MockCell, twe
 
 
 def test_margins_go_from_the_best_run_to_the_worst_up_to_their_bounds(nest: MockCell, twelve: Sweep) -> None:
-    found = {one.name: one for one in margins(twelve, nest.contract)}
+    found = {margin.name: margin for margin in margins(twelve, nest.contract)}
     distances = sorted(run.goals["put"].distance_m for run in twelve.runs)
     off, near = found["distance at put"], found["least singular value at put"]
     assert (off.values, off.bound) == (tuple(distances), TOLERANCE_M)
@@ -113,14 +113,14 @@ def test_a_drawing_holds_the_bound_and_every_run(nest: MockCell, twelve: Sweep) 
     assert places(Margin("near", "m", (10.0, 6.0), 0.0, falling=True)) == ([0.0, 80.0], 199.0, ["runs", "runs"])
     assert places(Margin("near", "m", (-5.0, -10.0), 0.0, falling=True)) == ([100.0, 196.0], 0.0, 2 * ["runs beyond"])
     nowhere = replace(twelve, runs=tuple(replace(run, goals={}, joint_state_age_s=None) for run in twelve.runs))
-    assert "best to worst" not in {one.text for one in sweep_section(nowhere, nest.contract).iter()}
+    assert "best to worst" not in {element.text for element in sweep_section(nowhere, nest.contract).iter()}
 
 
 def test_a_margin_of_what_is_observed_ends_where_an_observation_is_too_old() -> None:
     pick = load(generated("ur5e_pick"))
     stated = pick.contract.interfaces["/object_pose"].max_age_s
     swept_twice = sweep(pick, pick.entry("pick_and_place"), seed=0, most=2, factory=None, known={}, keep=lambda _: None)
-    found = {one.name: one.bound for one in margins(swept_twice, pick.contract)}
+    found = {margin.name: margin.bound for margin in margins(swept_twice, pick.contract)}
     assert stated is not None
     assert (found["age of transforms at pick"], found["age of transforms at place"]) == (stated, None)
     assert (found["clearance at pick"], found["clearance at place"]) == (0.0, 0.0)
@@ -134,7 +134,10 @@ def test_a_run_is_the_same_alone_and_by_any_number_of_processes(nest: MockCell, 
 
 
 def test_what_is_said_of_a_cell_is_drawn_and_nothing_else(nest: MockCell) -> None:
-    found = {one.name: (one.distribution, one.unit, one.spread, one.source) for one in uncertainty_of(nest).quantities}
+    found = {
+        quantity.name: (quantity.distribution, quantity.unit, quantity.spread, quantity.source)
+        for quantity in uncertainty_of(nest).quantities
+    }
     axis = ("isotropic", "m", RESIDUAL_M, "calibrations.nest.residual")
     assert found == {
         **dict.fromkeys(NEST, axis),
@@ -143,7 +146,7 @@ def test_what_is_said_of_a_cell_is_drawn_and_nothing_else(nest: MockCell) -> Non
 
 
 def test_the_known_rate_lies_in_the_interval_in_95_of_100_seeds(nest: MockCell) -> None:
-    quantities = [one for one in uncertainty_of(nest).quantities if one.name in NEST]
+    quantities = [quantity for quantity in uncertainty_of(nest).quantities if quantity.name in NEST]
     truth = 1.0 - missed_by_hand()
     assert truth == pytest.approx(0.9197, abs=1e-4)
     found = 0
@@ -157,12 +160,12 @@ def test_the_known_rate_lies_in_the_interval_in_95_of_100_seeds(nest: MockCell) 
 def test_the_only_cause_is_named_and_what_has_no_effect_is_not(nest: MockCell) -> None:
     quantities = uncertainty_of(nest).quantities
     rows = [draw(quantities, 0, run) for run in range(600)]
-    values = {one.name: np.array([row[one.name] for row in rows]) for one in quantities}
+    values = {quantity.name: np.array([row[quantity.name] for row in rows]) for quantity in quantities}
     distance = np.sqrt(sum(values[name] ** 2 for name in NEST))
     first, *others = explain(quantities, values, distance > TOLERANCE_M)
     assert (first.name, first.names, first.explains) == ("nest", NEST, True)
     assert first.statistic == 1.0
-    assert [(one.name, one.explains) for one in others] == [("clock pc", False)]
+    assert [(other.name, other.explains) for other in others] == [("clock pc", False)]
     assert first.halved is not None
     assert first.halved < 1e-3  # Maxwell: 5e-6 at twice the tolerance
 

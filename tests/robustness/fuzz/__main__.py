@@ -57,8 +57,8 @@ def _show(kind: str, number: int, folder: str | None) -> None:
 def _replay(kind: str, number: int) -> int:
     with tempfile.TemporaryDirectory() as name:
         found, took, peak = judge_alone(kind, number, Sandbox(Path(name)))
-    for one in found:
-        print(f"{one.wrong}: {one.text}")
+    for finding in found:
+        print(f"{finding.wrong}: {finding.text}")
     print(json.dumps({"finds": len(found), "s": round(took, 3), "mb": round(peak / 2**20)}))
     return 1 if found else 0
 

@@ -101,7 +101,7 @@ def _spec(number: int, chance: random.Random) -> FuzzInput:
 def _device(number: int, chance: random.Random) -> FuzzInput:
     devices = bases.devices()
     base = chance.choice(devices[:4] if chance.random() < 0.75 else devices)
-    facts = _mutated(copied(base.facts), [one.facts for one in devices], chance)
+    facts = _mutated(copied(base.facts), [device.facts for device in devices], chance)
     spec = write_yaml(base.spec).encode()
     return FuzzInput(
         "device", number, {SPEC: spec, "device/device.yaml": facts, "device/device.urdf": base.urdf.encode()}
@@ -242,7 +242,7 @@ def _import(number: int, chance: random.Random) -> FuzzInput:
     for _ in range(_times(chance) if chance.random() < 0.15 else 0):
         data = mutate_bytes(data, chance)
     files[XACRO if is_xacro else URDF] = data
-    links = [one.get("name", "") for one in root.iter("link")]
+    links = [link.get("name", "") for link in root.iter("link")]
     for name, share, content in (
         ("device/package.xml", 0.4, _PACKAGE),
         ("device/robot.srdf", 0.4, _semantic(root.get("name", ""), links)),
@@ -267,7 +267,7 @@ def _imported_before(base: bases.DeviceBase, chance: random.Random) -> dict[str,
     lock: Tree = {"format": 1, "source": "robot.urdf", "files": files, "device": copied(base.facts)}
     if chance.random() < 0.7:
         lock = TreeMutator(lock, _parsed_jsons(), chance, json=True).mutate(_times(chance))
-    facts = _mutated(copied(base.facts), [one.facts for one in bases.devices()], chance)
+    facts = _mutated(copied(base.facts), [device.facts for device in bases.devices()], chance)
     left = {"robot.urdf": urdf, "device.yaml": facts, "import.lock.json": write_json(lock).encode("utf-8", "replace")}
     return {f"{OUT}/{name}": data for name, data in left.items() if chance.random() < 0.9}
 

@@ -163,7 +163,7 @@ def _built(checked: Checked, sandbox: Sandbox | None) -> Iterator[Find]:
         if texts.get(artifact.path, artifact.text) != artifact.text:
             yield Find("artifact", f"{artifact.path} differs between two builds")
     if sandbox is not None:
-        sandbox.write({f"{FOLDER}/{one.path}": one.text.encode() for one in outcome.value})
+        sandbox.write({f"{FOLDER}/{item.path}": item.text.encode() for item in outcome.value})
         try:
             cell = load(Path(FOLDER))
             for name in cell.rehearsals[:1]:
@@ -273,11 +273,13 @@ def _differences(forgetful: Sequence[object], kept: Sequence[object]) -> Iterato
 
 
 def _messages(found: Sequence[Diagnostic]) -> Iterator[Find]:
-    for one in found:
-        if not one.message.strip():
-            yield Find("message", f"{one.code} says nothing")
-        if one.severity is Severity.ERROR and (not one.span.file or one.span.line < 1 or one.span.column < 1):
-            yield Find("message", f"{one.code}: no place: {one.span}")
+    for finding in found:
+        if not finding.message.strip():
+            yield Find("message", f"{finding.code} says nothing")
+        if finding.severity is Severity.ERROR and (
+            not finding.span.file or finding.span.line < 1 or finding.span.column < 1
+        ):
+            yield Find("message", f"{finding.code}: no place: {finding.span}")
 
 
 def _rendered(checked: Checked) -> Iterator[Find]:

@@ -104,7 +104,7 @@ class TreeMutator:
             return
         place = self._chance.choice(found)
         names, text = names_in(self.tree), str(value_at(*place))
-        alike = [str(value_at(*one)) for one in found if one[1] == place[1]]
+        alike = [str(value_at(*finding)) for finding in found if finding[1] == place[1]]
         if self._chance.random() < 0.5 and len(alike) > 1:
             names = alike
         device, slash, rest = text.partition("/")
@@ -123,7 +123,7 @@ class TreeMutator:
         if (first := any_place(self.tree, self._chance)) is None:
             return
         kind = type(value_at(*first))
-        alike = [one for one in places(self.tree) if one[1] == first[1] and type(value_at(*one)) is kind]
+        alike = [place for place in places(self.tree) if place[1] == first[1] and type(value_at(*place)) is kind]
         second = self._chance.choice(alike)
         kept, other = copied(value_at(*first)), copied(value_at(*second))
         put(*first, other)

@@ -34,7 +34,7 @@ def judge_alone(kind: str, number: int, sandbox: Sandbox) -> tuple[list[Find], f
         What does not hold, the time of the processor in s, and the peak of the resident memory in bytes.
     """
     found, took, peak = _judged(kind, number, sandbox, in_child=False)
-    if any(one.wrong in ("hang", "memory") or "MemoryError" in one.text for one in found):
+    if any(finding.wrong in ("hang", "memory") or "MemoryError" in finding.text for finding in found):
         found, took, peak = _judged(kind, number, sandbox, in_child=True)
     return found, took, peak
 
@@ -97,7 +97,7 @@ def main() -> None:
             for number in range(first, last):
                 print(json.dumps({"begin": [kind, number]}), file=out)
                 found, took, peak = judge_alone(kind, number, sandbox)
-                told = [[one.wrong, one.text] for one in found]
+                told = [[finding.wrong, finding.text] for finding in found]
                 print(json.dumps({"end": [kind, number], "found": told, "s": took, "mb": peak / 2**20}), file=out)
             print(json.dumps({"done": [kind, first, last]}), file=out)
 

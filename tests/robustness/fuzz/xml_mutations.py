@@ -79,7 +79,7 @@ class XmlMutator:
         return self._chance.choice(found) if found else None
 
     def _attributes(self, *names: str) -> list[tuple[Element, str]]:
-        return [(one, key) for one in self.root.iter() for key in one.attrib if not names or key in names]
+        return [(element, key) for element in self.root.iter() for key in element.attrib if not names or key in names]
 
     def _attribute(self) -> None:
         if found := self._attributes():
@@ -139,8 +139,10 @@ class XmlMutator:
 
     def _turned(self) -> None:
         """Turn the tree of links: let a parent be its own child, or a child the root."""
-        links = [one for one in self.root.iter() if one.tag in ("parent", "child") and "link" in one.attrib]
-        names = [one.get("name", "") for one in self.root.iter("link")]
+        links = [
+            element for element in self.root.iter() if element.tag in ("parent", "child") and "link" in element.attrib
+        ]
+        names = [link.get("name", "") for link in self.root.iter("link")]
         if links and names:
             self._chance.choice(links).set("link", self._chance.choice(names))
 

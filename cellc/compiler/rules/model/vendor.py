@@ -90,7 +90,7 @@ def unread_vendor_description(graph: CellGraph) -> Findings:
 _COMPONENT_TYPES = ("system", "actuator", "sensor")
 _STANDARD = ("position", "velocity", "acceleration", "effort")
 
-Told = Iterator[tuple[str, Span | None]]
+Faulty = Iterator[tuple[str, Span | None]]
 """What is wrong, and where the description says it."""
 
 
@@ -103,7 +103,7 @@ def unusable_ros2_control(graph: CellGraph) -> Findings:
             yield Finding(message, span or graph.cell.locate(*path), path)
 
 
-def _unloadable(description: Description) -> Told:
+def _unloadable(description: Description) -> Faulty:
     if description.hardware_error:
         yield f"ros2_control refuses the description: {description.hardware_error}", description.hardware_error_span
     names = Counter(component.name for component in description.hardware)
@@ -119,7 +119,7 @@ def _unloadable(description: Description) -> Told:
             yield f"`{component.name}` names no plugin", component.span
 
 
-def _of_joints(device: Device) -> Told:
+def _of_joints(device: Device) -> Faulty:
     joints = {joint.name.removeprefix(device.body.prefix): joint for joint in device.body.description.joints}
     commanded: dict[str, str] = {}
     for component in device.body.description.hardware:
@@ -139,7 +139,7 @@ def _of_joints(device: Device) -> Told:
                 yield f"`{part.name}` of `{component.name}` has no interface", part.span
 
 
-def _of_interfaces(part: HardwarePart) -> Told:
+def _of_interfaces(part: HardwarePart) -> Faulty:
     for kind, interfaces in (("command", part.command_interfaces), ("state", part.state_interfaces)):
         names = Counter(interface.name for interface in interfaces)
         for interface in interfaces:
