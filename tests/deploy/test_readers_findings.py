@@ -35,7 +35,65 @@ def test_a_driver_that_commands_from_its_start_on_is_started_after_the_test_of_t
     assert not [code for code in ("G3", "G4") if "rives disabled" in gates[code]]
 
 
-@pytest.mark.parametrize("cell", sorted(set(_WALKED) - {"gen3_2f"}))
+@pytest.mark.parametrize("cell", ["fr3_hand", "hybrid_sdk"])
+def test_the_stop_of_a_robot_that_may_need_open_brakes_is_tested_before_its_program_connects(cell: str) -> None:
+    # libfranka@0.20.4 docs/getting_started.rst:144,155 does not say whether Desk grants FCI with closed brakes.
+    gates = _gates(cell)
+    before = ("Place the observer", "Payload of arm", "Open the brakes", "trip the stop", "power the drives again")
+    assert _in_order(gates["G3"], *before, "activate FCI", f"launch {cell} cell.launch.xml")
+    assert "trip the stop" not in gates["G5"]
+    assert not [code for code in ("G3", "G4") if "rives disabled" in gates[code]]
+    assert "people at the cell enable the drives (G3)" in built(cell).texts["README.md"].replace("\n", " ")
+
+
+def test_an_axis_is_homed_after_the_stop_was_tested_and_again_after_its_power_was_off() -> None:
+    order = (
+        "Power the axis. It must not move",
+        "trip the stop",
+        "Home the axis",
+        "power of the axis off",
+        "home it again",
+    )
+    assert _in_order(_gates("rail_arm")["G5"], *order)
+
+
+@pytest.mark.parametrize("name", device_names())
+def test_a_step_that_powers_drives_for_the_test_of_the_stop_moves_nothing(name: str) -> None:
+    for step in device_of(name).model.commissioning:
+        assert not (step.powers and re.search(r"[Hh]ome the|on and off by hand|must close and open", step.does))
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_a_state_that_no_topic_reports_is_looked_for_at_the_device(cell: str) -> None:
+    text = "".join(_gates(cell).values())
+    reported = "\n".join(re.findall(r"reports none of these states: (.*)", text))
+    for device in built(cell).graph.cell.devices:
+        safety = device_of(device.model).model.safety
+        for state in () if safety is None else safety.states:
+            if state.stops and state.seen is not None:
+                assert f"Check at {device.name} that it is not in state {state.name}, which no topic reports" in text
+                assert f"({state.seen})" not in reported
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_no_sentence_of_a_checklist_has_more_than_25_words(cell: str) -> None:
+    for gate in _gates(cell).values():
+        for line in re.findall(r"^- \[ \] (.*)", gate, re.MULTILINE):
+            for sentence in re.split(r"(?<=[.!?:;])\s+", re.sub(r"`[^`]*`", "it", line)):
+                assert len(sentence.split()) <= 25, sentence
+
+
+def test_a_drill_that_restarts_hardware_activates_what_a_person_activated() -> None:
+    assert "Start it again as in G4 and activate it as above." in _gates("openarm_bimanual")["G5"]
+    assert "Start it again as in G4." in _gates("fr3_hand")["G5"]
+
+
+def test_a_robot_behind_an_adapter_has_no_driver_to_start() -> None:
+    assert "The adapter must be off" in _gates("hybrid_sdk")["G6"]
+    assert "he driver" not in _gates("hybrid_sdk")["G6"]
+
+
+@pytest.mark.parametrize("cell", sorted(set(_WALKED) - {"gen3_2f", "fr3_hand"}))
 def test_any_other_driver_is_started_with_its_drives_disabled(cell: str) -> None:
     gates = _gates(cell)
     assert "trip the stop" in gates["G5"]

@@ -99,7 +99,7 @@ def test_a_turn_past_the_half_is_told_as_the_shorter_one(tmp_path: Path) -> None
 def test_payload_has_its_inertia_its_frame_and_who_tells_it(tmp_path: Path) -> None:
     stated = "center_of_mass: -5 5 46 mm"
     text = spec_text("fr3_hand").replace(stated, f"{stated}, inertia: 0.0011 0.0024 0.0017 0 0 0 kg m^2")
-    gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G5").replace("\\", "")
+    gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G3").replace("\\", "")
     figures = "center of mass -5 5 46 mm, inertia 0.0011 0.0024 0.0017 0 0 0 kg m^2"
     assert (
         f"Payload of arm: 0.92 kg with tool, {figures} (ixx iyy izz ixy ixz iyz about it) in fr3_link8. Enter" in gate

@@ -63,7 +63,8 @@ class SafetyStateFacts(CatalogModel):
         moment: Moment of ``effects`` that says what the stop does.
         ends: What a claim needs and no longer has in this state, besides what the moment ends.
         left_by: What ends the stop once its cause is gone.
-        reported: How the state is seen, such as a value of a topic or a light.
+        reported: How the driver reports the state, such as a value of a topic or an action that ends.
+        seen: What people see at the device in a state that its driver does not report.
         gate: Gate of bring-up in which people look for the state; one that only an activation or an action shows cannot
             be seen earlier.
     """
@@ -74,12 +75,15 @@ class SafetyStateFacts(CatalogModel):
     ends: tuple[NeedName, ...] = ()
     left_by: LeftByName = LeftBy.ACTIVATION
     reported: Text | None = None
+    seen: Text | None = None
     gate: GateName = GateCode.G4
 
     @model_validator(mode="after")
     def _only_a_stop_ends(self) -> "SafetyStateFacts":
         if not self.stops and (self.ends or self.left_by is not LeftBy.ACTIVATION or self.moment is not Moment.STOP):
             raise ValueError("must not have `moment`, `ends` or `left_by` where `stops` is false")
+        if self.reported is not None and self.seen is not None:
+            raise ValueError("must have `reported` or, where its driver does not report it, `seen`")
         return self
 
 

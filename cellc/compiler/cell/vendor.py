@@ -11,9 +11,11 @@ from cellc.contract.vocabulary import GateCode, LeftBy, Moment, Need, RobotSetti
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SafetyState:
-    """A state of the device's safety controller, how its driver reports it, and the gate that looks for it.
+    """A state of the device's safety controller, how it is noticed, and the gate that looks for it.
 
     Args:
+        reported: how the driver reports it.
+        seen: what people see at the device, where the driver does not report it.
         moment: the one whose effect says what the stop does.
         ends: what a claim needs and no longer has in this state, besides what that effect ends.
         left_by: what ends the stop once its cause is gone.
@@ -23,6 +25,7 @@ class SafetyState:
     stops: bool
     reported: str | None
     gate: GateCode
+    seen: str | None = None
     moment: Moment = Moment.STOP
     ends: tuple[Need, ...] = ()
     left_by: LeftBy = LeftBy.ACTIVATION

@@ -67,7 +67,8 @@ def _drilled(cell: Cell) -> Iterator[Device]:
 def _without_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
     effects = _effects(device)
     if (ended := effects.get(Moment.DEACTIVATE)) is not None:
-        yield "End the hardware launch with Ctrl-C. Start it again as in G4.", _follows(cell, device, ended, ())
+        began = "G4" if device.control.startup_state == "active" else "G4 and activate it as above"
+        yield f"End the hardware launch with Ctrl-C. Start it again as in {began}.", _follows(cell, device, ended, ())
     cut, again = effects.get(Moment.LINK_LOST), effects.get(Moment.RECONNECT)
     if cut is None or again is None:
         return

@@ -38,13 +38,15 @@ def jogging(graph: CellGraph) -> Iterator[Values]:
 
 
 def guided(graph: CellGraph) -> Iterator[Values]:
-    """Yield the first motions of robots whose driver cannot run meanwhile, with how their vendors have people move
-    them."""
+    """Yield the first motions of robots whose driver or adapter cannot run meanwhile, with how people move them."""
+    adapted = {adapter.device for adapter in graph.cell.adapters}
     for first in graph.cell.bringup.first_motions:
         procedures = graph.cell.device(first.device).procedures
         if procedures.jog is not None and not procedures.driver_runs:
             again = "G4" if graph.cell.device(first.device).control.startup_state == "active" else "G4 and G5"
-            yield *_first_motion(graph, first), procedures.jog, procedures.jog_ends and f"{procedures.jog_ends} ", again
+            then = procedures.jog_ends and f"{procedures.jog_ends} "
+            program = "adapter" if first.device in adapted else "driver"
+            yield *_first_motion(graph, first), procedures.jog, then, again, program
 
 
 def stated_jogs(graph: CellGraph) -> Iterator[Values]:

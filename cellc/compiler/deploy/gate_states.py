@@ -6,10 +6,13 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.deploy.gate_motion import Values, speed_of
+from cellc.compiler.deploy.readiness import moved_with
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.vocabulary import CommandAuthority, GateCode, LeftBy, Moment
+
+_RESTART = " Restart everything that this test stopped, the controller manager included, as in G4."
 
 
 def commands_from_its_start(device: Device) -> bool:
@@ -20,15 +23,35 @@ def commands_from_its_start(device: Device) -> bool:
 
 
 def enabled_in(device: Device) -> GateCode:
-    """Return the gate in which people power a device and try its stop: before its driver, where that commands it."""
-    return GateCode.G3 if commands_from_its_start(device) else GateCode.G5
+    """Return the gate in which people power a device and try its stop: before its driver, where that needs or takes it.
+
+    It is the gate of the vendor's step that powers the drives.
+    """
+    powered = [step.gate for step in device.procedures.commissioning if step.powers]
+    return min(powered, default=GateCode.G3 if commands_from_its_start(device) else GateCode.G5)
+
+
+def enabled_early(graph: CellGraph) -> tuple[str, ...]:
+    """Return the devices that people power, and whose stop they try, before the start of the drivers."""
+    return tuple(device.name for device in _powered(graph) if enabled_in(device) is GateCode.G3)
+
+
+def all_early(graph: CellGraph) -> bool:
+    """Whether no drive is powered later."""
+    return all(enabled_in(device) is GateCode.G3 for device in _powered(graph))
+
+
+def _powered(graph: CellGraph) -> tuple[Device, ...]:
+    """Return the devices whose drives people power; a tool has its power from its arm."""
+    cell = graph.cell
+    moved = {moved_with(cell, device.name) for device in cell.devices if device.actuated_joints}
+    return tuple(device for device in cell.devices if device.name in moved)
 
 
 def stop_tests(graph: CellGraph) -> Iterator[Values]:
-    """Yield the gates in which the stop is tried, each with the one whose start of the driver is repeated then."""
-    moved = (device for device in graph.cell.devices if device.actuated_joints)
-    gates = {enabled_in(device) for device in moved} or {GateCode.G5}
-    yield from ((gate, "G4" if gate is GateCode.G5 else "this gate") for gate in sorted(gates))
+    """Yield the gates in which the stop is tried, and what is restarted then."""
+    gates = {enabled_in(device) for device in _powered(graph)} or {GateCode.G5}
+    yield from ((gate, _RESTART if gate is GateCode.G5 else "") for gate in sorted(gates))
 
 
 def stop_evidence(graph: CellGraph) -> Iterator[Values]:
@@ -79,7 +102,7 @@ def stopping_devices(graph: CellGraph) -> Iterator[Values]:
     for device in graph.cell.devices:
         safety = device.procedures.safety
         for gate in GateCode:
-            stops = [state for state in safety.states if state.stops and state.gate is gate]
+            stops = [state for state in safety.states if state.stops and state.gate is gate and state.reported]
             if stops:
                 echoes = (
                     f"timeout 10 ros2 topic echo --once {field and f'--field {field} '}{shell_word(topic)}"
@@ -87,6 +110,14 @@ def stopping_devices(graph: CellGraph) -> Iterator[Values]:
                 )
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
                 yield device.name, states, "\n".join(echoes), gate
+
+
+def unreported_stops(graph: CellGraph) -> Iterator[Values]:
+    """Yield the states that stop a device and that its driver does not report, with what people see in them."""
+    for device in graph.cell.devices:
+        for state in device.procedures.safety.states:
+            if state.stops and state.seen:
+                yield device.name, state.name, state.seen, state.gate
 
 
 def ready_states(graph: CellGraph) -> Iterator[Values]:

@@ -14,7 +14,7 @@ from pydantic import Field, Strict, field_validator, model_validator
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text
 from cellc.compiler.catalog.read_model import read_model
-from cellc.compiler.deploy.gate_states import commands_from_its_start
+from cellc.compiler.deploy.gate_states import all_early, commands_from_its_start, enabled_early
 from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_row
 from cellc.compiler.formats.escape import code, shell_word
 from cellc.compiler.formats.header import Header
@@ -124,13 +124,15 @@ class Line(CatalogModel):
 class GateText(CatalogModel):
     """The prose of a gate; ``signed_by`` names the field of the spec with its owner.
 
-    ``commanded`` is its state where the start of a driver takes command of a robot.
+    ``powered`` is the state of a device whose stop is tested before its driver starts, ``commanded`` what else is true
+    where that start takes command of it.
     """
 
     code: Annotated[GateCode, Strict(False)]
     title: Text
     shows: Text
     state: Text
+    powered: Text | None = None
     commanded: Text | None = None
     evidence: Text
     signed_by: Text
@@ -184,18 +186,28 @@ def network_gates(graph: CellGraph, header: Header) -> tuple[Gate, ...]:
 
 def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
     base = cell_row(graph.cell, header, text.code)
-    commanded = text.commanded is not None and any(map(commands_from_its_start, graph.cell.devices))
     return Gate(
         code=text.code,
         title=text.title,
         shows=text.shows,
-        state=text.commanded or text.state if commanded else text.state,
+        state=_state(text, graph),
         checks=tuple(check for line in text.checks for check in _checks(line, graph, base)),
         evidence=text.evidence,
         owner=_owners(graph)[text.signed_by],
         stop=tuple(check.text for line in text.stop for check in _checks(line, graph, base)),
         measured=tuple(check.text for line in text.measured for check in _checks(line, graph, base)),
     )
+
+
+def _state(text: GateText, graph: CellGraph) -> str:
+    """Return the state of the drives in a gate, with the devices that differ from the rest."""
+    early = enabled_early(graph)
+    if text.powered is None or text.commanded is None or not early:
+        return text.state
+    commanded = [device.name for device in graph.cell.devices if commands_from_its_start(device)]
+    states = ((text.powered, early), (text.commanded, commanded))
+    differs = (f"{state}: {', '.join(names)}" for state, names in states if names)
+    return "; ".join((*(() if all_early(graph) else (text.state,)), *differs))
 
 
 def _owners(graph: CellGraph) -> Mapping[str, str]:

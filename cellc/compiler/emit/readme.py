@@ -32,6 +32,7 @@ from cellc.compiler.deploy.files import (
     stage_files,
 )
 from cellc.compiler.deploy.first_goal import programs
+from cellc.compiler.deploy.gate_states import stop_tests
 from cellc.compiler.deploy.gates import Gate
 from cellc.compiler.deploy.labels import real_driver
 from cellc.compiler.deploy.releases import start_mock
@@ -104,7 +105,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         f"A ROS 2 package for {cell.distro}, generated from the spec. Make changes in the spec. The configuration ID "
         "is in `manifest.json`.",
         f"![{cell.name} from two sides, with its frames](graph/cell.svg)",
-        *_gates(plan),
+        *_gates(graph, plan),
         "## Set up each shell",
         "In the folder that contains `cells/` and `generated/`, with ROS 2 sourced:",
         _shell_of(cell),
@@ -124,12 +125,13 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     yield Artifact("README.md", "\n\n".join(block for block in blocks if block) + "\n")
 
 
-def _gates(plan: Deployment) -> Iterator[str]:
+def _gates(graph: CellGraph, plan: Deployment) -> Iterator[str]:
+    enabled = " and ".join(gate for gate, _ in stop_tests(graph))
     yield "## From power-off to a trajectory"
     yield (
         "Pass the gates from top to bottom. Each needs its evidence and a signature. If a gate fails, repeat it from "
-        "its first line. Only people at the cell enable the drives (G5) and authorize motion (G6, G7). For power-off "
-        "see Shutdown in `audit.md`. After a stop see Recovery there."
+        f"its first line. Only people at the cell enable the drives ({enabled}) and authorize motion (G6, G7). "
+        "For power-off see Shutdown in `audit.md`. After a stop see Recovery there."
     )
     yield _table(PROMOTION_CHECKLIST, plan.promotion)
     yield "Pass G3 layer by layer, from the cable to the command path:"

@@ -346,6 +346,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
                 name=state.name,
                 stops=state.stops,
                 reported=state.reported,
+                seen=state.seen,
                 gate=state.gate,
                 moment=state.moment,
                 ends=state.ends,

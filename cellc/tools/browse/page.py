@@ -220,7 +220,14 @@ def _stops(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
             lost = (*(() if effect is None else effect.ends), *state.ends)
             left = "not stated" if effect is None or effect.leaves is None else effect.leaves
             by = "its component, the controller manager" if left != "active" else _reported(model, lost)
-            yield state.name, left, tuple(need.value for need in lost), by, state.left_by.value, state.reported or ""
+            yield (
+                state.name,
+                left,
+                tuple(need.value for need in lost),
+                by,
+                state.left_by.value,
+                state.reported or state.seen or "",
+            )
 
 
 def _controllers(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:

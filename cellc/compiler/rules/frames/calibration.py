@@ -133,7 +133,7 @@ def designed_mobile_frame(graph: CellGraph) -> Findings:
         words = re.findall(r"[a-z]+", frame.name.lower())
         mobile = next((word for word in words if word in _MOBILE), None)
         if frame.designed and frame.parent == WORLD and mobile is not None:
-            message = f"`{frame.name}` must be measured or published, as a {mobile} does not stand by design"
+            message = f"`{frame.name}` must be measured or published, because a {mobile} moves"
             yield found(graph, (*frame.path, "designed"), message)
 
 

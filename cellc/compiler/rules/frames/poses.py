@@ -49,7 +49,7 @@ def _why(text: str) -> str | None:
             return f"{number} is {math.degrees(float(number)):.0f} deg in radians"
     printed = sum(decimals > 1 for _, decimals in numbers)
     if len(numbers) >= _JOINTS and printed > 1 and all(float(number) <= math.tau for number, _ in numbers):
-        return f"{len(numbers)} joints stand within {math.tau:.2f} of zero, as positions in radians do"
+        return f"{len(numbers)} joints are within {math.tau:.2f} of zero, as positions in radians do"
     return None
 
 

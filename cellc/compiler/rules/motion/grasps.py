@@ -90,11 +90,10 @@ def part_like_nothing(graph: CellGraph) -> Findings:
     """Yield tolerances with which fingers that hold a part are where they are without one."""
     for name, gripper, frame, grasp, width_m, span in _stated(graph):
         way = abs(gripper.open - gripper.closed)
-        told_m = gripper.stroke_m * gripper.goal_tolerance / way if way > 0.0 else 0.0
-        if grasp.tolerance_m is not None and width_m - grasp.tolerance_m <= told_m:
+        closed_m = gripper.stroke_m * gripper.goal_tolerance / way if way > 0.0 else 0.0
+        if grasp.tolerance_m is not None and width_m - grasp.tolerance_m <= closed_m:
             path = (*frame.path, "grasp", "tolerance")
-            message = (
-                f"a right part at `{frame.name}` must be wider than the {told_m * 1e3:.3g} mm within which `{name}`"
-            )
-            message = f"{message} counts as closed, got {graph.cell.text(*path[:-1], 'width')} with a tolerance of"
-            yield found(graph, path, f"{message} {graph.cell.text(*path)}", related=(Related("it closes here", span),))
+            closed = f"{closed_m * 1e3:.3g} mm, within which `{name}` counts as closed"
+            stated = f"{graph.cell.text(*path[:-1], 'width')} less {graph.cell.text(*path)}"
+            message = f"`width` less `tolerance` of `{frame.name}` must be more than {closed}, got {stated}"
+            yield found(graph, path, message, related=(Related("it closes here", span),))

@@ -121,14 +121,14 @@ def _taken(graph: CellGraph, area: SharedArea, inside: _Inside, arms: Mapping[st
     place = Related("the area is stated here", area.span)
     reported = set()
     if len(inside.get("", ())) > 1:
-        yield found(graph, area.path, _message(area, inside[""], "begin in it"))
+        yield found(graph, area.path, _message(area, inside[""], "start in it"))
         return
     for rehearsal in graph.cell.rehearsals:
         for step, standing in _standing(graph, rehearsal, inside, arms):
             if len(standing) > 1:
                 if step.path not in reported:
                     reported.add(step.path)
-                    message = _message(area, standing, f"stand in it after `move: {step.name}`")
+                    message = _message(area, standing, f"are in it after `move: {step.name}`")
                     yield found(graph, step.path, message, related=(place,))
                 break
 

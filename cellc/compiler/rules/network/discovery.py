@@ -21,12 +21,16 @@ def discovery_unknown_to_rmw(graph: CellGraph) -> Findings:
     """Yield a discovery range, peers or a server with a middleware that ignores them."""
     network, rmw = graph.cell.network, graph.cell.versions.rmw_name
     if rmw == "rmw_cyclonedds_cpp" and network.discovery == "server":
-        yield found(graph, ("network", "discovery"), "Cyclone DDS must have its peers, and asks no discovery server")
+        yield found(
+            graph,
+            ("network", "discovery"),
+            "`discovery` must be `multicast` or `unicast` with Cyclone DDS, got `server`",
+        )
     if not rmw.startswith("rmw_zenoh"):
         return
     if network.discovery != "multicast" or network.peers:
         field = "discovery" if network.discovery != "multicast" else "peers"
-        yield found(graph, ("network", field), f"Zenoh ignores `{field}`")
+        yield found(graph, ("network", field), f"`{field}` has no effect with Zenoh")
 
 
 _READS = {"peers": "unicast", "servers": "server"}
@@ -38,7 +42,7 @@ def discovery_without_effect(graph: CellGraph) -> Findings:
     network = graph.cell.network
     for key, kind in _READS.items():
         if getattr(network, key) and network.discovery != kind:
-            message = f"`{key}` are asked by `discovery: {kind}` alone, got `{network.discovery}`"
+            message = f"`{key}` must have `discovery: {kind}`, got `{network.discovery}`"
             yield found(graph, ("network", key), message)
 
 

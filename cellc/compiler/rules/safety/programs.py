@@ -114,7 +114,7 @@ def tool_voltage_mismatch(graph: CellGraph) -> Findings:
             message = f"`{device.name}` must be attached to `{robot.name}`, whose tool connector powers it"
             yield found(graph, path, message, "name the robot that carries it")
         if robot.robot.tool_connector is None:
-            message = f"`{device.name}` has its power from `{robot.name}`, whose tool connector gives nothing stated"
+            message = f"`{robot.name}` must have a `tool_connector`, because it powers `{device.name}`"
             yield found(graph, path, message, f"write `tool_connector` of `{robot.name}` with the voltage of its tool")
         elif device.robot.plug is not None and device.robot.plug.voltage_v != robot.robot.tool_connector.voltage_v:
             given = f"{robot.robot.tool_connector.voltage_v:g} V of `{robot.name}`"

@@ -12,7 +12,7 @@ def automatic_recovery(graph: CellGraph) -> Findings:
     """Yield a recovery that acknowledges itself."""
     if graph.cell.safety.recovery.acknowledge == "automatic":
         path = ("safety", "recovery", "acknowledge")
-        yield found(graph, path, "recovery continues without a person")
+        yield found(graph, path, "a person must acknowledge each recovery, got `automatic`")
 
 
 @rule(Severity.ERROR)
@@ -23,10 +23,10 @@ def removed_gate(graph: CellGraph) -> Findings:
         stated = [gate for gate in gates if gate in ladder]
         missing = [gate for gate in ladder if gate not in stated]
         if missing:
-            yield found(graph, ("bringup", "gates"), f"gate {', '.join(missing)} is missing")
+            yield found(graph, ("bringup", "gates"), f"`gates` must have {', '.join(missing)}")
         elif stated != list(ladder):
             order = ", ".join(stated)
-            message = f"gates are out of order: {order}"
+            message = f"`gates` must be in the order {', '.join(ladder)}, got {order}"
             yield found(graph, ("bringup", "gates"), message)
 
 
@@ -35,7 +35,7 @@ def replayed_goal(graph: CellGraph) -> Findings:
     """Yield a recovery that resumes goals."""
     if graph.cell.safety.recovery.on_reconnect == "resume_goal":
         path = ("safety", "recovery", "on_reconnect")
-        yield found(graph, path, "an old goal is resumed after a reconnect")
+        yield found(graph, path, "a goal must end when the connection is lost, got `resume_goal`")
 
 
 @rule(Severity.ERROR)

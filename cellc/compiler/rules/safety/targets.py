@@ -184,7 +184,7 @@ def hardware_of_another_target(graph: CellGraph) -> Findings:
     for name in ("mock", "real"):
         target = graph.cell.targets[name]
         if target.hardware != name:
-            message = f"target `{name}` starts `{name}` hardware in any case, got `{target.hardware}`"
+            message = f"target `{name}` must have `hardware: {name}`, got `{target.hardware}`"
             yield found(graph, ("targets", name, "hardware"), message)
 
 
