@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.deploy.gate_motion import Values, speed_of
-from cellc.compiler.deploy.readiness import moved_with
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
@@ -41,11 +40,9 @@ def all_early(graph: CellGraph) -> bool:
     return all(enabled_in(device) is GateCode.G3 for device in _powered(graph))
 
 
-def _powered(graph: CellGraph) -> tuple[Device, ...]:
-    """Return the devices whose drives people power; a tool has its power from its arm."""
-    cell = graph.cell
-    moved = {moved_with(cell, device.name) for device in cell.devices if device.actuated_joints}
-    return tuple(device for device in cell.devices if device.name in moved)
+def _powered(graph: CellGraph) -> Iterator[Device]:
+    """Yield the devices whose drives people power; a gripper has its power from its arm."""
+    return (device for device in graph.cell.devices if device.actuated_joints and device.kind != "gripper")
 
 
 def stop_tests(graph: CellGraph) -> Iterator[Values]:
