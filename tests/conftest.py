@@ -7,6 +7,8 @@ import os
 import signal
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -80,6 +82,27 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     return True if collection_path in config.stash[_LEFT_OUT] else None
+
+
+def pytest_collection(session: pytest.Session) -> None:
+    """Let every second process of a session import its files from the last to the first.
+
+    Rewriting assertions is half of the collection. What one process has rewritten, the other reads from the bytecode
+    where they meet, instead of both rewriting the same file at the same time.
+    """
+    if os.environ.get("PYTEST_XDIST_WORKER", "")[-1:] not in tuple("13579"):
+        return
+    assertion = session.config.pluginmanager.get_plugin("assertion")
+    assert assertion is not None
+    assertion.pytest_collection(session)  # its hook must know what the session holds before the first import
+    folders = [Path(argument.partition("::")[0]) for argument in session.config.args]
+    files = {file for folder in folders for file in (folder.rglob("test_*.py") if folder.is_dir() else (folder,))}
+    left_out = session.config.stash[_LEFT_OUT]
+    for file in sorted(files, reverse=True):
+        place = file.absolute().relative_to(session.config.rootpath).with_suffix("")
+        if not any(path in left_out for path in (file.absolute(), *file.absolute().parents)):
+            with suppress(Exception, pytest.skip.Exception):  # the collection meets it again, and reports it
+                import_module(".".join(place.parts))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
@@ -78,15 +79,9 @@ class _Server:
         self._messages.put(None)
 
 
-@pytest.fixture(name="options")
-def options_fixture() -> tuple[str, ...]:
-    """How the server is started."""
-    return ("-m", "cellc")
-
-
-@pytest.fixture(name="server")
-def server_fixture(options: tuple[str, ...]) -> Iterator[_Server]:
-    """A server that was initialized, and that ends when its input does."""
+@contextmanager
+def _running(*options: str) -> Iterator[_Server]:
+    """Start a server, and hold that it ends when its input does."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     command = (sys.executable, *options, "lsp")
     with subprocess.Popen(
@@ -96,6 +91,13 @@ def server_fixture(options: tuple[str, ...]) -> Iterator[_Server]:
         assert process.stdin is not None
         process.stdin.close()
         assert process.wait(20) == 0
+
+
+@pytest.fixture(name="server", scope="module")
+def server_fixture() -> Iterator[_Server]:
+    """One server that is sent everything: what one test says must leave it able to answer the next."""
+    with _running("-m", "cellc") as server:
+        yield server
 
 
 _IMAGE = "`![x](https://example.com/a.png)`"
@@ -127,9 +129,10 @@ def test_message_beyond_a_bound_is_dropped_and_the_next_one_answered(
     assert "Version of this spec language" in server.hover(tmp_path / "cell.yaml", 0, 0)
 
 
-def test_a_length_that_no_memory_holds_ends_nothing_with_a_bug(server: _Server) -> None:
-    server.into.write(b"Content-Length: 1000000000000\r\n\r\n")
-    # The end of the input follows: the fixture holds that the server ends well.
+def test_a_length_that_no_memory_holds_ends_nothing_with_a_bug() -> None:
+    with _running("-m", "cellc") as server:
+        server.into.write(b"Content-Length: 1000000000000\r\n\r\n")
+        # The end of the input follows, after which the server must end well.
 
 
 def test_a_zero_character_in_a_name_stops_no_check(server: _Server, tmp_path: Path) -> None:
@@ -148,11 +151,11 @@ main()
 """
 
 
-@pytest.mark.parametrize("options", [("-c", _OF_THREE)], ids=["three"])
-def test_no_more_documents_are_kept_than_the_limit(server: _Server, tmp_path: Path) -> None:
-    for number in range(3):
-        server.open(tmp_path / f"{number}.yaml", "format: 1\n")
-    assert server.hover(tmp_path / "2.yaml", 0, 0)
-    server.open(tmp_path / "3.yaml", "format: 1\n")
-    assert not server.hover(tmp_path / "3.yaml", 0, 0)
-    assert server.hover(tmp_path / "0.yaml", 0, 0)
+def test_no_more_documents_are_kept_than_the_limit(tmp_path: Path) -> None:
+    with _running("-c", _OF_THREE) as server:
+        for number in range(3):
+            server.open(tmp_path / f"{number}.yaml", "format: 1\n")
+        assert server.hover(tmp_path / "2.yaml", 0, 0)
+        server.open(tmp_path / "3.yaml", "format: 1\n")
+        assert not server.hover(tmp_path / "3.yaml", 0, 0)
+        assert server.hover(tmp_path / "0.yaml", 0, 0)
