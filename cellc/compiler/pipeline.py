@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from cellc.compiler.artifact import Artifact
@@ -28,6 +28,7 @@ from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
 from cellc.contract.diagnostics.diagnostic import Findings, counted, findings_table
 from cellc.contract.diagnostics.unsafe_text import escaped
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 from cellc.contract.printing import stage
 from cellc.robot.description.packages import root_of

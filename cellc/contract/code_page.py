@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from cellc.contract.diagnostics import did_you_mean
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 from cellc.contract.store.regular_file import own_text
 
 _PACKAGE = Path(__file__).resolve().parents[1]

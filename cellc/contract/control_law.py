@@ -7,11 +7,12 @@ What the controller gives by a model of its own, ``unaccounted`` is left for the
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated, ClassVar
 
 from pydantic import ConfigDict, Field
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.quantities import Coordinate, Magnitude, PositiveMagnitude
 from cellc.contract.vocabulary import Gravity, Held, Loop
 

@@ -5,11 +5,12 @@ What a file leaves out is stated in the annotation, so that only a reader of fil
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import ConfigDict, Field
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.grading import STALE, Graded, Rule
 from cellc.contract.quantities import Count, PositiveSeconds, Rate, Seconds, Share
 from cellc.contract.vocabulary import InterfaceKind, ReviewArea

@@ -9,10 +9,10 @@ import shlex
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from importlib import import_module
 
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 
 
 class MissingExtraError(CellcError):

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Annotated
 
 from pydantic import AfterValidator, ValidationInfo
 from pydantic_core import PydanticCustomError
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Limits
 
 SPEC_FILE = "cell.yaml"

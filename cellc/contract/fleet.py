@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import ConfigDict, Field
 
 from cellc.contract.base import ContractModel
+from cellc.contract.frozen import dataclass
 from cellc.contract.review import ReviewFinding
 
 _READ = ConfigDict(extra="forbid", allow_inf_nan=False)

@@ -6,12 +6,12 @@ The checklists of the gates and ``audit.md`` say it to people. Read by ``cellc d
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 from pydantic import ConfigDict, Field
 
 from cellc.contract.base import ContractModel
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import GateCode, RobotSetting
 
 GATES = "gates/gates.json"

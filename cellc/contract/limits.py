@@ -13,10 +13,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from typing import TypeVar
 
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 
 KIB = 1024
 MIB = 1024 * KIB

@@ -16,13 +16,13 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from enum import Enum
 from typing import TextIO
 
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_line
 from cellc.contract.errors import reason_of
 from cellc.contract.extras import MissingExtraError
+from cellc.contract.frozen import dataclass
 from cellc.contract.signals import CLOSED_PIPE, drop_output
 
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from cellc.contract.entities import Durability, Qos, Reliability
+from cellc.contract.frozen import dataclass
 
 DEFAULT = Qos(
     reliability="reliable",

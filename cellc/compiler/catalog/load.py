@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -34,6 +34,7 @@ from cellc.compiler.catalog.tables import (
 )
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Diagnostic, Outcome
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget
 from cellc.contract.vocabulary import OF_ONE_DEVICE
 from cellc.robot.description.model import Description

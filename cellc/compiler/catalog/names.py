@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Set
-from dataclasses import dataclass
 
 from cellc.compiler.catalog.device_graph import QosUse
 from cellc.compiler.catalog.device_interfaces import counted
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean, is_slip
+from cellc.contract.frozen import dataclass
 from cellc.robot.description.model import Description
 
 _EVERY_JOINT = "*"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.load import CatalogDevice
 from cellc.compiler.catalog.starter_mounts import mounts_of
 from cellc.compiler.catalog.starter_wires import Wires, outputs_controller, switching, wires_of
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Behavior, Distro
 from cellc.robot.description.model import Joint
 

@@ -1,7 +1,6 @@
 """What holds for every cell: ROS 2 distributions, interface types, QoS profiles, endpoints that every cell has."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 from pydantic import Field
@@ -10,6 +9,7 @@ from cellc.compiler.catalog.catalog_model import CatalogModel, Date, DistroName,
 from cellc.compiler.catalog.controller_kind import ParameterFacts
 from cellc.compiler.spec.quantity import Duration
 from cellc.contract.entities import Durability, Reliability
+from cellc.contract.frozen import dataclass
 
 
 class CatalogTable(CatalogModel):

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated
 
 from cellc.compiler.cell.entity import ELSEWHERE, STATED, Entity, Part
 from cellc.compiler.cell.frame import WORLD
+from cellc.contract.frozen import dataclass
 from cellc.contract.grading import Graded
 from cellc.contract.transforms import Pose, identity
 from cellc.contract.vocabulary import ReviewArea

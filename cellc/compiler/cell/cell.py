@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager
@@ -17,6 +17,7 @@ from cellc.compiler.cell.uncertainty import Uncertainty
 from cellc.compiler.cell.vendor import RecordSource
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
+from cellc.contract.frozen import dataclass
 from cellc.contract.stated import HardwareStatement, Network, Owners, Surroundings, Versions
 from cellc.contract.vocabulary import TRAJECTORIES, Behavior, Distro, InterfaceKind
 from cellc.robot.description.model import Inertial

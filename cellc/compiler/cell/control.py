@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated
 
 from cellc.compiler.catalog.controller_kind import ControllerKind
@@ -12,6 +12,7 @@ from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import TARGETS, Target
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Behavior
 
 

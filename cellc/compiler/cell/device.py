@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from typing import Annotated
 
 from cellc.compiler.catalog.version_rows import VersionRow
@@ -14,6 +14,7 @@ from cellc.compiler.cell.robot import HostProgram, RobotController
 from cellc.compiler.cell.site import Clock, JointFigure
 from cellc.compiler.cell.switched import Switched
 from cellc.compiler.cell.vendor import Procedures
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN, InterfaceKind
 
 EVERY_JOINT = "*"

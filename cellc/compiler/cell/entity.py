@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import PurePosixPath
 
 from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from typing import Annotated
 
 from cellc.compiler.cell.entity import Entity
+from cellc.contract.frozen import dataclass
 from cellc.contract.grading import Graded, Rule
 from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.contract.vocabulary import ReviewArea

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated
 
 from cellc.compiler.cell.entity import ELSEWHERE, STATED, Part
 from cellc.compiler.cell.interface import InnerNode
 from cellc.compiler.cell.site import JointFigure
 from cellc.contract.entities import HardwareState, Target
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import (
     CommandAuthority,
     Gravity,

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 from typing import Annotated
 
 from cellc.compiler.cell.entity import ELSEWHERE, Entity
 from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.entities import TARGETS, ContractEndpoint, ContractInterface, Target
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN
 
 ParameterValue = bool | int | float | str | tuple[bool | int | float | str, ...]

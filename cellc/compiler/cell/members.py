@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import cache
 from typing import Annotated, ClassVar, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel
 
 from cellc.compiler.cell.entity import Part
+from cellc.contract.frozen import dataclass
 from cellc.contract.stated import StatedModel
 
 

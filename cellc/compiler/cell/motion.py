@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.entity import Entity
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.contract.faults import FaultKind
+from cellc.contract.frozen import dataclass
 from cellc.contract.steps import StepKind
 from cellc.contract.transforms import Pose, Vector3
 

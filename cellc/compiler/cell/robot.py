@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated
 
 from cellc.compiler.cell.entity import ELSEWHERE, STATED, Part
+from cellc.contract.frozen import dataclass
 from cellc.contract.stated import RobotProgram
 from cellc.contract.transforms import Vector3
 

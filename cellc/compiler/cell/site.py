@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated
 
 from cellc.compiler.cell.entity import Entity
+from cellc.contract.frozen import dataclass
 from cellc.contract.grading import Graded, Rule
 from cellc.contract.stated import Stop
 from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES, UNKNOWN, ReviewArea

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated
 
 from cellc.compiler.cell.entity import ELSEWHERE, Part
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import GateCode, LeftBy, Moment, Need, RobotSetting
 
 

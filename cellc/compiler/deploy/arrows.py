@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Literal
 
 from cellc.compiler.cell.cell import Cell
@@ -17,6 +16,7 @@ from cellc.compiler.deploy.labels import (
     unused_facts,
     unused_title,
 )
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import InterfaceKind
 
 ArrowKind = Literal["topic", "service", "action", "claims", "moves", "stops"]

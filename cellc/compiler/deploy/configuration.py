@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, Field, dataclass
+from dataclasses import MISSING, Field
 from enum import Enum
 from typing import Any
 
@@ -21,6 +21,7 @@ from cellc.compiler.formats.xml_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos, SimulatedNetwork
+from cellc.contract.frozen import dataclass
 from cellc.contract.manifest import ConfigurationInputs
 from cellc.contract.qos import DEFAULT
 from cellc.contract.stated import DiscoveryServer, HardwareStatement, RobotProgram, StatedModel

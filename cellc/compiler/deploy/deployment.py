@@ -7,7 +7,6 @@ thing in the modules beside this one: it is the same wherever it is asked for.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.interface import Node
 from cellc.compiler.deploy.bringup import bring_up
@@ -26,6 +25,7 @@ from cellc.compiler.formats.header import Header
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import BringUp
 from cellc.contract.entities import Qos
+from cellc.contract.frozen import dataclass
 from cellc.contract.manifest import ConfigurationInputs
 
 

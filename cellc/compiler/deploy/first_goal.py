@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, DeviceJoint
@@ -20,6 +19,7 @@ from cellc.compiler.deploy.files import (
 from cellc.compiler.deploy.processes import motion_clients
 from cellc.compiler.deploy.watches import watches
 from cellc.compiler.link.hardware import JOINT_STATES
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Feature, features
 
 _PEAK = 1.5

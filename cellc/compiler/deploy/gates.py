@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from string import Formatter
@@ -19,6 +19,7 @@ from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_ro
 from cellc.compiler.formats.escape import code, shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.frozen import dataclass
 from cellc.contract.gates import GateSetting
 from cellc.contract.vocabulary import GateCode, RobotSetting
 

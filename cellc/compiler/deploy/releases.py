@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.bringup import activation
 from cellc.compiler.deploy.processes import launch_hosts, motion_clients, started_by_a_person
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.contract.entities import TARGETS
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,6 @@ Gate G0 has a person look at them; the bring-up of the real target compares them
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Packages
@@ -14,6 +13,7 @@ from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.graph.versions import compatibility
+from cellc.contract.frozen import dataclass
 from cellc.contract.pins import is_commit, last_word, pinned_package
 from cellc.contract.vocabulary import UNKNOWN
 

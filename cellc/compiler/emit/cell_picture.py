@@ -8,7 +8,6 @@ than its mount, which `config/frames.yaml` has, meshes, and planes, beside which
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
@@ -17,6 +16,7 @@ from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Solid
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.formats.views import Part, two_views
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
 from cellc.robot.description.posture import posture
 

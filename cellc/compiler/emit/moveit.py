@@ -9,7 +9,6 @@ hardware. ``sensors_3d`` and ``servo`` where the cell has them. Left out: limits
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
@@ -37,6 +36,7 @@ from cellc.compiler.link.control import TRAJECTORY_ACTION
 from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import TARGETS, Target
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Feature, features
 
 Parameters = Mapping[str, ParameterValue]

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
@@ -22,6 +21,7 @@ from cellc.compiler.formats.layered import Box, Columns, Layout, Line, Point, la
 from cellc.compiler.formats.svg import arrow_head, rectangle, sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.frozen import dataclass
 
 _SIZE, _LINE = 13, 17  # height of letters, and of a line of text
 _BOX, _CHARACTERS = 126, 17  # width of a box, and how many characters it holds

@@ -11,7 +11,6 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import accumulate
 from xml.etree.ElementTree import Element
 
@@ -22,6 +21,7 @@ from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.formats.svg import arrow_head, rectangle, sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.frozen import dataclass
 
 _WIDTH = 1000
 _FONT_SIZE = 13

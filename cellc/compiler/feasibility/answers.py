@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from cellc.contract.frozen import dataclass
 
 RNG_SEED = 0
 MARGIN_M = 0.005

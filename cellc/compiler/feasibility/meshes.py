@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.compiler.cell.cell import Cell
@@ -10,6 +9,7 @@ from cellc.compiler.cell.frame import Solid
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.frame_tree import ModelLink
 from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import as_options, limits
 from cellc.contract.store.cache import recall
 from cellc.robot.description.meshes import (

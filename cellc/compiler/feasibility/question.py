@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import DeviceJoint
@@ -16,6 +15,7 @@ from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.control_laws import control_laws, start_outside
 from cellc.compiler.graph.frame_tree import FrameTree
 from cellc.contract.control_law import ControlLaw, LinkMass
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3, climb
 
 Positions = tuple[tuple[str, float], ...]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from cellc.compiler.feasibility.answers import BodyContact, DroopAnswer, HoldingAnswer, TipAnswer
 from cellc.compiler.feasibility.question import GroupQuestion, MotionQuestion
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget
 from cellc.robot.planning import CollisionScene, JointPath, Load, Planner, RobotModel, Springs, Weights
 from cellc.robot.planning.problem import Array

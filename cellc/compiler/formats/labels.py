@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from math import floor
+
+from cellc.contract.frozen import dataclass
 
 Point = tuple[float, float]
 _Box = tuple[float, float, float, float]

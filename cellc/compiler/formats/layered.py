@@ -8,8 +8,9 @@ networkx (3.6, `multipartite_layout`) places boxes alone, in the order given: it
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
+
+from cellc.contract.frozen import dataclass
 
 Point = tuple[float, float]
 

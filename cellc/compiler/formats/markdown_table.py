@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from cellc.compiler.formats.escape import markdown
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

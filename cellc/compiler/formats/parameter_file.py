@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import Node, NodeSource, ParameterValue
@@ -11,6 +10,7 @@ from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.yaml_text import nested, render
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import InterfaceKind
 
 ANY_NODE = "/**"

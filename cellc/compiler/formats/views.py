@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.formats.escape import one_line
@@ -17,6 +16,7 @@ from cellc.compiler.formats.labels import Label, Placed, placed
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.svg import sheet, text
 from cellc.compiler.formats.xml_text import element, render
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3
 from cellc.robot.description.model import Box, Cylinder, Geometry, Sphere
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar, cast
 
@@ -14,6 +13,7 @@ from cellc.compiler.graph.frame_tree import FrameTree, ModelParts, build_frame_t
 from cellc.compiler.graph.network import NetworkGraph, build_network
 from cellc.compiler.graph.responsibilities import Responsibilities, build_responsibilities
 from cellc.compiler.graph.startup import StartupGraph, build_startup
+from cellc.contract.frozen import dataclass
 
 _Answer = TypeVar("_Answer")
 

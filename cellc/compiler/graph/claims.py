@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Container, Iterator, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager, ControllerSwitch
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.motion import PlanningGroup
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.frozen import dataclass
 
 _MAX_STATES = 4096  # twelve independent switches; a cell has two or three
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.cell.motion import PlanningGroup
 from cellc.compiler.cell.site import Commissioning
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3, climb, identity
 from cellc.robot.description.model import Joint
 from cellc.robot.description.posture import moved

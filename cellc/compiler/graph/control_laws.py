@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
@@ -13,6 +13,7 @@ from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import Adapter, CommandLaw
 from cellc.compiler.graph.grips import heaviest_part
 from cellc.contract.control_law import ControlLaw, JointLaw, LinkMass
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, climb
 from cellc.contract.vocabulary import TRAJECTORIES, Distro, Feature, Gravity, Held, Loop, features
 

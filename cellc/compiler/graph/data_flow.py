@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import InterfaceKind
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Frame
 from cellc.contract.diagnostics import Span, YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, climb
 from cellc.robot.description.model import Joint, Link
 

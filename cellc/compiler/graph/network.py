@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from ipaddress import IPv4Address, IPv4Interface
 
 from cellc.compiler.cell.cell import Cell
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.stated import DiscoveryServer
 
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import NodeSource
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from graphlib import CycleError, TopologicalSorter
 
 from cellc.compiler.cell.cell import Cell
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import InterfaceKind
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import Enum
 
 from cellc.compiler.catalog.load import load_distros, load_packages
@@ -13,6 +12,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.graph.releases import PACKAGED, foreign_lines, named_row, own_release, were_together
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.pins import version_number, version_numbers
 from cellc.contract.vocabulary import UNKNOWN
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from cellc.compiler.catalog.controller_kind import ControllerKind
@@ -24,6 +24,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.control import ControllerSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean, only_nearest
 from cellc.contract.entities import TARGETS, Target
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import OF_ONE_DEVICE, Behavior, Distro
 
 _MOVES_THE_MOCK = {"position", "velocity", "acceleration"}

@@ -6,7 +6,7 @@ TF and the description first, then the joint states of the cell, then what contr
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from cellc.compiler.catalog.controller_kind import ControllerService, ControllerTopic
@@ -32,6 +32,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, UNKNOWN, Distro, InterfaceKind
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from cellc.compiler.catalog.device_interfaces import JointInterfaces
@@ -49,6 +49,7 @@ from cellc.contract.diagnostics import (
     did_you_mean,
     only_nearest,
 )
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget, children_seconds, limits
 from cellc.contract.transforms import identity
 from cellc.contract.vocabulary import Distro

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import get_args
 
 from cellc.compiler.catalog.device_graph import QosFacts, QosUse
@@ -16,6 +16,7 @@ from cellc.compiler.spec.interfaces import QosSpec
 from cellc.compiler.spec.quantity import Quantity
 from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.entities import TARGETS, Durability, Qos, Reliability, Target
+from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 
 SENSOR_DATA = replace(DEFAULT, reliability="best_effort", depth=5)

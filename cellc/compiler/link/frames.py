@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Grasp, SharedArea, SimulatedPose
@@ -14,6 +13,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.frames import FrameSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import WORLD
@@ -23,6 +23,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import PlacementSpec
 from cellc.compiler.spec.frames import CalibrationSpec, FrameSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath, did_you_mean
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, apart, climb, identity
 
 _FRAMES = "hand-eye-of-other-frames"

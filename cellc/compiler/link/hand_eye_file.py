@@ -13,13 +13,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import NoReturn
 
 from cellc.compiler.link.side_file import SideFile, compose_side_file, number
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Quaternion, Vector3, from_xyz_rpy
 
 CODE = "invalid-hand-eye"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.link.endpoints import EndName, EndpointNames, with_changes
@@ -23,6 +23,7 @@ from cellc.compiler.spec.interfaces import (
 )
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.contract.entities import SimulatedNetwork
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import InterfaceKind
 
 

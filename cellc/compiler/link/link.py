@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from cellc.compiler.catalog.load import load_distros, load_qos_profiles
@@ -47,6 +47,7 @@ from cellc.compiler.link.uncertainty import link_uncertainty
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean, only_nearest
+from cellc.contract.frozen import dataclass
 from cellc.contract.stated import Versions
 from cellc.contract.vocabulary import Distro
 from cellc.robot.description.model import Description

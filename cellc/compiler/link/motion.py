@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
@@ -17,6 +16,7 @@ from cellc.compiler.link.quantities import pose, vector
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Distro
 
 

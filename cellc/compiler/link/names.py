@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.contract.diagnostics import Diagnostic, Severity, YamlPath, did_you_mean, only_nearest
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN
 
 

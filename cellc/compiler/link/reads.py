@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from cellc.compiler.catalog.compiled import DEVICE_FILE, FAMILY_FILE
 from cellc.compiler.source import read
@@ -12,6 +12,7 @@ from cellc.compiler.source.compose import compose
 from cellc.compiler.source.document import Node
 from cellc.compiler.source.include import include_lines
 from cellc.compiler.source.text import as_yaml
+from cellc.contract.frozen import dataclass
 from cellc.robot.description.meshes import FORMATS
 from cellc.robot.description.packages import MANIFEST
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeVar
 
 from cellc.compiler.cell.control import ControllerManager
@@ -22,6 +22,7 @@ from cellc.compiler.spec.quantity import Quantity
 from cellc.compiler.spec.rehearsals import RehearsalSpec, StepSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.contract.faults import FaultTarget
+from cellc.contract.frozen import dataclass
 from cellc.contract.steps import StepTarget
 from cellc.contract.vocabulary import InterfaceKind
 

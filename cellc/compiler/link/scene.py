@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from cellc.compiler.cell.frame import Frame, FrameKind, Solid, TouchedFit
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER, FrameNames
@@ -25,6 +25,7 @@ from cellc.compiler.spec.scene import (
     TouchedSpec,
 )
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3, from_xyz_rpy, identity
 from cellc.robot.description.model import Cylinder, Mesh, Sphere
 

@@ -6,13 +6,13 @@ import hashlib
 import math
 import os
 import re
-from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.compiler.source.compose import compose
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.text import bytes_of, lies_under, text_of
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
+from cellc.contract.frozen import dataclass
 
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,3})?")
 

@@ -6,7 +6,7 @@ An output or sensor that is wired to nothing is left to a rule, and so is what b
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from cellc.compiler.catalog.device_model import SwitchedFacts
 from cellc.compiler.cell.device import Device
@@ -18,6 +18,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.devices import DeviceSpec, SwitchingSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, YamlPath
+from cellc.contract.frozen import dataclass
 
 _SENSED_WITHIN_S = 1.0
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.cell.site import JointFigure
@@ -13,6 +12,7 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.control import ControllerSpec
 from cellc.compiler.spec.quantity import Quantity, QuantityVector
 from cellc.contract.diagnostics import Diagnostic, YamlPath
+from cellc.contract.frozen import dataclass
 
 Figures = Mapping[str, JointFigure]
 """By ROS name of the joint; a joint without one is left out."""

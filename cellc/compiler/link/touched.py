@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3, from_xyz_rpy
 
 _SWEEPS = 30

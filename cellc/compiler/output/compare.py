@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
 from typing import Literal
@@ -11,6 +10,7 @@ from typing import Literal
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.output.manifest import MANIFEST
 from cellc.compiler.output.plan import content_of, plan
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

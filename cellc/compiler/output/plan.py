@@ -5,7 +5,6 @@ from __future__ import annotations
 import stat
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from cellc.compiler.artifact import NewFile
@@ -13,6 +12,7 @@ from cellc.compiler.output.findings import finding
 from cellc.compiler.output.manifest import MANIFEST, hashes_in, sha256
 from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.file_names import opens_a_device
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 from cellc.contract.store.regular_file import open_regular
 from cellc.contract.store.swap import link_above, link_on_the_way

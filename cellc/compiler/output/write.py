@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from cellc.compiler.artifact import NewFile
@@ -11,6 +11,7 @@ from cellc.compiler.output.findings import finding
 from cellc.compiler.output.manifest import MANIFEST, hashes_in
 from cellc.compiler.output.plan import Plan, check_paths, check_places, content_of, plan
 from cellc.contract.diagnostics import Diagnostic, Outcome
+from cellc.contract.frozen import dataclass
 from cellc.contract.store.staging import contested, discard, make_staging, others, staging_of
 from cellc.contract.store.swap import Swap, remove_folder, write_new
 

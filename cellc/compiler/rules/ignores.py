@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import islice
 
 from cellc.compiler.rules.run import ALL_RULES
@@ -12,6 +11,7 @@ from cellc.compiler.source.events import Comment, comments
 from cellc.contract.code_page import meant_code, page_of
 from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
+from cellc.contract.frozen import dataclass
 
 # Who, where and what stops it: no comment justifies motion without these answers.
 _PROTECTED_FAMILIES = ("SAF", "OWN", "FRM")

@@ -7,12 +7,12 @@ code, the folder its family, and ``docs/rules/<code>.md`` is its page: title, re
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import wraps
 
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.code_page import CodePage, page_of
 from cellc.contract.diagnostics import Related, Severity, Span, YamlPath, did_you_mean
+from cellc.contract.frozen import dataclass
 
 __all__ = [
     "CellGraph",

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from ipaddress import IPv4Interface
 from typing import TYPE_CHECKING
 
 from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span
+from cellc.contract.frozen import dataclass
 
 if TYPE_CHECKING:
     from cellc.compiler.graph.cell_graph import CellGraph

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import yaml
 
@@ -14,6 +14,7 @@ from cellc.compiler.source.scalar import NumberOutOfRangeError, resolve
 from cellc.compiler.source.syntax import syntax_finding
 from cellc.contract.diagnostics import Diagnostic, Outcome, Related, Span, YamlPath
 from cellc.contract.diagnostics.unsafe_text import hidden, substitution
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TypeAlias, Union
 
 from cellc.contract.diagnostics import Fix, Span, YamlPath
+from cellc.contract.frozen import dataclass
 
 PlainScalar: TypeAlias = Union[bool, int, float, str, None]
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import yaml
 
 from cellc.contract.diagnostics import Span
+from cellc.contract.frozen import dataclass
 
 _FAST = getattr(yaml, "CLoader", None)
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from cellc.compiler.source.document import Child, Node
 from cellc.compiler.source.findings import finding
 from cellc.contract.diagnostics import Diagnostic, Outcome, Related, Span
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 
 

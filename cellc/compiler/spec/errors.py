@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from enum import Enum
 from typing import Annotated, Literal, TypeAlias, get_args, get_origin
 
@@ -25,6 +24,7 @@ from cellc.compiler.spec.wording import (
     value_at,
 )
 from cellc.contract.diagnostics import did_you_mean, only_nearest
+from cellc.contract.frozen import dataclass
 
 _TYPES: Mapping[str, str] = {
     "string_type": "text",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import types
-from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
@@ -12,6 +11,7 @@ from pydantic.fields import FieldInfo
 
 from cellc.compiler.spec.kinds import Kinds
 from cellc.contract.diagnostics import YamlPath
+from cellc.contract.frozen import dataclass
 
 _KEY_MARK = "[key]"  # how pydantic ends the location of an error in a key
 

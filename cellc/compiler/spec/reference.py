@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, get_args
 
 import yaml
@@ -14,6 +13,7 @@ from cellc.compiler.spec import base
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.place import branches, is_tagged, keys_in_order
 from cellc.compiler.spec.schema import cell_schema
+from cellc.contract.frozen import dataclass
 from cellc.contract.stated import NAME_PATTERN
 
 _INTRODUCTION = """\

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from cellc.contract.code_page import page_of
 from cellc.contract.codes import STAGES
 from cellc.contract.diagnostics import Diagnostic, Span
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.frame import Frame
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.frame_tree import FrameTree
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
 
 

@@ -7,7 +7,6 @@ import logging
 import math
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from importlib.abc import MetaPathFinder
 from io import BytesIO
 from itertools import pairwise
@@ -18,6 +17,7 @@ import numpy as np
 import pinocchio
 
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 from cellc.contract.printing import overheard
 from cellc.contract.signals import held
 from cellc.contract.transforms import Pose

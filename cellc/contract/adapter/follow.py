@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
 
 from cellc.contract.adapter.device import DeviceAdapter, DeviceState, JointCommand, Phase
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,11 +15,11 @@ from collections import Counter, deque
 from collections.abc import Callable, Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from itertools import islice
 from typing import Any, Generic, TypeVar
 
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 
 Shared = TypeVar("Shared")
 Unit = TypeVar("Unit")

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from typing import Generic, TypeVar, Union
 
 from cellc.contract.diagnostics.notebook import html_table
 from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.diagnostics.wording import count
+from cellc.contract.frozen import dataclass
 
 T = TypeVar("T")
 YamlPath = tuple[Union[str, int], ...]

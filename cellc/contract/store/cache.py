@@ -13,11 +13,11 @@ import re
 import sys
 import zlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.store.cache_key import cache_key, is_private, is_shipped_with, user_folder
 from cellc.contract.store.regular_file import own_bytes, read_regular
 from cellc.contract.store.swap import remove_file, replace_whole

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Limits, limits
 from cellc.contract.store.swap import temporary_folder
 from cellc.robot.description.confined_child import ChildEndedError, ask_child

@@ -10,11 +10,11 @@ import hashlib
 import os
 import stat
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import MIB, limits, option
 from cellc.contract.store.regular_file import open_regular
 from cellc.contract.transforms import Vector3

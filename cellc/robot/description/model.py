@@ -7,10 +7,11 @@ report them where they stand.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Union
 
 from cellc.contract.diagnostics import Span
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3
 
 

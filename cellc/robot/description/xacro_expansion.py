@@ -13,7 +13,6 @@ import os
 import re
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.dom import minidom
@@ -21,6 +20,7 @@ from xml.dom import minidom
 import xacro
 
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, did_you_mean, nearest
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import MIB, Budget, as_options, limits, option, raised, use
 from cellc.robot.description.confined_child import HANG_S, ChildEndedError, ask_child, confine_this_process
 from cellc.robot.description.packages import package_path, use_packages

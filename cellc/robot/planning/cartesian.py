@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import pinocchio
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, interpolate
 from cellc.robot.planning.chain import FollowedLine, GroupChain
 from cellc.robot.planning.inverse_kinematics import descend

@@ -5,11 +5,11 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 import pinocchio
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.robot.planning.model import MimicJoint, PinShape, PinTransform, RobotModel
 from cellc.robot.planning.problem import Array, PlanningGroup

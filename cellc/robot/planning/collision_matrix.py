@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget
 from cellc.robot.planning.model import RobotModel
 from cellc.robot.planning.pair_sampling import PairCheck, beyond_reach, draw_configurations

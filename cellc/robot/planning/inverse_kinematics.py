@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 import pinocchio
 
+from cellc.contract.frozen import dataclass
 from cellc.robot.planning.chain import GroupChain
 from cellc.robot.planning.model import PinTransform
 from cellc.robot.planning.problem import Array, FailureReason, IkFailure, JointLimits

@@ -11,13 +11,13 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pinocchio
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.printing import overheard
 from cellc.contract.transforms import Pose
 from cellc.robot.description.meshes import MESH_NOT_FOUND, MeshError, without_meshes

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pinocchio
 
+from cellc.contract.frozen import dataclass
 from cellc.robot.planning.model import PinGeometry, RobotModel
 from cellc.robot.planning.problem import Array
 from cellc.robot.planning.scene import LinkPair, broad_phase, ordered, shape_links

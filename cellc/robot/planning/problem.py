@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
 
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 
 Array = npt.NDArray[np.float64]
 Configuration = tuple[float, ...]

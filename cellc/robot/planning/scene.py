@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import coal
 import numpy as np
 import numpy.typing as npt
 import pinocchio
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3
 from cellc.robot.planning.model import PinData, PinGeometry, PinManager, PinShape, RobotModel, from_pose
 from cellc.robot.planning.problem import Array, ModelError

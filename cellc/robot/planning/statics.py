@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import pinocchio
 
 from cellc.contract.control_law import ControlLaw, LinkMass
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Gravity
 from cellc.robot.planning.model import PinModel, RobotModel
 from cellc.robot.planning.problem import Array

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from cellc.contract.frozen import dataclass
 from cellc.robot.planning.motion_law import (
     MotionLaw,
     ParameterBounds,

@@ -13,12 +13,12 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.uncertainty import Uncertainty as Stated
 from cellc.compiler.formats.numbers import rounded
 from cellc.contract.contract import ContractClock
+from cellc.contract.frozen import dataclass
 from cellc.contract.quantities import SMALLEST
 from cellc.contract.uncertainty import WHOLE, Axis, ExpectedSuccess, Kind, UncertainQuantity, Uncertainty
 

@@ -14,13 +14,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.formats.xml_text import element
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.network import Nic
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Feature, features
 
 _LOOPBACK = "127.0.0.1"

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from itertools import chain
 from typing import NamedTuple
@@ -22,6 +22,7 @@ from cellc.compiler.deploy.recording import recorded_topics
 from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.bring_up import CLAIM_WATCH, BringUp, TopicProof
 from cellc.contract.entities import TARGETS
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Feature, InterfaceKind, features
 
 _OF_SPAWNER = ("configure_controller", "list_controllers", "load_controller")  # what `spawner --inactive` calls

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.cell.device import Device, DeviceJoint
 from cellc.compiler.cell.frame import Solid
 from cellc.compiler.formats.numbers import rounded, shortest
 from cellc.compiler.formats.xml_text import element
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.robot.description.model import (
     Box,

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.site import Host
 from cellc.compiler.graph.network import running_hosts
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN
 
 

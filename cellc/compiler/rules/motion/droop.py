@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.feasibility import BodyContact, DroopAnswer, motion_answer
@@ -12,6 +11,7 @@ from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain, named
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.compiler.rules.tolerances import stated
 from cellc.contract.control_law import ControlLaw
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import TRAJECTORIES, Gravity, Held, Loop
 
 _WEIGHED = (*KNOWN_GOALS, "negative-mass", "payload-above-limit", "refused-impedance", "unit-of-another-joint")

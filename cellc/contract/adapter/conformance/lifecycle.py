@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import isnan
 from typing import Protocol
 
 from cellc.contract.adapter.device import DeviceAdapter, JointCommand, Phase
+from cellc.contract.frozen import dataclass
 
 STANDSTILL = 1e-3
 """rad/s or m/s below which a joint is at standstill."""
