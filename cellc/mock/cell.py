@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import process_time
 
 from cellc.contract.contract import Contract
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget, BudgetError, limits, option
 from cellc.contract.printing import stage
 from cellc.contract.rehearsals import RehearsalEntry

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from math import ceil
 
 from cellc.contract.contract import ContractClock
+from cellc.contract.frozen import dataclass
 
 DEFAULT = "ros"
 """Name and domain of the clock of everything whose host the contract does not state."""

@@ -8,10 +8,10 @@ program goes on, and the arm jumps, or continues the goal that was stopped. The 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 
 from cellc.contract.devices import ContractEffect, ContractStop
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import LeftBy, Moment, Motion, Need, Unmet
 from cellc.mock.device_view import DeviceView
 from cellc.mock.engine.simulation import Simulation

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -15,6 +15,7 @@ from pydantic import BaseModel
 from cellc.contract.bring_up import BringUp, BringUpStep, Watch
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import hidden_in_json, hidden_on_line
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits, option
 from cellc.contract.manifest import Manifest
 from cellc.contract.quantities import LARGEST

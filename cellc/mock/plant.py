@@ -5,10 +5,11 @@ Code that needs less does not take a plant: faults get `faults.ports.FaultPorts`
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract
+from cellc.contract.frozen import dataclass
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clocks
 from cellc.mock.effects import Effects

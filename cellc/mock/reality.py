@@ -7,8 +7,9 @@ poses, so that a wrong calibration moves the robot to a wrong place, as in the r
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3
 
 

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from enum import Enum
 from typing import Any
 
 from cellc.contract.diagnostics.notebook import html_table
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_json
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import AttemptOutcome, Term
 
 

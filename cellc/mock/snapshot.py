@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import io
 import pickle
-from dataclasses import dataclass
 from typing import Any
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Limits, limits
 from cellc.mock.bringup import Bringup, announce
 from cellc.mock.control.parameters import Parameter

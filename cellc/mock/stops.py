@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from cellc.contract.frozen import dataclass
 from cellc.mock.engine.control_stack import ControlStack
 
 NORMAL = "normal"

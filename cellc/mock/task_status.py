@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Vector3
 from cellc.mock.engine.process import Action, Signal
 

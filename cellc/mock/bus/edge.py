@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
 from random import Random
 from typing import Generic, TypeVar
 
 from cellc.contract.entities import ContractEndpoint
+from cellc.contract.frozen import dataclass
 from cellc.mock.bus.network import IDEAL, Network, QosEvent, QosEventKind
 from cellc.mock.bus.timers import DeadlineWatch, Timers
 

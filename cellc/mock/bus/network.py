@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
 from enum import Enum
 from random import Random
 
 from cellc.contract.entities import ContractInterface
+from cellc.contract.frozen import dataclass
 from cellc.mock.bus.qos import DDS, Middleware
 from cellc.mock.bus.timers import Timers
 

@@ -6,10 +6,10 @@ DDS compares by the table of ``contract.qos``; with Zenoh any two endpoints of a
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
 from cellc.contract.entities import ContractEndpoint, Qos
+from cellc.contract.frozen import dataclass
 from cellc.contract.qos import Incompatibility, incompatibilities
 
 ZENOH_PREFIX = "rmw_zenoh"

@@ -7,12 +7,11 @@ are the hash of that instant and the seed of the edge.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import numpy.typing as npt
 
 from cellc.contract.entities import Qos
+from cellc.contract.frozen import dataclass
 from cellc.mock.bus.network import EdgeBehavior, EdgeName, Network
 
 IntArray = npt.NDArray[np.int64]

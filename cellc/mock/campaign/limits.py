@@ -21,12 +21,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cellc.contract.contract import Contract, ContractJointLimits
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.control.journal import Cause, CommandSamples, Interruption
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.diagnostics.wording import aligned
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.campaign.campaign import Campaign

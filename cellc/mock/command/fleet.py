@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import Literal
 
 from cellc.contract.compute.work import Work, in_order, stream
 from cellc.contract.fleet import FleetRehearsal, FleetRow, FleetSweep
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits, option
 from cellc.contract.printing import progress, time_left
 from cellc.mock.campaign.campaign import Assignment

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from cellc.contract.compute.fan import USUAL, Fan
 from cellc.contract.extras import CLUSTER, EVIDENCE, LIVE, Extra
+from cellc.contract.frozen import dataclass
 
 
 @dataclass(frozen=True, slots=True)

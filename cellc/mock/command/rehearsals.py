@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.extras import LIVE, gate
+from cellc.contract.frozen import dataclass
 from cellc.contract.printing import progress, show, show_document
 from cellc.mock.cell import MockCell, in_turn, load
 from cellc.mock.command.ending import refusing

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.quantities import LARGEST
 from cellc.mock.control.errors import DescriptionError
 from cellc.robot.description.model import Description, HardwareComponent, HardwarePart, Joint

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractManager
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 from cellc.contract.vocabulary import Behavior
 from cellc.mock.adapter.server import AdapterServer

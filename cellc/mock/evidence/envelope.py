@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from heapq import heappop, heappush
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.clocks import Clock
 
 Array = NDArray[np.float64]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.entities import Kpis
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.run_trace import StateChange, TraceResult

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from cellc.contract.contract import ContractController
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.control import ControllerManager, GripperGoal, JointStateBlock, Recording
 from cellc.mock.engine.control_stack import GoalSent

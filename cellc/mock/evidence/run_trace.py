@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from cellc.contract.contract import Contract
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.bus.stream import NEVER_NS
 from cellc.mock.control import ControllerChanged, HardwareChanged, JointStateBlock, Recording

@@ -6,10 +6,11 @@ where a player that repeats the bag commands nothing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from cellc.contract.contract import Contract
 from cellc.contract.entities import Qos
+from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 from cellc.mock.evidence.bag.bag_file import LATCHED
 from cellc.mock.evidence.bag.messages import (

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractController
 from cellc.contract.faults import FaultKind, stop_state
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, StepEntry
 from cellc.contract.vocabulary import AttemptOutcome
 

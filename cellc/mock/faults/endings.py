@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from cellc.contract.bring_up import WATCH_WITHIN_S
 from cellc.contract.contract import Contract
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, device_of, ends_in
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S

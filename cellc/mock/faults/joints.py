@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.faults import FaultKind
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome, Behavior
 from cellc.mock.faults.cases import (

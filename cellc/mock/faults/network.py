@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
 from cellc.contract.contract import Contract
 from cellc.contract.entities import ContractInterface
 from cellc.contract.faults import FaultKind
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome, Moment
 from cellc.mock.bus.qos import served_actions

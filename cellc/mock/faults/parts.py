@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
 from cellc.contract.contract import Contract, ContractGrasp
 from cellc.contract.faults import FaultKind
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.faults.cases import BORNE, CellStep, Ending, FaultCase, ends_in, fault_case

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractFrame
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clock, Clocks

@@ -6,13 +6,13 @@ A program on the robot stops and starts; where set points pass through none, its
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar, TypeVar
 
 from cellc.contract.bring_up import WATCH_WITHIN_S
 from cellc.contract.contract import Contract
 from cellc.contract.faults import FaultKind
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome, Moment, Need, Unmet
 from cellc.mock.effects import JOGGED

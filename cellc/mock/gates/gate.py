@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from enum import Enum
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN, GateCode
 
 _SHOWN = 3

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
 from cellc.contract.faults import Interaction
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import LimitsReport

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
 from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
+from cellc.contract.frozen import dataclass
 from cellc.contract.quantities import LARGEST, SMALLEST
 from cellc.contract.transforms import Pose, Vector3, climb
 from cellc.mock.control.interfaces import Array

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.contract import ContractFrame
 from cellc.contract.devices import ContractCamera
 from cellc.contract.entities import ContractInterface
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.mock.bus.edge import Subscription
 from cellc.mock.bus.network import Network

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.mock.bus.stream import NEVER_NS, IntArray, StreamEdge
 from cellc.mock.clocks import Clock, Clocks

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.evidence.envelope import Envelope
 from cellc.mock.report_page.html import tag
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.wording import count
+from cellc.contract.frozen import dataclass
 from cellc.contract.store.regular_file import own_text
 from cellc.contract.vocabulary import UNKNOWN
 from cellc.mock.campaign.campaign import Campaign

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.wording import count
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.fault_times import fault_times

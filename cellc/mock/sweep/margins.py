@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
+from cellc.contract.frozen import dataclass
 from cellc.mock.nodes.observations import oldest_observation_s, pose_interface
 from cellc.mock.sweep.sweep import GoalRoom, Sweep
 from cellc.mock.task.bounds import joint_state_age_s

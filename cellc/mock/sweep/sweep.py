@@ -5,11 +5,11 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
 from math import inf
 
 from cellc.contract.compute.work import ExecutorFactory, Work, stream
 from cellc.contract.contract import Contract
+from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.uncertainty import UNCERTAINTY_FILE, ExpectedSuccess, Uncertainty
 from cellc.mock.campaign.campaign import Assignment

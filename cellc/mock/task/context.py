@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from cellc.contract.contract import Contract, ContractBand
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import ControlEvent, ControllerChanged, GripperEnded, TrajectoryEnded

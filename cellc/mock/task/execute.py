@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GoalStatus, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
 from cellc.mock.engine.process import Wait, Waiting

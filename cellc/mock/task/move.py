@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from cellc.contract.contract import Contract, ContractGoal, ContractPoseTarget
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint

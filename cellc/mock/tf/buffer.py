@@ -5,8 +5,7 @@ Walks the tree as tf2::BufferCore does, so that of several reasons it names the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity, interpolate
 from cellc.mock.clocks import TimeJump
 from cellc.mock.tf.messages import (

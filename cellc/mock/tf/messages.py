@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import Enum
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 
 QUATERNION_TOLERANCE = 10e-3

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
 from cellc.mock.tf.messages import Outside, TfWarnings, into_the_future, into_the_past, no_data, one_sample, refusal
 

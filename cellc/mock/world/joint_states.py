@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 from cellc.mock.control import JointStateBlock
 from cellc.mock.errors import LimitReachedError

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.mock.tf.sources import DeferredPose
 from cellc.mock.world.joint_states import JointStateHistory

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 from cellc.contract.errors import CellcError
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Distro
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import Block, InterfaceTable

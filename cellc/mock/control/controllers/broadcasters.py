@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.controllers.base import ConfigureError, Context, Cycle, QuietController
 from cellc.mock.control.interfaces import Array, Block, Times
 from cellc.mock.control.parameters import Parameter

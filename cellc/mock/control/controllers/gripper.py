@@ -7,10 +7,10 @@ immediately; a goal that runs while the controller is deactivated never gets a r
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.controllers.base import Context, Cycle, GoalMonitor, QuietController
 from cellc.mock.control.interfaces import Block
 from cellc.mock.control.journal import Cause

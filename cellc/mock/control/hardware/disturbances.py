@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.hardware.joint_motion import Noise, rate_limit
 from cellc.mock.control.interfaces import Array
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cellc.contract.control_law import ControlLaw
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.hardware.disturbances import Disturbances
 from cellc.mock.control.hardware.joint_motion import Motion, differences, hold_last, integral
 from cellc.mock.control.hardware.spring_joints import SpringJoints

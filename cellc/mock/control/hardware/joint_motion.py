@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.interfaces import Array
 
 

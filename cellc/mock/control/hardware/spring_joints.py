@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cellc.contract.control_law import ControlLaw
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.interfaces import Array
 from cellc.robot.planning import Springs
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.errors import DescriptionError

@@ -11,10 +11,9 @@ were not done after 49 s cycle by cycle; ten runs took 1.9 s and 8.3 s. The resu
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import Block, Columns, InterfaceTable
 from cellc.mock.control.log import Log

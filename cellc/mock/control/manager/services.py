@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.controllers.gripper import GripperController
 from cellc.mock.control.controllers.joint_trajectory import JointTrajectoryController
 from cellc.mock.control.controllers.joint_trajectory.acceptance import refusal

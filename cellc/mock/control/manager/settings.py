@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 from cellc.contract.vocabulary import Distro, Feature, features
 from cellc.mock.control.errors import ManagerAbortedError

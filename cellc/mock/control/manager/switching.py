@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from enum import IntEnum
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.hardware import CommandLimiter
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
 
@@ -16,6 +16,7 @@ import yaml
 
 from cellc.contract.entities import Qos
 from cellc.contract.extras import EVIDENCE, gate
+from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 from cellc.contract.store.regular_file import own_text
 

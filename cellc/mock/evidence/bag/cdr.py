@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from cellc.contract.frozen import dataclass
 
 _HEADER = b"\x00\x01\x00\x00"
 """Representation identifier CDR_LE and no options (RTPS 2.5, table 10.3)."""

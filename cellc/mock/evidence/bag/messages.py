@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import Distro, Feature, features
 from cellc.mock.control import GripperGoal, Trajectory

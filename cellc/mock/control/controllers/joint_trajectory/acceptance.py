@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.messages import Trajectory, TrajectoryPoint
 
 # The real comparison is against the float epsilon.

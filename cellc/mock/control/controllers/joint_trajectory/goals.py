@@ -7,8 +7,8 @@ tick of the action monitor.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Feature, features
 from cellc.mock.control.controllers.base import Context, GoalMonitor
 from cellc.mock.control.controllers.joint_trajectory.interfaces import JointInterfaces

@@ -8,11 +8,11 @@ controller that is kept on purpose.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.frozen import dataclass
 from cellc.mock.control.interfaces import Array, Times
 from cellc.mock.control.messages import TrajectoryPoint
 
