@@ -37,6 +37,7 @@ FOLDERS = {
     "emit/launch/bring_up_program.py": _PROGRAMS,
     "emit/launch/first_goal_program.py": _PROGRAMS,
     "emit/launch/installed_versions_program.py": _PROGRAMS,
+    "frozen": "cell",
     "importing": "foreign cli",
     "limits.py": "description source",
     "link": "link corpus",

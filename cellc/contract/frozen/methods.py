@@ -1,23 +1,15 @@
-"""`dataclasses.dataclass`, but that a frozen class compiles no function before one of its values is made.
-
-The standard library compiles six functions for each class, at import: for the 300 classes of a check that is a fifth of
-its time, and most of them are never made. What is read here instead means the same: fields, `replace`, `asdict`,
-comparison, hash, copies, pickles and texts of values are those of a dataclass.
-"""
+"""What a frozen class has beside its fields: written once for all classes, but for `__init__`."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable
-from functools import partial
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import FunctionType
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 _Method = Callable[..., object]
-_TAKEN = {"frozen", "slots", "kw_only", "repr"}
-"""Options of a class that is made here; with any other, the standard library makes it at import."""
 
 
 class _Made(Protocol):
@@ -27,26 +19,7 @@ class _Made(Protocol):
     __compared__: ClassVar[_Method]
 
 
-def on_demand(**options: bool) -> Callable[[type], type]:
-    """Return the decorator of a class; the options are those of `dataclasses.dataclass`."""
-    if not options.get("frozen") or not options.keys() <= _TAKEN:
-        return partial(dataclasses.dataclass, **options)
-
-    def decorate(cls: type) -> type:
-        own = vars(cls)
-        cls.__doc__ = cls.__doc__ or cls.__name__  # or a signature is made up for it, which takes longer than the rest
-        made: type = dataclasses.dataclass(
-            init=False, repr=False, eq=False, slots=options.get("slots", False), kw_only=options.get("kw_only", False)
-        )(cls)
-        for name, method in _methods(made, shown=options.get("repr", True)):
-            if own.get(name) is None:
-                setattr(made, name, method)
-        return made
-
-    return decorate
-
-
-def _methods(cls: type, *, shown: bool) -> Iterable[tuple[str, _Method]]:
+def methods(cls: type, *, shown: bool) -> Iterable[tuple[str, _Method]]:
     """Yield what a frozen dataclass has, the parts that are the same for all written once."""
     yield "__init__", _first_init(cls)
     yield "__compared__", _values(field.name for field in dataclasses.fields(cls) if field.compare)
@@ -138,8 +111,3 @@ _SHARED: tuple[tuple[str, _Method], ...] = (
     ("__getstate__", _state),
     ("__setstate__", _restore),
 )
-
-if TYPE_CHECKING:
-    from dataclasses import dataclass as dataclass
-else:
-    dataclass = on_demand
