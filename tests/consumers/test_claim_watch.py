@@ -198,3 +198,27 @@ def test_program_is_installed_where_the_plan_has_watches_and_python_of_the_oldes
     assert ("scripts/claim_watch" in texts, "  scripts/claim_watch\n" in texts["CMakeLists.txt"]) == (watched, watched)
     if watched:
         ast.parse(texts["scripts/claim_watch"], feature_version=(3, 10))
+
+
+def test_the_time_until_a_claim_is_dropped_counts_from_the_stop_and_not_from_the_last_try(
+    ros: FakeRos, capsys: pytest.CaptureFixture[str]
+) -> None:
+    watch, now = claimed(ros), [0.0]
+    type(watch).end.__globals__["time"] = SimpleNamespace(monotonic=lambda: now[0])
+    ros.refuses = True
+    ros.say(SAFETY, SimpleNamespace(mode=3))
+    now[0], ros.refuses = 5.0, False
+    watch.look()
+    assert ros.active == set()
+    assert "deactivated after 5.000 s, LATE" in capsys.readouterr().out
+
+
+def test_a_manager_that_does_not_answer_is_asked_once_a_second(ros: FakeRos) -> None:
+    watch, now, asked = claimed(ros), [0.0], list[str]()
+    type(watch).end.__globals__["time"] = SimpleNamespace(monotonic=lambda: now[0])
+    ros.say(SAFETY, SimpleNamespace(mode=3))
+    vars(ros)["ask"] = lambda name, *_, **__: asked.append(name)
+    for _ in range(30):
+        now[0] += 0.1
+        watch.look()
+    assert 2 <= len(asked) <= 4

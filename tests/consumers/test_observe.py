@@ -342,6 +342,11 @@ _WRONGS: dict[str, tuple[Callable[[Seen], object], str, str]] = {
         "/controller_manager",
         "update_rate is 125",
     ),
+    "parameters of which one is not declared": (
+        lambda seen: seen.answers["/controller_manager/get_parameters"].values.clear(),
+        "/controller_manager",
+        "values answered",
+    ),
     "another description": (
         lambda seen: seen.answers.update(robot_description=fromstring('<robot name="ur5e_pick"/>')),
         "robot_description",
@@ -390,6 +395,41 @@ def test_what_a_later_gate_starts_is_due_from_then_on(tmp_path: Path) -> None:
     lines = [line for line in comparisons(package, early, "G7") if line.verdict == FAILED]
     named = {name for line in lines for name in ("/task is missing", "arm_trajectory is inactive") if name in line.seen}
     assert named == {"/task is missing", "arm_trajectory is inactive"}
+
+
+def test_stamps_of_two_publishers_that_interleave_are_in_no_order(tmp_path: Path) -> None:
+    package = package_of("dual_ur", "real", tmp_path)
+    assert len(package.plan["ends"][_STATES]["sources"]) == 2
+    seen = right(package, "G4")
+    seen.streams[_STATES].backward = 100
+    assert [line for line in comparisons(package, seen, "G4") if line.verdict != PASSED] == []
+
+
+def test_joint_states_of_two_publishers_that_alternate_are_both_read() -> None:
+    for publishers in range(2, 10):
+        read = {number % publishers for number in range(0, 2000, observe_program.EACH)}
+        assert read == set(range(publishers))
+
+
+@pytest.mark.parametrize("arguments", [("--for", "nan"), ("--for", "inf"), ("--for", "-1"), ("--for", "soon")])
+def test_a_time_that_is_no_time_is_a_wrong_use(arguments: tuple[str, ...], tmp_path: Path) -> None:
+    with pytest.raises(SystemExit) as ended:
+        observe_program.main(["--package", str(tmp_path), *arguments])
+    assert ended.value.code == 2
+
+
+def test_a_folder_that_is_no_package_is_a_wrong_use(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        observe_program.main(["--package", str(tmp_path)])
+    assert ended.value.code == 2
+    assert "--package must be the share folder of this package" in capsys.readouterr().err
+
+
+def test_a_message_that_is_too_short_for_its_header_is_named() -> None:
+    seen = Seen()
+    kind = type("PoseStamped", (), {})
+    observe_program.Listener(seen).stream(_POSE, kind, True, b"\0\1\0\0", 1.0)
+    assert seen.streams[_POSE].frames == {"of a message of 4 bytes"}
 
 
 def test_stamp_and_frame_are_read_from_a_serialized_message() -> None:

@@ -101,7 +101,7 @@ def _with_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
         resumed = _effects(device).get(Moment.PROGRAM_RESUME)
         if resumed is not None and resumed.motion is Motion.JUMPS:
             jog = "Do not jog it while its program is paused. Stop the program, jog one joint, and start the program."
-            yield jog, "Nothing may move before the claim is acknowledged."
+            yield jog, resumes
 
 
 def _tripped(device: Device) -> SafetyState | None:

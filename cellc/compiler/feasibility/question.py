@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import DeviceJoint
-from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup, Step
 from cellc.compiler.formats.urdf.robot import manager_description, start_positions
 from cellc.compiler.formats.xml_text import render
@@ -16,7 +15,7 @@ from cellc.compiler.graph.control_laws import control_laws, start_outside
 from cellc.compiler.graph.frame_tree import FrameTree
 from cellc.contract.control_law import ControlLaw, LinkMass
 from cellc.contract.frozen import dataclass
-from cellc.contract.transforms import Pose, Vector3, climb
+from cellc.contract.transforms import Pose, Vector3
 
 Positions = tuple[tuple[str, float], ...]
 """Joint names with rad or m."""
@@ -125,7 +124,7 @@ def shapes_and_joints(cell: Cell) -> str:
 def motion_question(graph: CellGraph) -> MotionQuestion:
     """Ask for every named pose and every goal whose place is known before the cell runs."""
     cell = graph.cell
-    tips = {group.name: _tip(graph.frames, group.tip_frame) for group in cell.groups}
+    tips = {group.name: graph.frames.carrier(group.tip_frame) for group in cell.groups}
     joints = {joint.name: joint for device in cell.devices for joint in device.joints}
     return MotionQuestion(
         urdf=shapes_and_joints(cell),
@@ -190,7 +189,7 @@ def _holding(cell: Cell, closed: Iterable[str], loadable: Sequence[str]) -> Iter
 
 def _areas(graph: CellGraph) -> Iterator[AreaQuestion]:
     for area in graph.cell.areas:
-        link, pose = _tip(graph.frames, area.parent)
+        link, pose = graph.frames.carrier(area.parent)
         yield AreaQuestion(area.name, link, pose @ area.transform_to_parent, area.size)
 
 
@@ -259,15 +258,3 @@ def _goal(frames: FrameTree, goal: CartesianGoal, transform_tip_to_link: Pose) -
 
 def _before(tip: Pose, approach: Vector3) -> Pose:
     return tip @ Pose(approach, (0.0, 0.0, 0.0, 1.0))
-
-
-def _tip(frames: FrameTree, name: str) -> tuple[str, Pose]:
-    """Return the link of a device that carries a frame, and the pose of the frame in it."""
-
-    def edge(child: str) -> tuple[str, Pose] | None:
-        frame = frames.get(child)
-        if frame is None or frame.kind is not FrameKind.FIXED or frame.transform_to_parent is None:
-            return None
-        return frame.parent, frame.transform_to_parent
-
-    return climb(name, edge)

@@ -9,12 +9,11 @@ from dataclasses import replace
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import Adapter, CommandLaw
+from cellc.compiler.graph.frame_tree import build_frame_tree
 from cellc.compiler.graph.grips import heaviest_part
 from cellc.contract.control_law import ControlLaw, JointLaw, LinkMass
 from cellc.contract.frozen import dataclass
-from cellc.contract.transforms import Pose, climb
 from cellc.contract.vocabulary import TRAJECTORIES, Distro, Feature, Gravity, Held, Loop, features
 
 _ROUNDING_KG = 0.05
@@ -140,8 +139,8 @@ def _by_controller(joints: Sequence[str], controller: Controller | None, distro:
     bounds = [(key, one.default) for key in ("i_clamp", "i_clamp_max") if (one := declared.get(f"gains.<joint>.{key}"))]
     for joint in joints:
         gain = {key: _number(loaded.get(f"gains.{joint}.{key}")) for key in ("p", "i", "d")}
-        if not gain["p"]:
-            return f"no controller has a gain `gains.{joint}.p`"
+        if gain["p"] is None or gain["p"] <= 0.0:
+            return f"no controller has a gain `gains.{joint}.p` above 0"
         integral = gain["i"] or 0.0
         most = [_number(loaded.get(f"gains.{joint}.{key}", default)) for key, default in bounds if integral]
         least = min((bound for bound in most if bound is not None and bound < math.inf), default=None)
@@ -204,18 +203,5 @@ def _part(cell: Cell, device: Device) -> LinkMass | None:
         stated = heaviest_part(cell, (device.name, *device.mount.carries))
     rest_kg = 0.0 if payload is None else payload.mass_kg - cell.carried_mass_kg(device)
     mass_kg = stated if stated is not None else rest_kg if rest_kg > _ROUNDING_KG else 0.0
-    link, pose = _link_of(cell, group.tip_frame)
+    link, pose = build_frame_tree(cell).carrier(group.tip_frame)
     return LinkMass(link=link, mass_kg=round(mass_kg, 9), center=pose.position) if mass_kg > 0.0 else None
-
-
-def _link_of(cell: Cell, name: str) -> tuple[str, Pose]:
-    """Return the link that carries a frame, and the pose of the frame in it."""
-    frames = {frame.name: frame for frame in cell.frames}
-
-    def edge(child: str) -> tuple[str, Pose] | None:
-        frame = frames.get(child)
-        if frame is None or frame.kind is not FrameKind.FIXED or frame.transform_to_parent is None:
-            return None
-        return frame.parent, frame.transform_to_parent
-
-    return climb(name, edge)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.frame import Frame
+from cellc.compiler.cell.frame import Frame, FrameKind
 from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, climb
@@ -40,6 +40,17 @@ class FrameTree:
         """Name the parent of a frame; None for a root and for a frame that does not exist."""
         frame = self.get(name)
         return frame.parent or None if frame else None
+
+    def carrier(self, name: str) -> tuple[str, Pose]:
+        """Return the link that carries a frame by fixed transforms alone, and the pose of the frame in it."""
+
+        def edge(child: str) -> tuple[str, Pose] | None:
+            frame = self.get(child)
+            if frame is None or frame.kind is not FrameKind.FIXED or frame.transform_to_parent is None:
+                return None
+            return frame.parent, frame.transform_to_parent
+
+        return climb(name, edge)
 
     def authorities(self, name: str) -> tuple[Frame, ...]:
         """Return every edge that somebody publishes for one child frame."""

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Takes claims from a robot that stops, pauses or falls silent, and keeps them away until a person acknowledges.
+"""Takes claims from a robot that stops, pauses or loses its publisher, and keeps them away until a person acknowledges.
 
     claim_watch --plan FILE [--host HOST]
 
@@ -25,6 +25,7 @@ from types import SimpleNamespace
 from typing import Any
 
 LOOK_S = 0.1  # period of checks for claims that are back and for topics without a publisher
+RETRY_S = 1.0  # how long an answer about claims is waited for
 BEST_EFFORT = 1  # controller_manager_msgs/srv/SwitchController: as far as possible
 DEACTIVATE = 4  # lifecycle_msgs/msg/Transition
 SWITCH, LIST = "controller_manager_msgs/srv/SwitchController", "controller_manager_msgs/srv/ListControllers"
@@ -106,6 +107,7 @@ class Watch:
         self._ros, self._entry = ros, entry
         self._proofs = list(vars(entry.while_hold).values())
         self._heard: set[str] = set()
+        self._lost_s, self._asked_s = 0.0, -RETRY_S
         self.latched = "not acknowledged since this program started"
         self.missing = {proof.topic: f"no message on {proof.topic}" for proof in self._proofs}
         ros.serve(entry.acknowledge, ACKNOWLEDGE, self._acknowledge)
@@ -125,7 +127,8 @@ class Watch:
                 self._heard.add(proof.topic)
             if not self._ros.published(proof.topic):
                 self._lose(proof.topic, f"{proof.topic} has no publisher")
-        if self.latched:
+        if self.latched and time.monotonic() - self._asked_s >= RETRY_S:  # a manager that is held up gets no queue
+            self._asked_s = time.monotonic()
             self._ros.ask(f"{self._entry.manager}/list_controllers", self._again)
 
     def _take(self, proof: SimpleNamespace, message: Any) -> None:
@@ -139,9 +142,11 @@ class Watch:
         self.missing[topic] = why
         if not self.latched:
             self.latched = why
+            self._lost_s = time.monotonic()
             self.end()
 
     def _again(self, answer: Any) -> None:
+        self._asked_s = -RETRY_S
         if self.latched and any(
             known.state == "active" and known.name in self._entry.controllers for known in answer.controller
         ):
@@ -149,20 +154,19 @@ class Watch:
 
     def end(self) -> None:
         """Ask for the end of goals, claims and motion clients together."""
-        began = time.monotonic()
         for action in getattr(self._entry, "actions", ()):
             self._ros.ask(f"{action}/_action/cancel_goal")  # no goal named: all of them
         self._ros.ask(
             f"{self._entry.manager}/switch_controller",
-            partial(self._ended, began, self.latched),
+            partial(self._ended, self._lost_s, self.latched),
             deactivate_controllers=list(self._entry.controllers),
             strictness=BEST_EFFORT,
         )
         for node in getattr(self._entry, "nodes", ()):
             self._ros.ask(f"{node}/change_state", transition=loaded("lifecycle_msgs/msg/Transition")(id=DEACTIVATE))
 
-    def _ended(self, began: float, why: str, answer: Any) -> None:
-        after_s = time.monotonic() - began
+    def _ended(self, lost_s: float, why: str, answer: Any) -> None:
+        after_s = time.monotonic() - lost_s
         done = "deactivated" if answer.ok else "not deactivated, will retry (refused)"
         late = f", LATE: planned {self._entry.within_s:g} s" if after_s > self._entry.within_s else ""
         names = ", ".join(self._entry.controllers)

@@ -48,7 +48,9 @@ DISCOVERY_S, ANSWER_S = 3.0, 3.0
 POLL_S = 0.01  # at 1 kHz a tenth of the queue fills in it
 TRANSFORMS, DESCRIPTION = "tf2_msgs/msg/TFMessage", "std_msgs/msg/String"
 PARTS = {"L3": "graph", "L4": "flow", "L5": "tf"}  # what a layer asks for; gates ask for all
-EACH = 10  # of joint states one in so many is read whole; of the others the stamp
+DAY_S = 86400.0
+# Of joint states one in so many is read whole, of the others the stamp; a prime, or publishers that alternate hide one.
+EACH = 11
 
 
 def stamp_of(data: bytes) -> tuple[float, str]:
@@ -175,7 +177,11 @@ class Listener:
 
     def stream(self, topic: str, kind: Any, stamped: bool, data: bytes, received_s: float) -> None:
         stream = self._seen.streams.setdefault(topic, Stream())
-        stream.take(received_s, stamp_of(data) if stamped else None)
+        try:
+            stream.take(received_s, stamp_of(data) if stamped else None)
+        except struct.error:
+            stream.frames.add(f"of a message of {len(data)} bytes")
+            return
         if kind.__name__ == "JointState" and len(stream.arrivals) % EACH == 1:
             message = deserialized(data, kind)
             stream.take_joints(message.name, message.position)
@@ -304,16 +310,31 @@ def escaped(text: str) -> str:
     return "".join(f"\\{letter}" if letter in "|<>`[]*_\\" else letter for letter in plain)
 
 
+def seconds(text: str) -> float:
+    """Return a time to listen, s.
+
+    Raises:
+        ValueError: it is no number from 0 to a day.
+    """
+    value = float(text)
+    if not 0.0 <= value <= DAY_S:
+        raise ValueError
+    return value
+
+
 def main(arguments: Sequence[str]) -> int:
     """Look, compare, print and write; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--package", type=Path, required=True, metavar="FOLDER", help="share folder of this package")
     parser.add_argument("--gate", choices=(*PARTS, "G3", "G4", "G7"), default="G4", help="default: G4")
     parser.add_argument("--target", choices=("real", "mock"), default="real", help="hardware (default: real)")
-    parser.add_argument("--for", type=float, default=30.0, dest="for_s", metavar="SECONDS", help="default: 30")
+    parser.add_argument("--for", type=seconds, default=30.0, dest="for_s", metavar="SECONDS", help="default: 30")
     parser.add_argument("--evidence", type=Path, metavar="FOLDER", help="folder of this attempt's evidence")
     read = parser.parse_args(arguments)
-    package = read_package(read.package, read.target)
+    try:
+        package = read_package(read.package, read.target)
+    except (OSError, ValueError, KeyError, ElementTree.ParseError) as error:
+        parser.error(f"--package must be the share folder of this package: {escaped(str(error))}")
     graph = Graph(package.plan["enclave"])
     try:
         seen = look(graph, package, read.for_s)

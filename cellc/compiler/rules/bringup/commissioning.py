@@ -66,7 +66,7 @@ def _against_hardware(graph: CellGraph, caps: Commissioning) -> Iterator[tuple[s
         yield "force", caps.force, max(_forces(graph), default=math.inf)
 
 
-@rule(Severity.ERROR, assumes=("caps-of-nothing", "disordered-stages"))
+@rule(Severity.ERROR, assumes=("caps-of-nothing", "disordered-stages", "missing-velocity-limit"))
 def caps_above_risk_assessment(graph: CellGraph) -> Findings:
     """Yield caps above what the risk assessment allows, and figures of it that nothing caps."""
     assessed, caps = graph.cell.safety.risk_assessment, graph.cell.bringup.caps
