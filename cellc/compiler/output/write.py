@@ -68,7 +68,7 @@ def write(
 
 @dataclass(frozen=True, slots=True)
 class _Writing:
-    """One call of `write`."""
+    """One call of `write`. Whether a file was edited is judged in turn alone: beside another build it seems so."""
 
     files: Sequence[NewFile]
     folder: Path
@@ -83,9 +83,6 @@ class _Writing:
             return Outcome(None, refused)
         stagings = others(self.folder)
         planned = self._planned(stagings)
-        edited = self._edited(planned)
-        if edited:
-            return Outcome(None, edited)
         if not (planned.write or planned.remove):
             self._forget(stagings, planned)
             return Outcome(WriteReport((), (), planned.unchanged))
@@ -121,9 +118,10 @@ class _Writing:
         try:
             swap.make_folder(self.folder.parent)
             make_staging(self.folder)
+            refused = self._busy()
             stale = others(self.folder)
             planned = self._planned(stale)
-            refused = self._busy() or self._edited(planned)
+            refused = refused or self._edited(planned)
             if not refused:
                 _replace(planned, swap)
         except BaseException:  # Ctrl-C too: what was replaced is put back

@@ -98,7 +98,10 @@ def others(folder: Path) -> tuple[Path, ...]:
 
 
 def _is_staging(path: Path) -> bool:
-    mode = path.lstat().st_mode if os.path.lexists(path) else 0
+    try:
+        mode = path.lstat().st_mode
+    except FileNotFoundError:  # its process has discarded it
+        return False
     return stat.S_ISDIR(mode) and (sys.platform != "linux" or bool(mode & stat.S_ISVTX))
 
 
