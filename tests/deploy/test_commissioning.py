@@ -64,8 +64,8 @@ def test_nobody_releases_brakes_or_fingers_before_the_stop_was_tried_and_the_are
     empty, tried = _place(lines, "no person and no loose object is within reach"), _place(lines, "trip the stop")
     # Drives that have no power cannot lose it: a stop that is tried on them is not tried.
     assert empty < _place(lines, "Payload of arm") < _place(lines, "release the brakes") < tried
-    assert tried < _place(lines, "power the drives again") < _place(lines, "no program runs on the robot while")
-    assert _place(lines, "no program runs on the robot while") < _place(lines, "Authorize hardware that moves")
+    assert tried < _place(lines, "power the drives again") < _place(lines, "no robot on it runs a program")
+    assert _place(lines, "no robot on it runs a program") < _place(lines, "Authorize hardware that moves")
 
 
 @pytest.mark.parametrize("cell", CELLS)

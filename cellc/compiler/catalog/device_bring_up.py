@@ -42,6 +42,7 @@ class NetworkFacts(CatalogModel):
         ports: Ports that host and device use between them.
         default_subnet: Subnet in which the vendor ships the device, such as ``172.16.0.0/24``.
         dedicated_link: Whether the device needs a network card of the host for itself.
+        powered: Whether the device answers, and shows its firmware, only while its drives have power.
         realtime: Whether the host needs a real-time kernel; ``required`` and ``recommended`` are checked against the
             kernel of the host.
         source: Document with its version from which these facts were read.
@@ -50,6 +51,7 @@ class NetworkFacts(CatalogModel):
     ports: tuple[PortFacts, ...] = ()
     default_subnet: Text | None = None
     dedicated_link: bool
+    powered: bool = False
     realtime: Literal["required", "recommended", "not_needed"]
     source: Text
 
@@ -65,6 +67,7 @@ class SafetyStateFacts(CatalogModel):
         left_by: What ends the stop once its cause is gone.
         reported: How the driver reports the state, such as a value of a topic or an action that ends.
         seen: What people see at the device in a state that its driver does not report.
+        trip: How people bring about the state while the device moves, out of its reach; absent where no source says.
         gate: Gate of bring-up in which people look for the state; one that only an activation or an action shows cannot
             be seen earlier.
     """
@@ -76,6 +79,7 @@ class SafetyStateFacts(CatalogModel):
     left_by: LeftByName = LeftBy.ACTIVATION
     reported: Text | None = None
     seen: Text | None = None
+    trip: Text | None = None
     gate: GateName = GateCode.G4
 
     @model_validator(mode="after")
@@ -170,6 +174,7 @@ class CommissioningStep(CatalogModel):
         after_release: Whether the step comes after the release of the gate: what must be seen then, or what is first
             done with it.
         powers: Whether the drives have power after the step, so that the stop can be tried.
+        moves: Whether a program of the vendor moves the device in the step. It is run after the first goals of G7.
         sets: What the step sets in the robot; `cellc diff` compares it.
         only: Distributions on which the step is done; empty for all.
         when: The step is done only if one of these holds for the device in the spec; empty for always.
@@ -184,6 +189,7 @@ class CommissioningStep(CatalogModel):
     run: tuple[Text, ...] = ()
     after_release: bool = False
     powers: bool = False
+    moves: bool = False
     sets: RobotSetting | None = None
     only: tuple[DistroName, ...] = ()
     when: tuple[StepCondition, ...] = ()
@@ -221,13 +227,14 @@ class JogFacts(CatalogModel):
 
     Attributes:
         driver_runs: Whether the driver reads positions meanwhile; without it people read them at the device.
-        does: What people do, step by step, and where they read the position if the driver does not run. Where the
-            vendor has no such way, it says what is used in its place.
+        before: What people do first, where the driver does not run meanwhile. A device that falls is supported by then.
+        does: How people move the joint, and where they read the position if the driver does not run.
         then: What people do before they start the driver again, where it does not run meanwhile.
         source: Document with its version from which this was read.
     """
 
     driver_runs: bool = False
+    before: Text | None = None
     does: Text
     then: Text | None = None
     source: Text

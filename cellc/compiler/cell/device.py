@@ -168,9 +168,13 @@ class Camera:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NetworkNeeds:
-    """What a device asks: ``realtime`` is required, recommended or not_needed; its driver ``listens`` on ports."""
+    """What a device asks: ``realtime`` is required, recommended or not_needed; its driver ``listens`` on ports.
+
+    It answers only while its drives are ``powered``, where that is so.
+    """
 
     dedicated_link: bool
+    powered: bool
     realtime: str
     listens: tuple[int, ...]
 

@@ -20,6 +20,7 @@ class SafetyState:
         moment: the one whose effect says what the stop does.
         ends: what a claim needs and no longer has in this state, besides what that effect ends.
         left_by: what ends the stop once its cause is gone.
+        trip: how people bring it about while the device moves, out of its reach; None where no source says.
     """
 
     name: str
@@ -30,6 +31,7 @@ class SafetyState:
     moment: Moment = Moment.STOP
     ends: tuple[Need, ...] = ()
     left_by: LeftBy = LeftBy.ACTIVATION
+    trip: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,15 +77,17 @@ class CommissioningStep:
     """What a person does at the real device in a gate, by its vendor's procedure.
 
     ``after_release`` where it comes once the release of that gate has been made, ``powers`` where drives have power by
-    it, so that the stop can be tried. ``sets`` is what it sets in the robot. ``log`` where it is in the
-    driver's log: what the lines hold of which the newest counts. ``run`` are commands that read; ``{address}`` in them
-    is that of the device. ``by`` is the ``driver`` or the ``adapter`` where it belongs to one of both alone.
+    it, so that the stop can be tried, ``moves`` where a program of the vendor moves the device. ``sets`` is what it
+    sets in the robot. ``log`` where it is in the driver's log: what the lines hold of which the newest counts. ``run``
+    are commands that read; ``{address}`` in them is that of the device. ``by`` is the ``driver`` or the
+    ``adapter`` where it belongs to one of both alone.
     """
 
     gate: GateCode
     does: str
     after_release: bool
     powers: bool
+    moves: bool
     sets: RobotSetting | None
     log: tuple[str, ...]
     run: tuple[str, ...]
@@ -126,7 +130,7 @@ class Procedures(Part):
     Args:
         record: where the record of an attempt has fields from that the real one alone can tell.
         jog: how people move one joint by hand; None where no source says.
-        jog_ends: what they do then, before the driver is started again.
+        jog_begins, jog_ends: what they do before it, and then, before the driver is started again.
         driver_runs: the driver reads positions meanwhile.
         speed_control: None where no source says whether there is one.
         payload_entry: how people enter the payload of the spec; empty where no source says.
@@ -137,6 +141,7 @@ class Procedures(Part):
     safety: Annotated[VendorSafety, ELSEWHERE] = field(default_factory=VendorSafety)
     record: Annotated[tuple[RecordSource, ...], ELSEWHERE] = ()
     jog: str | None = None
+    jog_begins: Annotated[str, ELSEWHERE] = ""
     jog_ends: Annotated[str, ELSEWHERE] = ""
     driver_runs: bool = True
     speed_control: Annotated[SpeedControl | None, ELSEWHERE] = None

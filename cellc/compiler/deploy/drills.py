@@ -5,7 +5,7 @@ The outcomes are the facts that the mock plays: what moves, the state of the com
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
@@ -13,28 +13,50 @@ from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.stops import effect_of, stops_of
 from cellc.compiler.cell.vendor import SafetyState
 from cellc.compiler.deploy.gate_motion import Values
+from cellc.compiler.deploy.releases import moved_by_activation, restart_of
 from cellc.compiler.deploy.watches import heard
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.bring_up import WATCH_WITHIN_S
-from cellc.contract.vocabulary import GateCode, LeftBy, Moment, Motion, Need
+from cellc.contract.vocabulary import LeftBy, Moment, Motion, Need
 
 _MOVES: Mapping[Motion, str] = {
     Motion.NONE: "It must not move.",
     Motion.HOLDS: "It must hold its position.",
     Motion.MOVES: "It moves by itself.",
     Motion.JUMPS: "It goes to old set points in one step.",
-    Motion.FALLS: "It falls: support it first.",
+    Motion.FALLS: "It falls.",
     Motion.UNKNOWN: "No source says whether it moves.",
 }
 _CALM = (Motion.NONE, Motion.HOLDS)
+_REPEATED = "Where it repeats gates, leave out the goals and drills before this line."
 
 
-def drills(graph: CellGraph) -> Iterator[Values]:
-    """Yield device, what people do, what must follow, and the gate: on active hardware first, then with a claim."""
+def early_drills(graph: CellGraph) -> Iterator[Values]:
+    """Yield drills of hardware that nothing has moved yet: devices, what people do, and what must follow."""
+    if not _activated_arms(graph.cell):
+        yield from _without_a_claim(graph.cell, "as in G4")
+
+
+def late_drills(graph: CellGraph) -> Iterator[Values]:
+    """Yield the same drills where arms must be activated first."""
+    if _activated_arms(graph.cell):
+        yield from _without_a_claim(graph.cell, restart_of(graph.cell))
+
+
+def claimed_drills(graph: CellGraph) -> Iterator[Values]:
+    """Yield the drills of claimed arms, each with the way back to a claim."""
     for device in _drilled(graph.cell):
-        yield from ((device.name, act, follows, GateCode.G5) for act, follows in _without_a_claim(graph.cell, device))
-        yield from ((device.name, act, follows, GateCode.G7) for act, follows in _with_a_claim(graph.cell, device))
+        yield from ((device.name, act, follows) for act, follows in _with_a_claim(graph.cell, device))
+
+
+def open_drills(graph: CellGraph) -> Iterator[Values]:
+    """Yield the arms that no source says how to stop out of reach, with the state and what must follow."""
+    for device in _drilled(graph.cell):
+        stop = _tripped(device)
+        effect = None if stop is None else effect_of(device, stop)
+        if stop is not None and stop.trip is None and effect is not None:
+            yield device.name, stop.name, _stopped(graph.cell, device, stop, effect)
 
 
 def interlocks(graph: CellGraph) -> Iterator[Values]:
@@ -44,10 +66,7 @@ def interlocks(graph: CellGraph) -> Iterator[Values]:
 
 def pulled(graph: CellGraph) -> Iterator[Values]:
     """Yield what moves as it is activated, and how: no joint state shows it before."""
-    for device in graph.cell.devices:
-        effect = _effects(device).get(Moment.ACTIVATE)
-        if effect is not None and effect.motion not in _CALM:
-            yield device.name, effect.does
+    return ((name, effect.does) for name, effect in moved_by_activation(graph.cell))
 
 
 def claimed(graph: CellGraph) -> Iterator[Values]:
@@ -64,18 +83,38 @@ def _drilled(cell: Cell) -> Iterator[Device]:
     return (device for device in cell.devices if device.kind == "arm" and device.name not in adapted)
 
 
-def _without_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
+def _activated_arms(cell: Cell) -> bool:
+    activated = {name for name, _ in moved_by_activation(cell)}
+    return any(device.name in activated for device in _drilled(cell))
+
+
+def _without_a_claim(cell: Cell, again: str) -> Iterator[Values]:
+    """Yield the drills of the cables, then that of all launches: only a restart restores some drivers after a cable."""
+    for device in _drilled(cell):
+        yield from ((device.name, act, follows) for act, follows in _of_the_cable(cell, device))
+    follows = dict[str, str]()
+    falling = list[str]()
+    for device in _drilled(cell):
+        effect = _effects(device).get(Moment.DEACTIVATE)
+        if effect is not None:
+            follows[device.name] = _follows(cell, device, effect, ())
+            falling.extend([device.name] if effect.motion is Motion.FALLS else ())
+    if follows:
+        same = len(set(follows.values())) == 1
+        said = next(iter(follows.values())) if same else " ".join(f"{name}: {text}" for name, text in follows.items())
+        act = f"{_supported(falling)}End the hardware launch with Ctrl-C."
+        yield " and ".join(follows), act, f"{said} Start it again {again}."
+
+
+def _of_the_cable(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
+    """Yield what follows on a cut and on a reconnection; before a claim no program runs, so that no topic changes."""
     effects = _effects(device)
-    if (ended := effects.get(Moment.DEACTIVATE)) is not None:
-        began = "G4" if device.control.startup_state == "active" else "G4 and activate it as above"
-        yield f"End the hardware launch with Ctrl-C. Start it again as in {began}.", _follows(cell, device, ended, ())
     cut, again = effects.get(Moment.LINK_LOST), effects.get(Moment.RECONNECT)
     if cut is None or again is None:
         return
     if again.motion in _CALM and cut.motion in _CALM:
-        act = "Unplug its communication cable for 10 s. Leave its power on."
-        yield act, _follows(cell, device, cut, cut.ends, hears=False)
-        yield "Plug its communication cable in again.", _follows(cell, device, again, cut.ends)
+        yield "Unplug its communication cable for 10 s. Leave its power on.", _follows(cell, device, cut, ())
+        yield "Plug its communication cable in again.", _follows(cell, device, again, ())
     else:
         yield "Do not unplug its communication cable while it is active.", f"On reconnection: {_MOVES[again.motion]}"
 
@@ -83,38 +122,74 @@ def _without_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
 def _with_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
     stop = _tripped(device)
     effect = None if stop is None else effect_of(device, stop)
-    if stop is None or effect is None:
+    if stop is None or effect is None or stop.trip is None:
         return
-    lost = (*effect.ends, *stop.ends)
-    follows = _follows(cell, device, effect, lost)
-    reported = any(need in heard(cell, device) for need in lost)
-    if effect.leaves != "active":
-        ends = "Its goal must end and its controllers must be inactive."
-    elif reported:
-        ends = f"Within {shortest(WATCH_WITHIN_S)} s its claim must be dropped and its goal must end."
-    else:
-        ends = "Nothing ends its goal: cancel it."
-    yield f"Trip {stop.name} during a small goal. Record the stopping distance.", f"{follows} {ends}"
+    falling = [other.name for other in _drilled(cell) if _falls(other)] if effect.motion is Motion.FALLS else []
+    act = f"{_supported(falling)}{stop.trip} while it moves on a small goal. Record the stopping distance."
+    yield act, _stopped(cell, device, stop, effect)
     if effect.leaves == "active" and stop.left_by is not LeftBy.ACTIVATION:
-        resumes = "Nothing may move before the claim is acknowledged." if reported else _MOVES[Motion.JUMPS]
-        yield "Reset the stop and let the device continue, without a jog.", resumes
-        resumed = _effects(device).get(Moment.PROGRAM_RESUME)
-        if resumed is not None and resumed.motion is Motion.JUMPS:
-            jog = "Do not jog it while its program is paused. Stop the program, jog one joint, and start the program."
-            yield jog, resumes
+        yield from _resumed(cell, device, stop, effect)
+    yield _recovered(device, stop, falling), "Its controllers must be active again."
+
+
+def _resumed(cell: Cell, device: Device, stop: SafetyState, effect: Effect) -> Iterator[tuple[str, str]]:
+    """Yield what nothing may move by: the end of the stop, and a program that goes on after a jog."""
+    hears = any(need in heard(cell, device) for need in (*effect.ends, *stop.ends))
+    follows = "Nothing may move before the claim is acknowledged." if hears else _MOVES[Motion.JUMPS]
+    after = "Check that no controller of it is active. With a hand on the stop, end the cause and reset the stop."
+    yield f"In this drill alone, let it go on without its Recovery. {after} Do not jog it.", follows
+    resumed = _effects(device).get(Moment.PROGRAM_RESUME)
+    if resumed is not None and resumed.motion is Motion.JUMPS:
+        jog = "Never jog it while its program is paused. Stop the program, jog one joint, and start the program."
+        yield f"With no controller of it active, jog it in this drill alone. {jog}", follows
+
+
+def _recovered(device: Device, stop: SafetyState, falling: Sequence[str]) -> str:
+    """Return how people come back to a claim, which every line after the drill needs."""
+    others = f" Do the same for each of {' and '.join(falling)} that lost its power." if len(falling) > 1 else ""
+    if any(way.state == stop.name for way in device.procedures.safety.recovery):
+        return f"Do Recovery of {stop.name} in `audit.md` to its last step.{others} {_REPEATED}"
+    unknown = f"UNKNOWN: how {stop.name} is recovered. Find it in the manual of its vendor.{others}"
+    return f"{unknown} Authorize its claim again."
 
 
 def _tripped(device: Device) -> SafetyState | None:
-    """Return the stop that people try: a protective one where the device has it, else its first."""
+    """Return the stop that people try: one that is tripped out of reach, else a protective one, else its first."""
     stops = stops_of(device)
-    return next((stop for stop in stops if stop.name == "protective_stop"), next(iter(stops), None))
+    tripped = (stop for stop in stops if stop.trip is not None)
+    protective = (stop for stop in stops if stop.name == "protective_stop")
+    return next(iter((*tripped, *protective, *stops)), None)
+
+
+def _falls(device: Device) -> bool:
+    effect = _effects(device).get(Moment.STOP)
+    return effect is not None and effect.motion is Motion.FALLS
+
+
+def _supported(falling: Sequence[str]) -> str:
+    """Return what is done first where arms fall; the power of one may be that of another."""
+    if not falling:
+        return ""
+    return f"Place a stand just below {' and '.join(falling)}, with no person in reach. "
 
 
 def _effects(device: Device) -> Mapping[Moment, Effect]:
     return {} if device.control.hardware is None else device.control.hardware.effects
 
 
-def _follows(cell: Cell, device: Device, effect: Effect, lost: tuple[Need, ...], *, hears: bool = True) -> str:
+def _stopped(cell: Cell, device: Device, stop: SafetyState, effect: Effect) -> str:
+    """Return what follows on a stop during a goal, with what becomes of goal and claim."""
+    lost = (*effect.ends, *stop.ends)
+    if effect.leaves != "active":
+        ends = "Its goal must end and its controllers must be inactive."
+    elif any(need in heard(cell, device) for need in lost):
+        ends = f"Within {shortest(WATCH_WITHIN_S)} s its claim must be dropped and its goal must end."
+    else:
+        ends = "Nothing ends its goal: cancel it."
+    return f"{_follows(cell, device, effect, lost)} {ends}"
+
+
+def _follows(cell: Cell, device: Device, effect: Effect, lost: tuple[Need, ...]) -> str:
     """Return what moves, the state of the component, and the topics that say so."""
     said = [_MOVES[effect.motion]]
     if effect.drops_part:
@@ -122,7 +197,7 @@ def _follows(cell: Cell, device: Device, effect: Effect, lost: tuple[Need, ...],
     if effect.leaves is not None:
         said.append(f"Its component must be {effect.leaves}.")
         telling = heard(cell, device)
-        topics = dict.fromkeys(telling[need].topic for need in lost if need in telling and hears)
+        topics = dict.fromkeys(telling[need].topic for need in lost if need in telling)
         if topics:
             said.append(f"It must show on {' and '.join(topics)}.")
         elif effect.leaves == "active":

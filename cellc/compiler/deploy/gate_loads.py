@@ -7,18 +7,19 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
+from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in
 from cellc.compiler.deploy.gate_motion import Values
-from cellc.compiler.deploy.gate_states import enabled_in
 from cellc.compiler.formats.numbers import positive_zero
 from cellc.compiler.graph.cell_graph import CellGraph
 
 _UNSAID = "Enter it as the manual of its vendor says, and record the values that it shows."
 
 
-def loaded_devices(graph: CellGraph) -> Iterator[Values]:
+def loaded_devices(graph: CellGraph, *, powered: bool = False) -> Iterator[Values]:
+    """Yield the payload of each robot that takes it before its drives are powered, or after that."""
     text = graph.cell.text
     for device in graph.cell.devices:
-        if device.robot.payload is not None:
+        if device.robot.payload is not None and answers_when_powered(device) is powered:
             payload = (*device.path, "payload")
             moments = text(*payload, "inertia")
             said = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
@@ -27,10 +28,10 @@ def loaded_devices(graph: CellGraph) -> Iterator[Values]:
             yield *stated, frame, device.robot.payload.set_by, device.procedures.payload_entry or _UNSAID, gate
 
 
-def tool_centers(graph: CellGraph) -> Iterator[Values]:
-    """Yield the TCP that the robot's own controller must have, and the command that shows it."""
+def tool_centers(graph: CellGraph, *, powered: bool = False) -> Iterator[Values]:
+    """Yield the TCP that the robot's own controller must have, and the command that shows it, as for the payload."""
     for device in graph.cell.devices:
-        if device.robot.tcp is None or device.body.tool_frame is None:
+        if device.robot.tcp is None or device.body.tool_frame is None or answers_when_powered(device) is not powered:
             continue
         pose = graph.frames.pose_in(device.robot.tcp, device.body.tool_frame)
         if pose is not None:

@@ -9,10 +9,11 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.site import FirstMotion
 from cellc.compiler.cell.vendor import SpeedControl
 from cellc.compiler.deploy.bringup import bring_up, phases, releases
+from cellc.compiler.deploy.enabling import enabled_early
 from cellc.compiler.deploy.files import stage_files
 from cellc.compiler.deploy.first_goal import first_goals
 from cellc.compiler.deploy.processes import motion_clients, past_controllers
-from cellc.compiler.deploy.releases import GOAL, Release, move_real, release_once
+from cellc.compiler.deploy.releases import GOAL, Release, move_real, moved_by_activation, release_once, restart_of
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.numbers import decimal, shortest
 from cellc.compiler.graph.cell_graph import CellGraph
@@ -39,14 +40,36 @@ def jogging(graph: CellGraph) -> Iterator[Values]:
 
 def guided(graph: CellGraph) -> Iterator[Values]:
     """Yield the first motions of robots whose driver or adapter cannot run meanwhile, with how people move them."""
-    adapted = {adapter.device for adapter in graph.cell.adapters}
+    for first in _guided(graph):
+        yield *_first_motion(graph, first), graph.cell.device(first.device).procedures.jog or ""
+
+
+def guiding(graph: CellGraph) -> Iterator[Values]:
+    """Yield what people do before and after they move such robots, all in one stop of the cell."""
+    procedures = [graph.cell.device(first.device).procedures for first in _guided(graph)]
+    if procedures:
+        begins = dict.fromkeys(each.jog_begins for each in procedures if each.jog_begins)
+        ends = dict.fromkeys(each.jog_ends for each in procedures if each.jog_ends)
+        yield " ".join(begins), " ".join((*ends, f"Start the cell again {restart_of(graph.cell)}."))
+
+
+def guided_back(graph: CellGraph) -> Iterator[Values]:
+    """Yield the guided joints that are still where people left them once the driver has started again."""
+    activated = {name for name, _ in moved_by_activation(graph.cell)}
+    return (_first_motion(graph, first) for first in _guided(graph) if first.device not in activated)
+
+
+def driven_back(graph: CellGraph) -> Iterator[Values]:
+    """Yield the guided joints that the activation of their hardware has moved since."""
+    activated = {name for name, _ in moved_by_activation(graph.cell)}
+    return (_first_motion(graph, first) for first in _guided(graph) if first.device in activated)
+
+
+def _guided(graph: CellGraph) -> Iterator[FirstMotion]:
     for first in graph.cell.bringup.first_motions:
         procedures = graph.cell.device(first.device).procedures
         if procedures.jog is not None and not procedures.driver_runs:
-            again = "G4" if graph.cell.device(first.device).control.startup_state == "active" else "G4 and G5"
-            then = procedures.jog_ends and f"{procedures.jog_ends} "
-            program = "adapter" if first.device in adapted else "driver"
-            yield *_first_motion(graph, first), procedures.jog, then, again, program
+            yield first
 
 
 def stated_jogs(graph: CellGraph) -> Iterator[Values]:
@@ -81,7 +104,15 @@ def small_goal(graph: CellGraph) -> Iterator[Values]:
         sent = [] if goal is None else [f"{command} joint:={shell_word(joint)}" for joint in goal.moves]
         control = graph.cell.device(first.device).procedures.speed_control
         slow = f" and the {control.name} at {speed_of(control)}" if control is not None and control.name else ""
-        yield *about, slow, "\n".join(sent), "".join(f"{line} then:=cancel" for line in sent[:1])
+        bound = "" if goal is None else _holds_within(graph.cell, goal.action)
+        yield *about, slow, bound, "\n".join(sent), "".join(f"{line} then:=cancel" for line in sent[:1])
+
+
+def _holds_within(cell: Cell, action: str) -> str:
+    """Return how soon a cancel of an action must hold, as the spec says; empty where it does not."""
+    bounds = (each.cancel_within_s for each in cell.interfaces if each.name == action)
+    bound = next((each for each in bounds if each is not None), None)
+    return "" if bound is None else f" It must be at most {shortest(bound)} s."
 
 
 def speed_of(control: SpeedControl) -> str:
@@ -121,11 +152,8 @@ def _served(owner: Controller) -> tuple[str, str] | None:
 
 
 def senders(graph: CellGraph) -> Iterator[Values]:
-    """Yield who sends goals; a person where the cell has no motion client."""
-    clients = motion_clients(graph.cell)
-    yield from ((node.full_name,) for node in clients)
-    if not clients:
-        yield ("a person",)
+    """Yield who sends goals."""
+    return ((node.full_name,) for node in motion_clients(graph.cell))
 
 
 def missing_first_motion(graph: CellGraph) -> Iterator[Values]:
@@ -153,8 +181,9 @@ def first_stage(graph: CellGraph) -> Iterator[Values]:
 
 
 def later_stages(graph: CellGraph) -> Iterator[Values]:
-    """Yield the stages after it."""
-    return iter(_stages(graph)[1:])
+    """Yield the stages after it, with the gate from which they start: a shutdown ends what powers the drives."""
+    again = "G3" if enabled_early(graph) else "G4"
+    return ((*stage, again) for stage in _stages(graph)[1:])
 
 
 def _stages(graph: CellGraph) -> list[Values]:
@@ -179,9 +208,10 @@ def risk_assessment(graph: CellGraph) -> Iterator[Values]:
 
 
 def cancels(graph: CellGraph) -> Iterator[Values]:
-    """Yield the actions that promise how soon a cancel holds."""
+    """Yield the actions that promise how soon a cancel holds, without those of the first goals, which try it."""
+    tried = {goal.action for goal in first_goals(graph.cell)}
     for interface in graph.cell.interfaces:
-        if "real" in interface.targets and interface.cancel_within_s is not None:
+        if "real" in interface.targets and interface.cancel_within_s is not None and interface.name not in tried:
             yield interface.name, shortest(interface.cancel_within_s), f"{interface.name}/_action/cancel_goal"
 
 

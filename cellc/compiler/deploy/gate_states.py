@@ -4,50 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.compiler.cell.device import Device
+from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in, has_drives
 from cellc.compiler.deploy.gate_motion import Values, speed_of
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.vocabulary import CommandAuthority, GateCode, LeftBy, Moment
+from cellc.contract.vocabulary import GateCode, LeftBy
 
-_RESTART = " Restart everything that this test stopped, the controller manager included, as in G4."
-
-
-def commands_from_its_start(device: Device) -> bool:
-    """Whether a device follows the computer from the start of its driver on."""
-    hardware = device.control.hardware
-    start = None if hardware is None else hardware.effects.get(Moment.INIT)
-    return start is not None and start.authority is CommandAuthority.TAKEN
-
-
-def enabled_in(device: Device) -> GateCode:
-    """Return the gate in which people power a device and try its stop: before its driver, where that needs or takes it.
-
-    It is the gate of the vendor's step that powers the drives.
-    """
-    powered = [step.gate for step in device.procedures.commissioning if step.powers]
-    return min(powered, default=GateCode.G3 if commands_from_its_start(device) else GateCode.G5)
-
-
-def enabled_early(graph: CellGraph) -> tuple[str, ...]:
-    """Return the devices that people power, and whose stop they try, before the start of the drivers."""
-    return tuple(device.name for device in _powered(graph) if enabled_in(device) is GateCode.G3)
-
-
-def all_early(graph: CellGraph) -> bool:
-    """Whether no drive is powered later."""
-    return all(enabled_in(device) is GateCode.G3 for device in _powered(graph))
-
-
-def _powered(graph: CellGraph) -> Iterator[Device]:
-    """Yield the devices whose drives people power; a gripper has its power from its arm."""
-    return (device for device in graph.cell.devices if device.actuated_joints and device.kind != "gripper")
+_RESTART = " Restart everything that this test stopped, the controller manager included, with the launch command of G4."
 
 
 def stop_tests(graph: CellGraph) -> Iterator[Values]:
     """Yield the gates in which the stop is tried, and what is restarted then."""
-    gates = {enabled_in(device) for device in _powered(graph)} or {GateCode.G5}
+    gates = {enabled_in(device) for device in graph.cell.devices if has_drives(device)} or {GateCode.G5}
     yield from ((gate, _RESTART if gate is GateCode.G5 else "") for gate in sorted(gates))
 
 
@@ -66,10 +35,20 @@ def stop_figures(graph: CellGraph) -> Iterator[Values]:
 
 
 def open_stop_figures(graph: CellGraph) -> Iterator[Values]:
-    """Yield the arms of which no public source says how far they go in a stop."""
-    arms = (device for device in graph.cell.devices if device.kind == "arm")
-    open_ = (device for device in arms if device.procedures.safety.stopping is None)
+    """Yield the arms and axes of which no public source says how far they go in a stop."""
+    moving = (device for device in graph.cell.devices if has_drives(device) and device.kind in ("arm", "axis"))
+    open_ = (device for device in moving if device.procedures.safety.stopping is None)
     return ((device.name, enabled_in(device)) for device in open_)
+
+
+def layers_first(graph: CellGraph) -> Iterator[Values]:
+    """Yield one empty row where every device answers on its network with its drives off."""
+    return iter(() if any(gate is GateCode.G3 for _, gate in layers_powered(graph)) else ((),))
+
+
+def layers_powered(graph: CellGraph) -> Iterator[Values]:
+    """Yield the devices that answer on their network only while their drives have power, with the gate of that."""
+    return ((device.name, enabled_in(device)) for device in graph.cell.devices if answers_when_powered(device))
 
 
 def speed_controls(graph: CellGraph) -> Iterator[Values]:
@@ -154,7 +133,8 @@ def identities(graph: CellGraph) -> Iterator[Values]:
     """Yield what identifies each device, as the spec states it."""
     for device in graph.cell.devices:
         safety = " and its safety state" if device.procedures.safety.states else ""
-        yield device.name, device.software.versions.serial, device.software.versions.firmware, safety
+        gate = enabled_in(device) if answers_when_powered(device) else GateCode.L2
+        yield device.name, device.software.versions.serial, device.software.versions.firmware, safety, gate
 
 
 def bounded_clocks(graph: CellGraph) -> Iterator[Values]:

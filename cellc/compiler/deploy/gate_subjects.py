@@ -7,8 +7,18 @@ from collections.abc import Callable, Iterator, Mapping
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
+from cellc.compiler.cell.real_target import unmoved_on_real
 from cellc.compiler.deploy.configuration import version_tuple
-from cellc.compiler.deploy.drills import claimed, drills, interlocks, pulled
+from cellc.compiler.deploy.drills import (
+    claimed,
+    claimed_drills,
+    early_drills,
+    interlocks,
+    late_drills,
+    open_drills,
+    pulled,
+)
+from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in
 from cellc.compiler.deploy.ends import is_late
 from cellc.compiler.deploy.files import is_servo
 from cellc.compiler.deploy.gate_loads import loaded_devices, tool_centers, tool_connectors
@@ -16,11 +26,14 @@ from cellc.compiler.deploy.gate_motion import (
     Values,
     authorized_motion,
     cancels,
+    driven_back,
     endpoint_command,
     first_motion,
     first_stage,
     gripper_goals,
     guided,
+    guided_back,
+    guiding,
     jogged,
     jogging,
     later_stages,
@@ -38,6 +51,8 @@ from cellc.compiler.deploy.gate_motion import (
 from cellc.compiler.deploy.gate_states import (
     bounded_clocks,
     identities,
+    layers_first,
+    layers_powered,
     modes,
     open_speed_controls,
     open_stop_figures,
@@ -57,7 +72,7 @@ from cellc.compiler.deploy.labels import said_around
 from cellc.compiler.deploy.processes import description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
-from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, start_mock, start_real
+from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, restart_of, start_mock, start_real
 from cellc.compiler.deploy.versions import Installed, compared_on, fetched_parts, installed_parts
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
@@ -89,6 +104,7 @@ def cell_row(cell: Cell, header: Header, code: str) -> Row:
         "stop_authority": stop.authority,
         "stop_path": stop.path,
         "observer": cell.safety.recovery.observer,
+        "restart": restart_of(cell),
         "attempt_fields": ", ".join(cell.recording.attempt_fields),
     }
 
@@ -114,9 +130,18 @@ def _read(graph: CellGraph, *, commits: bool) -> Iterator[tuple[str, Installed]]
 
 def _visible(graph: CellGraph) -> Iterator[Values]:
     shown = {part.name for part in installed_parts(graph.cell)} | {name for name, *_ in fetched_parts(graph.cell)}
+    late = {name for name, *_ in _shown_with_power(graph)}
     for name, value in version_tuple(graph.cell).items():
-        if value != UNKNOWN and name not in shown:
+        if value != UNKNOWN and name not in shown | late:
             yield name, value
+
+
+def _shown_with_power(graph: CellGraph) -> Iterator[Values]:
+    """Yield firmware that no device shows before its drives have power, with the gate of that."""
+    firmware = {f"{each.name}.firmware": enabled_in(each) for each in graph.cell.devices if answers_when_powered(each)}
+    for name, value in version_tuple(graph.cell).items():
+        if value != UNKNOWN and name in firmware:
+            yield name, value, firmware[name]
 
 
 def _unknown(graph: CellGraph) -> Iterator[Values]:
@@ -162,14 +187,17 @@ def _servo(graph: CellGraph) -> Iterator[Values]:
         yield node.full_name, f"{node.full_name}/{service}", servo.controller, *speeds, timeout, command
 
 
-def _by_vendors(graph: CellGraph, *, after_release: bool = False, powers: bool = False) -> Iterator[Values]:
+def _by_vendors(
+    graph: CellGraph, *, after_release: bool = False, powers: bool = False, moves: bool = False
+) -> Iterator[Values]:
     """Yield the vendors' steps for people in the gates, or those that come there after a release.
 
-    Steps that power the drives are yielded separately: a stop is tested on powered drives.
+    Steps that power the drives are yielded separately: a stop is tested on powered drives. So are those that move a
+    device by a program of its vendor, after small goals of the cell.
     """
     for device in graph.cell.devices:
         for step in device.procedures.commissioning:
-            if (step.after_release, step.powers) == (after_release, powers):
+            if (step.after_release, step.powers, step.moves) == (after_release, powers, moves):
                 commands = (*(_addressed(device, command) for command in step.run), *_of_this_launch(step.log))
                 yield device.name, step.does, "\n".join(commands), step.gate, step.sets or ""
 
@@ -249,7 +277,9 @@ def _each(values: tuple[str, ...]) -> Iterator[Values]:
 
 
 _VENDOR_STEP = ("device", "does", "command", "gate", "sets")
+_DRILL = ("device", "act", "follows")
 _PAYLOAD = ("device", "mass", "center_of_mass", "inertia", "and_inertia", "frame", "set_by", "entry", "gate")
+_CENTER = ("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "rotation", "command", "gate")
 _STREAM = ("topic", "rate", "age")
 _FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name", "si")
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
@@ -257,6 +287,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "built_part": (("part", "version", "command", "where"), _built),
     "fetched_part": (("part", "version", "driver"), lambda graph: fetched_parts(graph.cell)),
     "visible_part": (("part", "version"), _visible),
+    "powered_part": (("part", "version", "gate"), _shown_with_power),
     "unknown_part": (("part",), _unknown),
     "nominal_device": (("device", "state", "file", "command"), _nominal_devices),
     "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
@@ -277,13 +308,14 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "modes": (("device", "modes"), modes),
     "self_resuming": (("device", "state"), self_resuming),
     "loaded_device": (_PAYLOAD, loaded_devices),
-    "tool_center": (
-        ("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "rotation", "command", "gate"),
-        tool_centers,
-    ),
+    "loaded_when_powered": (_PAYLOAD, lambda graph: loaded_devices(graph, powered=True)),
+    "tool_center": (_CENTER, tool_centers),
+    "center_when_powered": (_CENTER, lambda graph: tool_centers(graph, powered=True)),
+    "layers_first": ((), layers_first),
+    "layers_powered": (("device", "gate"), layers_powered),
     "tool_connector": (("device", "voltage", "tools"), tool_connectors),
     "servo": (("node", "starts", "controller", "linear", "rotational", "joint", "timeout", "command"), _servo),
-    "stop_test": (("gate", "restart"), stop_tests),
+    "stop_test": (("gate", "restarted"), stop_tests),
     "stop_evidence": (("evidence", "gate"), stop_evidence),
     "stop_figures": (("device", "figures", "source", "gate"), stop_figures),
     "open_stop_figures": (("device", "gate"), open_stop_figures),
@@ -291,19 +323,23 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "no_speed_control": (("device", "does"), without_speed_control),
     "open_speed_control": (("device",), open_speed_controls),
     "first_motion": (_FIRST_MOTION, first_motion),
-    "small_goal": ((*_FIRST_MOTION, "slow", "command", "cancel"), small_goal),
+    "small_goal": ((*_FIRST_MOTION, "slow", "bound", "command", "cancel"), small_goal),
     "first_stage": (("percent", "file", "joint", "command"), first_stage),
-    "later_stage": (("percent", "file", "joint", "command"), later_stages),
+    "later_stage": (("percent", "file", "joint", "command", "again"), later_stages),
     "risk_assessment": (("document", "figures"), risk_assessment),
     "jogging": ((), jogging),
     "stated_jog": (("device", "does"), stated_jogs),
     "unstated_jog": (("device",), unstated_jogs),
     "jogged": (_FIRST_MOTION, jogged),
-    "guided": ((*_FIRST_MOTION, "does", "then", "again", "program"), guided),
+    "guiding": (("begins", "ends"), guiding),
+    "guided": ((*_FIRST_MOTION, "does"), guided),
+    "guided_back": (_FIRST_MOTION, guided_back),
+    "driven_back": (_FIRST_MOTION, driven_back),
     "missing_first_motion": ((), missing_first_motion),
     "stop_reason": (("reason",), stop_reasons),
     "vendor_step": (_VENDOR_STEP, _by_vendors),
     "vendor_power": (_VENDOR_STEP, lambda graph: _by_vendors(graph, powers=True)),
+    "vendor_motion": (_VENDOR_STEP, lambda graph: _by_vendors(graph, moves=True)),
     "vendor_sign": (_VENDOR_STEP, lambda graph: _by_vendors(graph, after_release=True)),
     "real_activation": (("where", "command"), lambda graph: released(graph, ACTIVATE, BringUpPhase.ACTIVATE)),
     "real_claim": (("where", "command"), lambda graph: released(graph, CLAIM, BringUpPhase.CLAIM)),
@@ -314,12 +350,19 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "cancel": (("action", "seconds", "service"), cancels),
     "pulled": (("device", "does"), pulled),
     "claimed": (("device", "does"), claimed),
-    "drill": (("device", "act", "follows", "gate"), drills),
+    "early_drill": (_DRILL, early_drills),
+    "late_drill": (_DRILL, late_drills),
+    "drill": (_DRILL, claimed_drills),
+    "open_drill": (("device", "state", "follows"), open_drills),
     "interlock": (("area", "granted_by"), interlocks),
+    "unmoved": (
+        ("device", "joint"),
+        lambda graph: ((device.name, joint.name) for device, joint in unmoved_on_real(graph.cell)),
+    ),
     "unguarded": (("device", "name", "type", "does", "command"), unguarded),
     "card": (("card", "address", "carries"), _cards),
     "reached_device": (("host", "device", "card", "address"), _reached_devices),
-    "device": (("device", "serial", "firmware", "safety"), identities),
+    "device": (("device", "serial", "firmware", "safety", "gate"), identities),
     "late_stream": (_STREAM, _late_streams),
     "bounded_clock": (("host", "offset"), bounded_clocks),
     "late_group": (("tip", "base"), _late_groups),
@@ -328,7 +371,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
 _OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")
 
 FIELDS: Mapping[str, Values] = {
-    CELL: ("gate", *_OF_CELL, "observer", "attempt_fields"),
+    CELL: ("gate", *_OF_CELL, "observer", "restart", "attempt_fields"),
     **{name: fields for name, (fields, _) in _SUBJECTS.items()},
 }
 """Fields that a text of each subject may name. Every text may name those of the cell."""

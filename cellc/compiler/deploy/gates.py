@@ -14,7 +14,7 @@ from pydantic import Field, Strict, field_validator, model_validator
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text
 from cellc.compiler.catalog.read_model import read_model
-from cellc.compiler.deploy.gate_states import all_early, commands_from_its_start, enabled_early
+from cellc.compiler.deploy.enabling import all_early, commands_from_its_start, enabled_early
 from cellc.compiler.deploy.gate_subjects import CELL, FIELDS, ROWS, Row, cell_row
 from cellc.compiler.formats.escape import code, shell_word
 from cellc.compiler.formats.header import Header
@@ -125,14 +125,15 @@ class Line(CatalogModel):
 class GateText(CatalogModel):
     """The prose of a gate; ``signed_by`` names the field of the spec with its owner.
 
-    ``powered`` is the state of a device whose stop is tested before its driver starts, ``commanded`` what else is true
-    where that start takes command of it.
+    ``real`` gates are of real hardware. ``powered`` is the state of a device whose stop is tested before its driver
+    starts, ``commanded`` what else is true where that start takes command of it.
     """
 
     code: Annotated[GateCode, Strict(False)]
     title: Text
     shows: Text
     state: Text
+    real: bool = False
     powered: Text | None = None
     commanded: Text | None = None
     evidence: Text
@@ -152,12 +153,14 @@ class PageText(CatalogModel):
 class GateTexts(CatalogModel):
     """All gates: from the powered-off manifest to a trajectory, and from the cable to the command path.
 
-    ``usage`` is on each page below its own text, ``result`` the line that ends each gate.
+    ``usage`` is on each page below its own text, ``result`` the line that ends each gate, ``closed`` the one line of a
+    gate of real hardware where the real target is closed.
     """
 
     pages: Mapping[str, PageText]
     usage: Text
     result: Text
+    closed: Text
     promotion: tuple[GateText, ...]
     network: tuple[GateText, ...]
 
@@ -187,17 +190,23 @@ def network_gates(graph: CellGraph, header: Header) -> tuple[Gate, ...]:
 
 def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
     base = cell_row(graph.cell, header, text.code)
+    closed = tuple(_closed(graph, base)) if text.real else ()
     return Gate(
         code=text.code,
         title=text.title,
         shows=text.shows,
         state=_state(text, graph),
-        checks=tuple(check for line in text.checks for check in _checks(line, graph, base)),
+        checks=closed or tuple(check for line in text.checks for check in _checks(line, graph, base)),
         evidence=text.evidence,
         owner=_owners(graph)[text.signed_by],
         stop=tuple(check.text for line in text.stop for check in _checks(line, graph, base)),
-        measured=tuple(check.text for line in text.measured for check in _checks(line, graph, base)),
+        measured=() if closed else tuple(check.text for line in text.measured for check in _checks(line, graph, base)),
     )
+
+
+def _closed(graph: CellGraph, base: Row) -> Iterator[Check]:
+    """Yield the line of a gate of real hardware in a cell that nothing moves there."""
+    yield from (Check(_said(gate_texts().closed, {**base, **row})) for row in _rows("unmoved", graph, base["gate"]))
 
 
 def _state(text: GateText, graph: CellGraph) -> str:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.deploy.bringup import activation
 from cellc.compiler.deploy.processes import launch_hosts, motion_clients, started_by_a_person
 from cellc.contract.frozen import dataclass
+from cellc.contract.vocabulary import Moment, Motion
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +69,21 @@ GOAL = Release(
     "Confirmation of the person who sends the first goal to real hardware. Gates G0 to G6 have their evidence. "
     "Claims are authorized. The speed is low. The observer is at the stop.",
 )
+
+
+def moved_by_activation(cell: Cell) -> Iterator[tuple[str, Effect]]:
+    """Yield the devices that move as they are activated, with what happens: a person activates each again."""
+    for device in cell.devices:
+        effects = {} if device.control.hardware is None else device.control.hardware.effects
+        effect = effects.get(Moment.ACTIVATE)
+        if effect is not None and effect.motion not in (Motion.NONE, Motion.HOLDS):
+            yield device.name, effect
+
+
+def restart_of(cell: Cell) -> str:
+    """Return which gates people repeat after the launches were stopped: what a person activated is inactive then."""
+    activated = " and ".join(name for name, _ in moved_by_activation(cell))
+    return f"as in G4, and activate {activated} as in G5" if activated else "as in G4"
 
 
 def start_mock(cell: Cell) -> str:

@@ -113,6 +113,7 @@ def vendor_procedures(
         safety=_vendor_safety(facts, known, holding),
         record=tuple(_record(facts)),
         jog=None if facts.jog is None else facts.jog.does,
+        jog_begins=(None if facts.jog is None else facts.jog.before) or "",
         jog_ends=(None if facts.jog is None else facts.jog.then) or "",
         driver_runs=facts.jog is None or facts.jog.driver_runs,
         speed_control=_speed_control(facts),
@@ -306,7 +307,9 @@ def network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | Non
     if network is None:
         return None
     listens = listened(facts, known.port_shift)
-    return NetworkNeeds(dedicated_link=network.dedicated_link, realtime=network.realtime, listens=listens)
+    return NetworkNeeds(
+        dedicated_link=network.dedicated_link, powered=network.powered, realtime=network.realtime, listens=listens
+    )
 
 
 def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
@@ -316,6 +319,7 @@ def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
         does=known.fill(facts.does),
         after_release=facts.after_release,
         powers=facts.powers,
+        moves=facts.moves,
         sets=facts.sets,
         log=facts.log,
         run=facts.run,
@@ -347,6 +351,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
                 stops=state.stops,
                 reported=state.reported,
                 seen=state.seen,
+                trip=state.trip,
                 gate=state.gate,
                 moment=state.moment,
                 ends=state.ends,

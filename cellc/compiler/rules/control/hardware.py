@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
+from cellc.compiler.cell.real_target import unmoved_on_real
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 
 
@@ -66,19 +67,9 @@ def _exported(device: Device) -> Iterator[str]:
 @rule(Severity.BLOCKER)
 def missing_real_plugin(graph: CellGraph) -> Findings:
     """Yield devices with joints that a controller names, and neither a plugin nor a driver on the real target."""
-    named = {
-        joint for manager in graph.cell.managers for controller in manager.controllers for joint in controller.joints
-    }
-    for device in graph.cell.devices:
-        hardware = device.control.hardware
-        if hardware is None or "real" in hardware.targets or device.control.driver is not None:
-            continue
-        joints = [joint.name for joint in device.joints if joint.name in named]
-        if joints:
-            message = (
-                f"nothing moves `{joints[0]}` of `{device.name}` on the real target: its model has no plugin there"
-            )
-            yield found(graph, device.path, message)
+    for device, joint in unmoved_on_real(graph.cell):
+        message = f"nothing moves `{joint.name}` of `{device.name}` on the real target: its model has no plugin there"
+        yield found(graph, device.path, message)
 
 
 @rule(Severity.ERROR, assumes=("unprovided-command-interface",))
