@@ -80,6 +80,9 @@ def _driven_rail(folder: Path) -> Mapping[str, str]:
     device = (
         shutil.copytree(CATALOG / "devices" / "linear_axis", folder / "linear_axis", dirs_exist_ok=True) / "device.yaml"
     )
+    shutil.copy(CATALOG / "devices" / "shapes.xacro", device.parent)
+    xacro = device.parent / "linear_axis.urdf.xacro"
+    xacro.write_text(xacro.read_text(encoding="utf-8").replace("../shapes", "shapes"), encoding="utf-8")
     facts = device.read_text(encoding="utf-8")
     effects = "{activate: {motion: none, does: nothing moves, source: made up}}"
     real = f"real: {{plugin: demo_axis/DemoAxis, source: made up, effects: {effects}}}"
