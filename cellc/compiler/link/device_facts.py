@@ -6,6 +6,7 @@ import datetime
 from collections.abc import Iterable, Iterator
 
 from cellc.compiler.catalog.device_bring_up import CommissioningStep as CommissioningFacts
+from cellc.compiler.catalog.device_bring_up import SafetyStateFacts
 from cellc.compiler.catalog.device_graph import ImageFacts, ViewFacts
 from cellc.compiler.catalog.device_model import DeviceModel, PackageFacts
 from cellc.compiler.catalog.robot_facts import HumanStep
@@ -327,6 +328,20 @@ def _step(facts: CommissioningFacts, known: Placeholders) -> CommissioningStep:
     )
 
 
+def _safety_state(facts: SafetyStateFacts) -> SafetyState:
+    return SafetyState(
+        name=facts.name,
+        stops=facts.stops,
+        reported=facts.reported,
+        seen=facts.seen,
+        trip=facts.trip,
+        gate=facts.gate,
+        moment=facts.moment,
+        ends=facts.ends,
+        left_by=facts.left_by,
+    )
+
+
 def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[str]) -> VendorSafety:
     """Return the vendor's safety boundary; empty where the catalog has none.
 
@@ -345,20 +360,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
 
     return VendorSafety(
         stop_authority=safety.stop_authority,
-        states=tuple(
-            SafetyState(
-                name=state.name,
-                stops=state.stops,
-                reported=state.reported,
-                seen=state.seen,
-                trip=state.trip,
-                gate=state.gate,
-                moment=state.moment,
-                ends=state.ends,
-                left_by=state.left_by,
-            )
-            for state in safety.states
-        ),
+        states=tuple(map(_safety_state, safety.states)),
         topics=tuple(
             (f"{known.values[kind]}/{facts.topic}", facts.field or "")
             for facts in safety.reported_by
