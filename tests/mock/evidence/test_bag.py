@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+from functools import cache
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -35,8 +37,14 @@ HOME = [0.0, -math.pi / 2, math.pi / 2, -math.pi / 2, -math.pi / 2, 0.0]
 """`home` of the cell in the order of the arm's joints."""
 
 
-def messages(written: Written, topic: str, rehearsal: str = "pick_and_place") -> list[Received]:
-    return list(received(written.bag(rehearsal), topic))
+def messages(written: Written, topic: str, rehearsal: str = "pick_and_place") -> tuple[Received, ...]:
+    return _messages(written.bag(rehearsal), topic)
+
+
+@cache
+def _messages(bag: Path, topic: str) -> tuple[Received, ...]:
+    """Decode a topic once: all tests read the same bag, and rosbags takes half a second for the longest topic."""
+    return tuple(received(bag, topic))
 
 
 def test_mcap_finds_every_topic_with_its_type_and_no_damage(written: Written) -> None:
