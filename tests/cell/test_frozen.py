@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
 from cellc.contract.frozen import on_demand
@@ -56,7 +57,21 @@ def _classes(dataclass: Decorator) -> dict[str, Any]:
     class Ordered:
         rank: int
 
-    return {made.__name__: made for made in (Point, Named, Longer, Shown, Empty, Ordered)}
+    @dataclass(frozen=True, slots=True)
+    class Alone:
+        value: object
+
+    @dataclass(frozen=True, slots=True)
+    class Counted:
+        text: str
+        length: int = dataclasses.field(init=False)
+        kind: str = dataclasses.field(init=False, default="text")
+
+        def __post_init__(self) -> None:
+            object.__setattr__(self, "length", len(self.text))
+
+    classes = (Point, Named, Longer, Shown, Empty, Ordered, Alone, Counted)
+    return {made.__name__: made for made in classes}
 
 
 OURS, THEIRS = _classes(on_demand), _classes(dataclasses.dataclass)
@@ -74,6 +89,9 @@ CALLS: list[tuple[str, tuple[object, ...], dict[str, object]]] = [
     ("Shown", ((),), {}),
     ("Empty", (), {}),
     ("Ordered", (3,), {}),
+    ("Alone", (3,), {}),
+    ("Counted", ("four",), {}),
+    ("Counted", ("four",), {"length": 4}),
 ]
 
 
@@ -113,6 +131,19 @@ def test_a_class_is_used_as_that_of_the_standard_library(
         assert repr(OURS[name]()) == repr(THEIRS[name]())
         return
     assert _uses(OURS[name], values, named) == _uses(THEIRS[name], values, named)
+
+
+def test_a_single_field_is_compared_as_in_a_tuple() -> None:
+    array = np.zeros(2)
+    assert (OURS["Alone"](array) == OURS["Alone"](array)) is True
+
+
+def test_a_field_that_nothing_has_set_is_absent() -> None:
+    @on_demand(frozen=True, slots=True)
+    class Unset:
+        later: int = dataclasses.field(init=False)
+
+    assert not hasattr(Unset(), "later")
 
 
 @on_demand(frozen=True, slots=True)

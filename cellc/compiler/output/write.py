@@ -68,7 +68,11 @@ def write(
 
 @dataclass(frozen=True, slots=True)
 class _Writing:
-    """One call of `write`. Whether a file was edited is judged in turn alone: beside another build it seems so."""
+    """One call of `write`.
+
+    Whether a person edited a file is decided only while this build holds the folder: what another build is about to
+    replace looks like an edit.
+    """
 
     files: Sequence[NewFile]
     folder: Path
@@ -118,7 +122,7 @@ class _Writing:
         try:
             swap.make_folder(self.folder.parent)
             make_staging(self.folder)
-            refused = self._busy()
+            refused = self._busy()  # first, so that what `others` finds after it was left by killed builds
             stale = others(self.folder)
             planned = self._planned(stale)
             refused = refused or self._edited(planned)

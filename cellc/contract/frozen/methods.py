@@ -29,9 +29,12 @@ def methods(cls: type, *, shown: bool) -> Iterable[tuple[str, _Method]]:
 
 
 def _values(names: Iterable[str]) -> _Method:
-    """Return what reads fields of a value, at the speed of C."""
+    """Return what reads fields of a value, at the speed of C: always as a tuple, which compares what is in it.
+
+    Of one name alone, `attrgetter` returns the value, and `==` of an array is no answer; so that name stands twice.
+    """
     given = tuple(names)
-    return attrgetter(*given) if given else _nothing
+    return attrgetter(*given, *given[: len(given) == 1]) if given else _nothing
 
 
 def _first_init(cls: type) -> _Method:
@@ -59,7 +62,8 @@ def _compiled_init(cls: type) -> _Method:
             absent = "_missing" if made else value
             parameters[bool(field.kw_only)].append(f"{name}={absent}" if optional else name)
             value = f"{value} if {name} is _missing else {name}" if made else name
-        lines.append(f"    _put(self, {name!r}, {value})")
+        if field.init or known[f"_default_{name}"] is not dataclasses.MISSING:  # else `__post_init__` sets it
+            lines.append(f"    _put(self, {name!r}, {value})")
     if hasattr(cls, "__post_init__"):
         lines.append("    self.__post_init__()")
     by_name = ["*", *parameters[True]] if parameters[True] else []
