@@ -127,7 +127,6 @@ _UNREADABLE = (
 
 
 def test_what_the_language_server_cannot_read_is_one_line_of_its_log_each() -> None:
-    pytest.importorskip("pygls", reason="pygls is not installed")
     end = (b'{"jsonrpc": "2.0", "id": 5, "method": "shutdown"}', b'{"jsonrpc": "2.0", "method": "exit"}')
     said = b"".join(_message(one) for one in (_OPENED, *_UNREADABLE, *end))
     ran = subprocess.run([sys.executable, "-m", "cellc", "lsp"], input=said, capture_output=True, cwd=ROOT, check=True)

@@ -29,8 +29,6 @@ from tests.cells import ROOT, written
 from tests.cli.refused import process
 from tests.compute.test_work import _deadly, _squares
 
-pytest.importorskip("distributed")
-
 LOOPBACK = "127.0.0.1"
 
 

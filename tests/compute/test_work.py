@@ -94,7 +94,6 @@ for answer in stream(Work(_endless, None), range(5), processes(2)):
 """
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
 @pytest.mark.parametrize("before", ["", "import sys; sys.platform = 'other'"], ids=["by the system", "by a watch"])
 def test_processes_end_with_who_hired_them_though_that_was_killed(before: str, tmp_path: Path) -> None:
     script = tmp_path / "hires.py"
@@ -108,7 +107,6 @@ def test_processes_end_with_who_hired_them_though_that_was_killed(before: str, t
     assert hiring.communicate(timeout=20.0)[0] == b""
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no SIGSTOP")
 def test_a_process_that_was_stopped_is_killed_when_it_does_not_end(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(of_machine, "_ENDS_S", 0.5)
     found = stream(Work(_endless, None), range(5), processes(2))

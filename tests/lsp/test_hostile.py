@@ -18,8 +18,6 @@ import pytest
 from tests.cells import ROOT
 from tests.cli.hostile_cell import SPEC, new_cell
 
-pytest.importorskip("pygls", reason="pygls is not installed")
-
 
 class _Server:
     """A server that was initialized."""

@@ -15,13 +15,10 @@ from pathlib import Path
 from typing import IO, Any
 
 import pytest
-
-from tests.cells import CORPUS, ROOT
-
-pytest.importorskip("pygls", reason="pygls is not installed")
-
 from lsprotocol import types as lsp
 from pygls.lsp.client import LanguageClient
+
+from tests.cells import CORPUS, ROOT
 
 _SPEC = """\
 format: 1

@@ -134,8 +134,6 @@ def _imported() -> Ran:
 
 @pytest.mark.parametrize(("index", "again"), [(INDEX, _evidence), (LOCK, _imported)])
 def test_an_index_of_others_has_no_file_removed(index: str, again: Callable[[], Ran], here: Path) -> None:
-    if index == INDEX:
-        pytest.importorskip("mcap", reason="mcap is not installed")
     shutil.copytree(CORPUS / "valid/parts/stage", "stage")
     Path("stage/device.yaml").unlink()
     assert again().code == 0

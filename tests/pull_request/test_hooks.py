@@ -6,14 +6,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
 import yaml
 
 from tests.cells import ROOT, build_into
 from tests.foreign_yaml import safe_load
 from tests.pull_request.conftest import environment, git
-
-pytest.importorskip("pre_commit", reason="pre-commit is not installed")
 
 
 def _replace(folder: Path, file: str, old: str, new: str) -> None:

@@ -65,7 +65,6 @@ def test_no_program_that_a_repository_names_is_run(
     assert sorted(path.as_posix() for path in hostile.folder.rglob("*")) == before
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes in folders")
 @pytest.mark.parametrize("name", ["HEAD", "config", "packed-refs", "objects/info/alternates"])
 def test_a_pipe_in_a_repository_is_not_waited_for(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert objects._PATIENCE_S <= 10

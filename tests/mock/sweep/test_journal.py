@@ -119,7 +119,6 @@ def test_a_line_that_stands_there_twice_counts_once(nest: MockCell, file: Path) 
     assert Journal(file, nest.contract, "put", 0).runs == {0: RUN}
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="no limit on the size of files")
 @pytest.mark.parametrize("most_bytes", [100, 8192])
 def test_a_full_disk_is_told_with_the_file_and_the_sweep_goes_on_later(
     most_bytes: int, nest_folder: Path, tmp_path: Path
