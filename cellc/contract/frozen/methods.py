@@ -31,7 +31,7 @@ def methods(cls: type, *, shown: bool) -> Iterable[tuple[str, _Method]]:
 def _values(names: Iterable[str]) -> _Method:
     """Return what reads fields of a value, at the speed of C: always as a tuple, which compares what is in it.
 
-    Of one name alone, `attrgetter` returns the value, and `==` of an array is no answer; so that name stands twice.
+    Of one name alone, `attrgetter` returns the value, and `==` of an array is no answer; so that name is read twice.
     """
     given = tuple(names)
     return attrgetter(*given, *given[: len(given) == 1]) if given else _nothing
