@@ -115,8 +115,9 @@ def _make(install: Install) -> tuple[int | None, str, str]:
     built = run([sys.executable, "-I", "-m", "hatchling", "build", "-d", str(install.dist)], install.checkout)
     assert built.code == 0, built.err
     _link_libraries(install)
-    # pip compiles every library otherwise, for longer than it installs them; Python does it where one is used.
-    told = run(["bash", "-c", first_command()], install.checkout, extra={"PIP_NO_COMPILE": "1"})
+    # pip compiles every library otherwise, for longer than it installs them; Python does it where one is used. "0" is
+    # what turns `--no-compile` on: https://pip.pypa.io/en/stable/topics/configuration/#boolean-options
+    told = run(["bash", "-c", first_command()], install.checkout, extra={"PIP_NO_COMPILE": "0"})
     return None if "(from versions: none)" in told.err else told.code, told.out, told.err
 
 
