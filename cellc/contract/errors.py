@@ -11,6 +11,18 @@ class CellcError(Exception):
     """A call cannot be answered; the text says why in one line."""
 
 
+class ReasonError(CellcError):
+    """An exception whose text is its reason.
+
+    Args:
+        reason: one line.
+    """
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
 def reason_of(error: OSError) -> str:
     """Return why the system refused something, as a part of a sentence."""
     return (error.strerror or type(error).__name__).lower()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Sequence
 
 from cellc.contract.frozen import dataclass
 
@@ -115,6 +115,32 @@ def interpolate(start: Pose, end: Pose, fraction: float) -> Pose:
     keep = 1.0 - fraction
     x, y, z = (keep * a + fraction * b for a, b in zip(start.position, end.position, strict=True))
     return Pose((x, y, z), _slerp(start.quaternion, end.quaternion, fraction))
+
+
+def quaternion_of(m: Sequence[Sequence[float]]) -> Quaternion:
+    """Return the unit quaternion of a rotation matrix, row by row; of a 4x4 matrix the upper left part is read.
+
+    Its largest component is computed first, and is positive, so that nothing cancels (S. W. Shepperd,
+    Quaternion from Rotation Matrix, Journal of Guidance and Control 1(3), 1978).
+    """
+    squares = (
+        1.0 + m[0][0] - m[1][1] - m[2][2],
+        1.0 - m[0][0] + m[1][1] - m[2][2],
+        1.0 - m[0][0] - m[1][1] + m[2][2],
+        1.0 + m[0][0] + m[1][1] + m[2][2],
+    )
+    yz, zx, xy = m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]
+    sums = (m[1][0] + m[0][1], m[2][0] + m[0][2], m[2][1] + m[1][2])
+    rows: tuple[Quaternion, ...] = (
+        (squares[0], sums[0], sums[1], yz),
+        (sums[0], squares[1], sums[2], zx),
+        (sums[1], sums[2], squares[2], xy),
+        (yz, zx, xy, squares[3]),
+    )
+    largest = max(range(4), key=lambda index: squares[index])
+    scale = 0.5 / math.sqrt(squares[largest])
+    x, y, z, w = (scale * value for value in rows[largest])
+    return (x, y, z, w)
 
 
 def _wrapped(angle: float) -> float:

@@ -20,7 +20,7 @@ from cellc.compiler.link.side_file import SideFile, compose_side_file, number
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.contract.frozen import dataclass
-from cellc.contract.transforms import Pose, Quaternion, Vector3, from_xyz_rpy
+from cellc.contract.transforms import Pose, Quaternion, Vector3, from_xyz_rpy, quaternion_of
 
 CODE = "invalid-hand-eye"
 _LARGEST_M = 20.0
@@ -156,35 +156,13 @@ def _of_matrix(content: SourceDocument, at: YamlPath) -> Pose:
     ]
     if any(abs(value - expected) > 2.0 * _UNIT for value, expected in products) or _determinant(columns) < 0.0:
         _fail(place, "the rotation in `matrix` must be orthonormal and right-handed", "export the calibration again")
-    return Pose((rows[0][3], rows[1][3], rows[2][3]), _unit(_quaternion(rows), place))
+    return Pose((rows[0][3], rows[1][3], rows[2][3]), _unit(quaternion_of(rows), place))
 
 
 def _determinant(columns: list[list[float]]) -> float:
     a, b, c = columns
     cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
     return sum(factor * other for factor, other in zip(cross, c, strict=True))
-
-
-def _quaternion(m: list[list[float]]) -> Quaternion:
-    """Return the quaternion of a rotation matrix, from the largest of its four squares, so that nothing cancels."""
-    squares = (
-        1.0 + m[0][0] - m[1][1] - m[2][2],
-        1.0 - m[0][0] + m[1][1] - m[2][2],
-        1.0 - m[0][0] - m[1][1] + m[2][2],
-        1.0 + m[0][0] + m[1][1] + m[2][2],
-    )
-    yz, zx, xy = m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]
-    sums = (m[1][0] + m[0][1], m[2][0] + m[0][2], m[2][1] + m[1][2])
-    rows: tuple[Quaternion, ...] = (
-        (squares[0], sums[0], sums[1], yz),
-        (sums[0], squares[1], sums[2], zx),
-        (sums[1], sums[2], squares[2], xy),
-        (yz, zx, xy, squares[3]),
-    )
-    largest = max(range(4), key=lambda index: squares[index])
-    scale = 0.5 / math.sqrt(squares[largest])
-    x, y, z, w = (scale * value for value in rows[largest])
-    return (x, y, z, w)
 
 
 def _unit(quaternion: Quaternion, place: Span) -> Quaternion:

@@ -20,7 +20,7 @@ from cellc.contract.errors import CellcError
 from cellc.contract.frozen import dataclass
 from cellc.contract.printing import overheard
 from cellc.contract.signals import held
-from cellc.contract.transforms import Pose
+from cellc.contract.transforms import Pose, quaternion_of
 from cellc.robot.description.urdf_values import reason_of_urdfdom
 
 _MOVABLE = ("revolute", "prismatic", "continuous")
@@ -128,23 +128,9 @@ def _yourdfpy_poses(robot: Any, positions: dict[str, float]) -> dict[str, Pose]:
 
 
 def _pose(matrix: Any) -> Pose:
-    """Read a homogeneous transform; the quaternion by the largest of its four components (Shepperd 1978)."""
+    """Read a homogeneous transform, 4x4."""
     m = [[float(value) for value in row] for row in matrix]
-    squares = (
-        1.0 + m[0][0] - m[1][1] - m[2][2],
-        1.0 - m[0][0] + m[1][1] - m[2][2],
-        1.0 - m[0][0] - m[1][1] + m[2][2],
-        1.0 + m[0][0] + m[1][1] + m[2][2],
-    )
-    largest = squares.index(max(squares))
-    double = math.sqrt(squares[largest]) * 2.0
-    sums = {(0, 1): m[0][1] + m[1][0], (0, 2): m[0][2] + m[2][0], (1, 2): m[1][2] + m[2][1]}
-    differences = {(0, 3): m[2][1] - m[1][2], (1, 3): m[0][2] - m[2][0], (2, 3): m[1][0] - m[0][1]}
-    products = sums | differences
-    x, y, z, w = (
-        double / 4.0 if i == largest else products[(min(i, largest), max(i, largest))] / double for i in range(4)
-    )
-    return Pose((m[0][3], m[1][3], m[2][3]), (x, y, z, w))
+    return Pose((m[0][3], m[1][3], m[2][3]), quaternion_of(m))
 
 
 def import_yourdfpy() -> ModuleType:

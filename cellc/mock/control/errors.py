@@ -2,40 +2,28 @@
 
 from __future__ import annotations
 
-from cellc.contract.errors import CellcError
+from cellc.contract.errors import ReasonError
 
 
-class ManagerAbortedError(CellcError):
+class ManagerAbortedError(ReasonError):
     """The process of the controller manager ended while it started.
 
     Args:
         reason: the decisive line that the process writes before it ends.
     """
 
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
 
-
-class DescriptionError(CellcError):
+class DescriptionError(ReasonError):
     """The robot description was refused; the manager stays up without any hardware.
 
     Args:
         reason: the message of the parser.
     """
 
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
 
-
-class UpdateError(CellcError):
+class UpdateError(ReasonError):
     """The update of a controller threw; the manager deactivates the controller.
 
     Args:
         reason: the message of the exception.
     """
-
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from cellc.contract.errors import CellcError
+from cellc.contract.errors import ReasonError
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Distro
 from cellc.mock.control.hardware import CommandLimiter
@@ -67,16 +67,12 @@ class Context:
         self.table.command[column] = value if self.limiter is None else self.limiter.limit(column, value)
 
 
-class ConfigureError(CellcError):
+class ConfigureError(ReasonError):
     """A transition of a controller failed.
 
     Args:
         reason: what the controller logs.
     """
-
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
 
 
 class Controller(Protocol):

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping
 
-from cellc.contract.errors import CellcError
+from cellc.contract.errors import ReasonError
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits
 from cellc.mock.errors import LimitReachedError
@@ -77,16 +77,12 @@ Requirement = Callable[[str, ParameterValue], str]
 """Check of one value: takes the parameter's name and value, returns the complaint or an empty string."""
 
 
-class ParameterError(CellcError):
+class ParameterError(ReasonError):
     """A parameter could not be declared or set.
 
     Args:
         reason: the message of the exception.
     """
-
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,20 +9,16 @@ from typing import TypeAlias, cast
 
 import yaml
 
-from cellc.contract.errors import CellcError
+from cellc.contract.errors import ReasonError
 from cellc.mock.control.parameters.declaration import ParameterValue, scalar
 
 
-class ParameterFileError(CellcError):
+class ParameterFileError(ReasonError):
     """The file is not one; a node that is given it ends before it starts.
 
     Args:
         reason: the message.
     """
-
-    def __init__(self, reason: str) -> None:
-        super().__init__(reason)
-        self.reason = reason
 
 
 _MAX_DEPTH = 64
