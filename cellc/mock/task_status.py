@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
 
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Vector3
 from cellc.mock.engine.process import Action, Signal
+from cellc.mock.result import AttemptRecord
 
 
 class TaskRequests:
@@ -56,6 +58,27 @@ class ForeignGoal:
     client: str
 
 
+@dataclass(frozen=True, slots=True)
+class PlanBegan:
+    """The task has asked for the plan of an attempt."""
+
+    attempt_id: str
+    stamp_ns: int
+
+
+@dataclass(frozen=True, slots=True)
+class CancelAsked:
+    """A server has accepted to cancel a goal of the task."""
+
+    controller: str
+    goal_id: int
+    stamp_ns: int
+
+
+TaskEvent = PlanBegan | CancelAsked | AttemptRecord
+"""What the task does that is seen on no controller; a record comes as its attempt ends."""
+
+
 class ActionStatus:
     """What the status topics of the actions tell: which goals execute, and whose they are.
 
@@ -68,6 +91,16 @@ class ActionStatus:
         self.changed = Signal()
         self.foreign: list[ForeignGoal] = []
         self._executing: set[str] = set()
+        self._listeners: list[Callable[[TaskEvent], None]] = []
+
+    def listen(self, listener: Callable[[TaskEvent], None]) -> None:
+        """Call ``listener`` with all that the task does, in order."""
+        self._listeners.append(listener)
+
+    def tell(self, event: TaskEvent) -> None:
+        """Tell of something that the task did."""
+        for listener in self._listeners:
+            listener(event)
 
     def note_started(self, controller: str) -> None:
         """Note that a controller executes a goal of the task."""

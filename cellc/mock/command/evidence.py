@@ -118,7 +118,7 @@ def recorded(
 
     result = cell.rehearse(entry, seed=seed, watch=watch)
     for listener, _ in watched:
-        listener.end(result.attempts)
+        listener.end()
     bag.finish()
     return result, watched[0][1].result() if watched else None
 

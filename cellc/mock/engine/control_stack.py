@@ -28,12 +28,17 @@ from cellc.mock.world.joint_states import JointStateHistory
 
 @dataclass(frozen=True, slots=True)
 class GoalSent:
-    """A goal that was sent to the action of a controller, and the answer."""
+    """A goal that was sent to the action of a controller, and the answer.
+
+    Attributes:
+        uuid: id that its client gave it; None where that is of no interest.
+    """
 
     stamp_ns: int
     controller: str
     goal: TrajectoryGoal | GripperGoal
     response: GoalResponse
+    uuid: str | None = None
 
 
 class ControlWatcher(Protocol):
@@ -189,12 +194,12 @@ class ControlStack:
         """Tell ``watcher`` from now on what is published and asked for."""
         self._watchers.append(watcher)
 
-    def send_goal(self, controller: str, goal: TrajectoryGoal | GripperGoal) -> GoalResponse:
-        """Send a goal to the action of a controller of the contract."""
+    def send_goal(self, controller: str, goal: TrajectoryGoal | GripperGoal, uuid: str | None = None) -> GoalResponse:
+        """Send a goal, under the id of its client, to the action of a controller of the contract."""
         server = self.server_of(controller)
         response = server.send_goal(controller, goal)
         for watcher in self._watchers:
-            watcher.goal_sent(GoalSent(server.now_ns, controller, goal, response))
+            watcher.goal_sent(GoalSent(server.now_ns, controller, goal, response, uuid))
         if response.accepted:
             self.dangers += [danger for danger in dangers(controller, goal) if danger not in self.dangers]
         return response

@@ -5,13 +5,22 @@ from __future__ import annotations
 from functools import partial
 
 from cellc.contract.vocabulary import TRAJECTORIES
-from cellc.mock.control import ControlEvent, ControllerChanged, HardwareChanged, JointStateBlock
+from cellc.mock.control import (
+    ControlEvent,
+    ControllerChanged,
+    GripperEnded,
+    HardwareChanged,
+    JointStateBlock,
+    TrajectoryEnded,
+)
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder
 from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.run_bag import RunBag, TransformStream
 from cellc.mock.evidence.run_trace import RunTrace
+from cellc.mock.evidence.statuses import Statuses
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord
+from cellc.mock.task_status import TaskEvent
 
 _PIECE_NS = 250_000_000
 """States of controllers are taken four times a second, so that memory stays flat."""
@@ -27,11 +36,13 @@ class RunListener:
         self._plant = plant
         self._bag = bag
         self._trace = trace
+        self._statuses = Statuses(plant, bag)
         self._recorders: dict[str, Recorder] = {}
         self._streams = {key: TransformStream(plant, history) for key, history in plant.control.histories.items()}
         self._piece_due_ns = 0
         self._diagnostics_due_ns = 0
         plant.control.watch(self)
+        plant.task.actions.listen(self._done)
         plant.control.listen(self._hear)
         for frame, perception in plant.perceptions.items():
             perception.listen(partial(bag.pose, frame))
@@ -50,6 +61,7 @@ class RunListener:
         """Take joint states; now and then what controllers did, and the diagnostics."""
         if not len(block.stamps_ns):
             return
+        self._statuses.look()
         self._bag.joint_states(manager, controller, block)
         self._trace.joint_states(manager, controller, block)
         for message in self._streams[(manager, controller)].take(block):
@@ -65,15 +77,19 @@ class RunListener:
 
     def goal_sent(self, sent: GoalSent) -> None:
         """Take a goal."""
+        self._statuses.sent(sent)
         self._bag.goal(sent)
 
-    def end(self, attempts: tuple[AttemptRecord, ...]) -> None:
+    def end(self) -> None:
         """Take what is left when the rehearsal is over."""
         self._take_states()
-        for record in attempts:
-            self._bag.attempt(record)
-        self._bag.diagnostics(self._plant.now_ns)
+        self._statuses.look()
+        self._bag.diagnostics(self._plant.now_ns, ended=True)
         self._trace.end(self._plant.now_ns)
+
+    def _done(self, event: TaskEvent) -> None:
+        if isinstance(event, AttemptRecord):
+            self._bag.attempt(event)
 
     def _take_states(self) -> None:
         for controller, recorder in self._recorders.items():
@@ -86,3 +102,6 @@ class RunListener:
         if isinstance(event, (ControllerChanged, HardwareChanged)):
             self._bag.diagnostics(event.stamp_ns)
             self._trace.changed(event)
+            self._statuses.changed(event)
+        elif isinstance(event, (TrajectoryEnded, GripperEnded)):
+            self._statuses.ended(event)

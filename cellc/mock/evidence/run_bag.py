@@ -16,11 +16,13 @@ from cellc.mock.evidence.bag.bag_file import Bag
 from cellc.mock.evidence.bag.cdr import MessageRows
 from cellc.mock.evidence.bag.messages import (
     DiagnosticStatus,
+    GoalState,
     Point,
     StampedTransform,
     controller_state_rows,
     joint_state_shape,
 )
+from cellc.mock.evidence.statuses import ROSOUT, Line, status_topics
 from cellc.mock.evidence.topics import (
     ATTEMPTS,
     DIAGNOSTICS,
@@ -37,7 +39,7 @@ from cellc.mock.nodes.perception import ObjectPose
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ
 from cellc.mock.plant import Plant
 from cellc.mock.result import AttemptRecord, to_json_line
-from cellc.mock.world.joint_states import JointStateHistory
+from cellc.mock.world.joint_states import NEVER_NS, JointStateHistory
 
 _OK, _WARN, _ERROR = 0, 1, 2
 
@@ -51,23 +53,32 @@ _FIELD_OF = {
 """Field of a trajectory point by kind of interface."""
 
 
-def diagnose(plant: Plant, now_ns: int) -> tuple[DiagnosticStatus, ...]:
-    """Return the present status of every controller manager and of its update loop."""
-    return tuple(_statuses(plant, now_ns))
+def diagnose(plant: Plant, until_ns: int | None) -> tuple[DiagnosticStatus, ...]:
+    """Return the present status of every controller manager and of its update loop.
+
+    Args:
+        until_ns: up to which cycles were due; up to the last message of each manager where it is None, because
+            managers run ahead of each other for some cycles.
+    """
+    return tuple(_statuses(plant, until_ns))
 
 
-def _statuses(plant: Plant, now_ns: int) -> Iterator[DiagnosticStatus]:
+def _statuses(plant: Plant, until_ns: int | None) -> Iterator[DiagnosticStatus]:
     for name, manager in plant.control.managers.items():
         namespace = plant.contract.managers[name].namespace.strip("/")
         node = f"{namespace}/controller_manager" if namespace else "controller_manager"
         yield _activity(f"{node}: Controllers Activity", "controllers", _controllers(manager), _WARN)
         yield _activity(f"{node}: Hardware Components Activity", "hardware components", _components(manager), _ERROR)
         histories = [history for (owner, _), history in plant.control.histories.items() if owner == name]
-        missed = sum(history.missed_until(now_ns) for history in histories)
+        missed = sum(history.missed_until(_last_ns(history) if until_ns is None else until_ns) for history in histories)
         text = "no update cycle was missed" if missed == 0 else f"{missed} update cycles were missed"
         yield DiagnosticStatus(
             _ERROR if missed else _OK, f"{node}: Update Cycles", text, (("missed_cycles", str(missed)),)
         )
+
+
+def _last_ns(history: JointStateHistory) -> int:
+    return int(history.stamps[-1]) if len(history.stamps) else 0
 
 
 def _activity(name: str, what: str, states: tuple[tuple[str, str], ...], level: int) -> DiagnosticStatus:
@@ -109,7 +120,7 @@ class TransformStream:
             taken_ns = int(block.stamps_ns[row])
             positions = dict(zip(block.names, block.positions[row].tolist(), strict=True))
             transforms = self._transforms(taken_ns, positions)
-            if transforms:
+            if transforms and arrivals[row] - taken_ns < NEVER_NS:
                 yield TransformMessage(int(arrivals[row]), transforms)
 
     def _used(self, block: JointStateBlock) -> Iterator[int]:
@@ -162,6 +173,8 @@ class RunBag:
         self._poses = {frame: self._declare(topic) for frame, topic in topics.items() if topic is not None}
         self._diagnostics = self._declare(DIAGNOSTICS)
         self._attempts = self._declare(ATTEMPTS)
+        self._statuses = {action: self._declare(topic) for action, topic in status_topics(contract).items()}
+        self._log = self._declare(ROSOUT)
 
     def begin(self, urdf: str) -> None:
         """Write what robot_state_publisher latches when it starts."""
@@ -181,7 +194,8 @@ class RunBag:
         for data, published_ns, arrived_ns in zip(
             shape.encode(stamps, numbers), block.stamps_ns.tolist(), arrivals, strict=True
         ):
-            self._bag.write(self._joint_states[(manager, broadcaster)], data, published_ns, arrived_ns)
+            if arrived_ns - published_ns < NEVER_NS:  # what is lost on the way no recorder hears
+                self._bag.write(self._joint_states[(manager, broadcaster)], data, published_ns, arrived_ns)
 
     def controller_states(self, controller: str, recording: Recording) -> None:
         """Write the states of a trajectory controller."""
@@ -217,14 +231,22 @@ class RunBag:
             stamped = messages.StampedTransform(published.stamp_ns, published.frame, frame, published.pose)
             self._bag.write(self._transforms, messages.transforms((stamped,)), now_ns)
 
-    def diagnostics(self, now_ns: int) -> None:
-        """Write the present diagnostics."""
-        data = messages.diagnostics(now_ns, diagnose(self._plant, now_ns))
+    def diagnostics(self, now_ns: int, *, ended: bool = False) -> None:
+        """Write the present diagnostics; where the run has ended, every cycle up to now was due."""
+        data = messages.diagnostics(now_ns, diagnose(self._plant, now_ns if ended else None))
         self._bag.write(self._diagnostics, data, now_ns)
 
     def attempt(self, record: AttemptRecord) -> None:
         """Write an attempt record when it ended."""
         self._bag.write(self._attempts, messages.string(to_json_line(record)), record.ended_ns)
+
+    def status(self, action: str, at_ns: int, goals: tuple[GoalState, ...]) -> None:
+        """Write the states of all goals of an action."""
+        self._bag.write(self._statuses[action], messages.goal_status(goals), at_ns)
+
+    def line(self, line: Line) -> None:
+        """Write what a node says."""
+        self._bag.write(self._log, messages.log(line.stamp_ns, line.level, line.node, line.text), line.stamp_ns)
 
     def _declare(self, topic: BagTopic) -> int:
         return self._bag.declare(topic.name, topic.kind, topic.qos)

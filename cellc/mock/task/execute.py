@@ -15,6 +15,7 @@ from cellc.mock.plant import Plant
 from cellc.mock.result import CancelRecord, PacketStep, ResultRecord
 from cellc.mock.task.bounds import cancel_bound_s
 from cellc.mock.task.context import Attempt, AttemptError, GoalEnded, TaskContext
+from cellc.mock.task_status import CancelAsked
 from cellc.mock.world.joint_states import JointStateHistory
 
 RESPONSE_S = 1.0
@@ -49,6 +50,9 @@ def cancel_and_hold(context: TaskContext, attempt: Attempt, goals: Sequence[Sent
     plant = context.plant
     requested_ns = plant.now_ns
     return_codes = [_cancel(plant, goal.controller, goal.goal_id) for goal in goals]
+    for goal, return_code in zip(goals, return_codes, strict=True):
+        if return_code == 0:
+            plant.task.actions.tell(CancelAsked(goal.controller, goal.goal_id, requested_ns))
     joints = tuple(joint for goal in goals for joint in goal.joints)
     until_ns = requested_ns + round(cancel_bound_s(plant.contract) * 1e9)
     held_ns = held_since(plant, joints, requested_ns)
@@ -194,7 +198,7 @@ def _send(context: TaskContext, attempt: Attempt, controller: str, goal: Traject
     attempt.mark(PacketStep.GOAL_SENT, context.now_ns)
     attempt.action_goal_id = _goal_uuid(context.seed, attempt.attempt_id)
     yield from await_response(context, controller)
-    response = context.control.send_goal(controller, goal)
+    response = context.control.send_goal(controller, goal, attempt.action_goal_id)
     if not response.accepted:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, response.log_reason)
     attempt.mark(PacketStep.ACCEPTED, context.now_ns)

@@ -19,6 +19,7 @@ from cellc.mock.task.bounds import goal_timeout_s, planning_server
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext, current_state
 from cellc.mock.task.execute import await_response, execute_together, require_success
 from cellc.mock.task.starved import starved_transform
+from cellc.mock.task_status import PlanBegan
 from cellc.mock.tf.buffer import Transform
 from cellc.robot.planning import PlanFailure, TimedTrajectory
 
@@ -252,6 +253,7 @@ def _planning_time(
 ) -> Waiting[PlannedMotion]:
     """Let the simulated time of planning pass, then answer."""
     yield from await_response(context, planning_server(context.contract))
+    context.node.actions.tell(PlanBegan(attempt.attempt_id, context.now_ns))
     until_ns = context.now_ns + round(PLANNING_LATENCY_S * 1e9)
     while context.now_ns < until_ns:
         yield from context.pause(until_ns)

@@ -199,7 +199,9 @@ class Task:
             due = f"required: program start, then a claim, by {role}"
         outcome = AttemptOutcome.SUCCEEDED if failure is None else failure.outcome
         fault_code = "" if failure is None else failure.fault_code
-        self.records.append(attempt.close(outcome, fault_code, safety_state, due, self._context.now_ns))
+        record = attempt.close(outcome, fault_code, safety_state, due, self._context.now_ns)
+        self.records.append(record)
+        self._context.node.actions.tell(record)
         return outcome
 
 

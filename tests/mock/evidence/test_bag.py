@@ -29,6 +29,10 @@ TOPICS = {
     "/object_pose": "geometry_msgs/msg/PoseStamped",
     "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
     "/cellc/attempts": "std_msgs/msg/String",
+    "/arm_trajectory/follow_joint_trajectory/_action/status": "action_msgs/msg/GoalStatusArray",
+    "/gripper_action/gripper_cmd/_action/status": "action_msgs/msg/GoalStatusArray",
+    "/move_action/_action/status": "action_msgs/msg/GoalStatusArray",
+    "/rosout": "rcl_interfaces/msg/Log",
 }
 PERIOD_NS = 2_000_000
 """The manager of the cell runs at 500 Hz."""

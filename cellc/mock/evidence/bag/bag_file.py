@@ -20,7 +20,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 from cellc.contract.store.regular_file import own_text
 
-_PRIMITIVES = ("byte", "float64", "int32", "string", "uint32")
+_PRIMITIVES = ("byte", "float64", "int32", "int8", "string", "uint32", "uint8")
 """Those that occur in the definitions here."""
 _SEPARATOR = "=" * 80
 _FIELD = re.compile(r"([A-Za-z][\w/]*)(?:\[[^\]]*\])? +\w+")
@@ -37,6 +37,8 @@ LATCHED = replace(DEFAULT, durability="transient_local", depth=1)
 PROFILE = "ros2"
 LIBRARY = "cellc mock"
 """In place of the name and version of the MCAP library, so that another version writes the same file."""
+_CHUNK_BYTES = 1 << 17
+"""Bytes of a chunk: what a cut through the file costs."""
 _KEPT = 2000
 """Messages that are put in the order of their arrival before they are written."""
 
@@ -122,7 +124,7 @@ class Bag:
         """
         with gate(EVIDENCE):
             from mcap.writer import CompressionType, Writer
-        self._writer = Writer(file, compression=CompressionType.NONE)
+        self._writer = Writer(file, chunk_size=_CHUNK_BYTES, compression=CompressionType.NONE)
         self._writer.start(PROFILE, LIBRARY)
         self._writer.add_metadata("cellc", dict(metadata))
         self._distro = distro
@@ -149,7 +151,7 @@ class Bag:
         log_ns = publish_ns if log_ns is None else log_ns
         self._pending.append(_Message(channel, self._sequences[channel], log_ns, publish_ns, data))
         if len(self._pending) >= _KEPT:
-            self._flush()
+            self._flush(len(self._pending) // 2)  # what comes next may have arrived before the other half
 
     def finish(self) -> None:
         """Write what is left, the summary and the footer."""
@@ -157,7 +159,8 @@ class Bag:
         finish: Callable[[], object] = self._writer.finish
         finish()
 
-    def _flush(self) -> None:
-        for each in sorted(self._pending, key=lambda message: message.log_ns):
+    def _flush(self, count: int | None = None) -> None:
+        self._pending.sort(key=lambda message: message.log_ns)
+        for each in self._pending[:count]:
             self._writer.add_message(each.channel, each.log_ns, each.data, each.publish_ns, each.sequence)
-        self._pending.clear()
+        del self._pending[:count]

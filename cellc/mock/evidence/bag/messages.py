@@ -19,6 +19,8 @@ JOINT_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 DIAGNOSTIC_ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
 STRING = "std_msgs/msg/String"
+GOAL_STATUS = "action_msgs/msg/GoalStatusArray"
+LOG = "rcl_interfaces/msg/Log"
 
 CONTROLLER_STATE = "control_msgs/msg/JointTrajectoryControllerState"
 POINT_FIELDS = ("positions", "velocities", "accelerations", "effort")
@@ -45,6 +47,38 @@ class DiagnosticStatus:
     name: str
     message: str
     values: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GoalState:
+    """An action_msgs/GoalStatus: the 16 bytes of the id, when the goal was accepted, and a state of that message."""
+
+    goal_id: bytes
+    accepted_ns: int
+    status: int
+
+
+def goal_status(states: Sequence[GoalState]) -> bytes:
+    """Encode an action_msgs/GoalStatusArray."""
+    writer = CdrWriter()
+    writer.uint32(len(states))
+    for state in states:
+        for byte in state.goal_id:
+            writer.octet(byte)
+        writer.time(state.accepted_ns)
+        writer.octet(state.status)
+    return writer.message()
+
+
+def log(stamp_ns: int, level: int, node: str, text: str) -> bytes:
+    """Encode a rcl_interfaces/Log; file, function and line are left empty."""
+    writer = CdrWriter()
+    writer.time(stamp_ns)
+    writer.octet(level)
+    for word in (node, text, "", ""):
+        writer.string(word)
+    writer.uint32(0)
+    return writer.message()
 
 
 def string(text: str) -> bytes:
