@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from cellc.compiler.cell.cell import Cell
@@ -10,7 +11,7 @@ from cellc.compiler.deploy.files import RECORDING
 from cellc.compiler.formats.escape import shell_word
 from cellc.contract.entities import Qos
 from cellc.contract.qos import DEFAULT, recorder_depth, weakest
-from cellc.contract.vocabulary import Feature, InterfaceKind, features
+from cellc.contract.vocabulary import TRAJECTORIES, Feature, InterfaceKind, features
 
 
 def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
@@ -35,9 +36,20 @@ def recorded_topics(cell: Cell) -> dict[str, Qos]:
     for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION and "real" in i.targets):
         topics[f"{action.name}/_action/feedback"] = DEFAULT
         topics[f"{action.name}/_action/status"] = replace(DEFAULT, durability="transient_local", depth=1)
+    for name in _controller_states(cell):
+        topics.setdefault(name, replace(DEFAULT, depth=1000))
+    topics.setdefault("/rosout", replace(DEFAULT, durability="transient_local", depth=1000))
     for name in ("/diagnostics", *cell.recording.topics):
         topics.setdefault(name, DEFAULT)
     return topics
+
+
+def _controller_states(cell: Cell) -> Iterator[str]:
+    """Yield where trajectory controllers of the real target publish reference, feedback and error."""
+    for manager in cell.managers:
+        for controller in manager.controllers:
+            if controller.behavior in TRAJECTORIES and "real" in controller.targets:
+                yield f"{controller.full_name}/controller_state"
 
 
 def _on_the_path(interface: Interface) -> bool:
