@@ -16,6 +16,7 @@ FOLDERS = {
     "adapter": "mock/adapter",
     "artifact.py": "output",
     "cell": "cell link",
+    "cli/attempt.py": "attempt",
     "cli/campaign.py": "mock/campaign cli",
     "cli/catalog.py": "browse cli",
     "cli/compare.py": "report/test_comparison.py cli",

@@ -48,7 +48,7 @@ def _is_beside(path: str) -> bool:
     return len(path) <= _LONGEST_PATH and all(part in (".", "..") or is_file_name(part) for part in path.split("/"))
 
 
-def _is_cell(name: str) -> bool:
+def is_cell_name(name: str) -> bool:
     return _CELL.fullmatch(name) is not None
 
 
@@ -68,7 +68,7 @@ class _Kind:
         return name
 
 
-CellName = Annotated[str, AfterValidator(_Kind("a lower-case name of letters, digits and `_`", _is_cell))]
+CellName = Annotated[str, AfterValidator(_Kind("a lower-case name of letters, digits and `_`", is_cell_name))]
 """The name of a cell and of its package; folders are named by it."""
 InnerPath = Annotated[str, AfterValidator(_Kind("a path inside the folder", is_inside))]
 """A file of the generated folder, with forward slashes."""

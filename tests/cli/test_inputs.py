@@ -38,6 +38,8 @@ NO_FOLDER = "is not a folder; name one that `cellc build` wrote"
 NOT_GENERATED = "{} has no `manifest.json`: it is no generated folder"
 NO_GIT = "is not in a readable Git repository"
 NOTHING = "there is no file or folder `{}`"
+NO_BAG = "holds no file .mcap or .db3"
+NO_BAG_FILE = "must be a folder of rosbag2, or a file .mcap or .db3"
 XML = "not well-formed XML"
 NO_SOURCE = "refused: `{}` is not a file, a folder or an installed package"
 
@@ -63,6 +65,17 @@ def _of_a_folder(code: int, said: str) -> tuple[tuple[int, str], ...]:
 
 _SPEC = ((1, FOLDER), (1, NO_FILE), (1, TEXT), (1, NO_FILE), (1, BYTES), (1, DEVICE), (1, FOLDER), (1, ROBOT))
 ROWS: dict[str, tuple[tuple[int, str], ...]] = {
+    "attempt {} --package built": (
+        (2, NO_BAG),
+        (2, "no such file or folder"),
+        (2, NO_BAG_FILE),
+        (2, "no such file or folder"),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+    ),
     "audit {}": (*_SPEC, (1, FOLDER)),
     "build {} -o out": (*_SPEC, (0, "written")),
     # A device and a robot are judged for themselves.

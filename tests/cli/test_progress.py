@@ -14,6 +14,7 @@ import pytest
 from cellc.contract import printing
 from cellc.mock.campaign.plan import CampaignPlan
 from cellc.tools.cli import main
+from tests.attempt.hand_made import arrived
 from tests.cells import ROOT, generated
 from tests.cli.run import MINIMAL
 from tests.printing.test_streams import seen
@@ -22,6 +23,7 @@ QUICK = {"completion": ("bash",), "explain": (), "init": ("bench", "arm=ur5e"), 
 """Commands that read nothing of a user's, and have no stage."""
 LONG: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "audit": (("cell.yaml",), ("audit: reading", "audit: linking", "audit: rules")),
+    "attempt": (("bag", "--package", "drawn"), ("attempt: reading bag",)),
     "build": (("cell.yaml",), ("1 of 1, cell.yaml, linking", "writing artifacts", "reading back with other parsers")),
     "catalog": (("--all", "-o", "pages"), ("catalog: drawing the pages",)),
     "check": (
@@ -69,6 +71,7 @@ def told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Told:
     shutil.copytree(ROOT / "tests/corpus/invalid/base/demo_arm", "my_robot")
     shutil.copytree(generated("minimal"), "minimal")
     shutil.copytree(generated("ur5e_pick"), "drawn")
+    arrived().write(tmp_path / "bag")
 
     def run(*arguments: str) -> tuple[int, str]:
         seconds, terminal = count(0.0, 3.0), Terminal()

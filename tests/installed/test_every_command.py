@@ -17,6 +17,7 @@ from tests.installed.install import Install, first_command
 SPEC, BUILT = "cells/bench/cell.yaml", "generated/bench"
 EVIDENCE = "error: `--evidence` needs the package `mcap`, which is not installed; install it with `"
 LIVE = "error: `--live` needs the package `foxglove`, which is not installed; install it with `"
+BAGS = "error: bag.mcap: no such file or folder"
 CLUSTER = "error: `--cluster` needs the package `d"
 NO_SPEC = "error[file-not-found]: there is no file `nothing.yaml`"
 
@@ -46,6 +47,8 @@ CALLS = (
     (f"replay {BUILT} nothing", 2, "there is no run `nothing`"),
     ("gates nothing", 2, "error: nothing: no such folder"),
     ("mock cells --matrix ros=jazzy --cluster tcp://127.0.0.1:1", 2, CLUSTER),
+    (f"attempt bag.mcap --package {BUILT}", 2, BAGS),
+    ("attempt --help", 0, "print its record and the layer"),
     (f"audit {SPEC}", 0, "Cell bench."),
     ("audit nothing.yaml", 1, NO_SPEC),
     ("catalog ur5e", 0, "# `ur5e`"),
