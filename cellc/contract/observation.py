@@ -34,6 +34,8 @@ class ObservedTarget(ContractModel):
     ends: dict[str, ObservedEnds] = Field(description="By interface.")
     states: dict[str, ObservedManager] = Field(description="By full name of a controller manager.")
     lifecycle: dict[str, ManagedState] = Field(description="State of each managed node.")
+    lifecycle_claimed: dict[str, ManagedState] = Field(description="The same from the claims on.")
+    late_joints: tuple[str, ...] = Field(description="Joints without states until a person activates their hardware.")
 
 
 class Observation(ContractModel):

@@ -492,6 +492,16 @@ def test_mover_does_not_survive_its_claims(graph: StandIn, tmp_path: Path, capfd
     assert "stopped: controller arm_trajectory must be active, is inactive" in capfd.readouterr().err
 
 
+def test_mover_does_not_survive_a_managed_node(
+    graph: StandIn, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    # An adapter claims as a controller does, and people deactivate it to clear the area.
+    claimed(graph, tmp_path)
+    graph.on_spin = lambda times: graph.nodes_.update({"/perception": "inactive"})
+    assert run(graph, tmp_path, "--target", "real", "move", "--", sys.executable, "-c", _ENDLESS) == 1
+    assert "stopped: /perception must be active, is inactive" in capfd.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("topic", "message", "said"),
     [

@@ -248,6 +248,15 @@ def test_joint_at_a_limit_moves_to_its_open_side_alone(
         assert f"only the side of {open_side} is open" in capsys.readouterr().out
 
 
+def test_a_joint_without_limits_may_be_reported_a_turn_away() -> None:
+    # kortex_driver reports a continuous joint within a turn: beyond 180 deg its state goes on at -180 deg.
+    words = [f"{_WRIST}::" if word.startswith(f"{_WRIST}:") else word for word in _words()]
+    at = math.pi - 0.01
+    robot = Robot(positions=_START | {_WRIST: at}, follows=lambda _name, place: math.remainder(place, math.tau))
+    assert _run(robot, words) == 0
+    assert [goal[_WRIST] - at for goal in robot.goals] == pytest.approx([_HALF, 0.0, -_HALF, 0.0])
+
+
 def test_joint_without_an_open_side_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     words = [f"{_WRIST}:0.08:0.12" if word.startswith(f"{_WRIST}:") else word for word in _words()]
     robot = Robot()

@@ -7,7 +7,7 @@ import json
 import math
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -61,8 +61,9 @@ def right(package: Package, gate: str) -> Seen:
             for number in range(int(rate * _FOR_S)):
                 stream.take(100.0 + number / rate, (100.0 + number / rate, interface.get("frame") or ""))
             if interface["type"] == "sensor_msgs/msg/JointState":
-                stream.take_joints(*zip(*positions(package), strict=True))
-    described(package, seen)
+                shown = [(name, place) for name, place in positions(package) if name not in unshown(package, gate)]
+                stream.take_joints([name for name, _ in shown], [place for _, place in shown])
+    described(package, seen, unshown(package, gate))
     answered(package, seen, gate)
     return seen
 
@@ -99,18 +100,35 @@ def ends(interface: Any, side: str, sides: Any, gate: str) -> list[End]:
 
 
 def positions(package: Package) -> Iterator[tuple[str, float]]:
-    """Yield every joint that a controller has, in the middle of its range."""
-    for manager in package.contract["managers"].values():
-        for joint in sorted({joint for each in manager["controllers"].values() for joint in each["joints"]}):
-            limits = package.contract["joint_limits"].get(joint, {})
-            yield joint, (limits.get("lower", 0.0) + limits.get("upper", 0.0)) / 2.0
+    """Yield every joint that a controller or an adapter has, in the middle of its range."""
+    managers = package.contract["managers"].values()
+    owners = [each for manager in managers for each in manager["controllers"].values()]
+    owners += package.contract.get("adapters", {}).values()
+    for joint in sorted({joint for each in owners for joint in each["joints"]}):
+        limits = package.contract["joint_limits"].get(joint, {})
+        yield joint, (limits.get("lower", 0.0) + limits.get("upper", 0.0)) / 2.0
 
 
-def described(package: Package, seen: Seen) -> None:
+def unshown(package: Package, gate: str) -> set[str]:
+    """Return the joints of components that no person has activated, and those that follow them: none has a state."""
+    states = {name: state for each in package.plan["states"].values() for name, state in each["hardware"].items()}
+    asleep = {
+        joint.get("name", "")
+        for system in package.description.iterfind("ros2_control")
+        if gate < "G5" and states.get(system.get("name", "")) == "unconfigured"
+        for joint in system.iterfind("joint")
+    }
+    followed = ((joint.get("name", ""), joint.find("mimic")) for joint in package.description.iterfind("joint"))
+    return asleep | {name for name, mimic in followed if mimic is not None and mimic.get("joint") in asleep}
+
+
+def described(package: Package, seen: Seen, asleep: Collection[str] = ()) -> None:
     """See the transforms and the text of the description; rotations by products of one about each axis."""
     seen.answers["robot_description"] = package.description
     for joint in package.description.iterfind("joint"):
         (parent,), (child,) = ([each.get("link", "") for each in joint.iterfind(end)] for end in ("parent", "child"))
+        if joint.get("name") in asleep:
+            continue
         if joint.get("type") != "fixed":
             seen.moving[child] = {parent}
             continue
@@ -135,7 +153,10 @@ def answered(package: Package, seen: Seen, gate: str) -> None:
         labels = {name: SimpleNamespace(label=state) for name, state in stated["hardware"].items()}
         parts = [SimpleNamespace(name=name, state=label) for name, label in labels.items()]
         seen.answers[f"{node}/list_hardware_components"] = SimpleNamespace(component=parts)
-    for node, state in package.plan["lifecycle"].items():
+    adapters = {f"/{name}" for name in package.contract.get("adapters", ())}
+    on_real = any("unconfigured" in each["hardware"].values() for each in package.plan["states"].values())
+    for node, stated in package.plan["lifecycle"].items():
+        state = "active" if gate == "G7" and node in adapters and on_real else stated
         seen.answers[f"{node}/get_state"] = SimpleNamespace(current_state=SimpleNamespace(label=state))
     for node, written in package.parameters.items():
         seen.answers[f"{node}/get_parameters"] = SimpleNamespace(values=[*map(parameter, written.values())])

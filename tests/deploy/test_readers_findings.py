@@ -118,11 +118,12 @@ def test_no_sentence_of_a_checklist_has_more_than_25_words(cell: str) -> None:
 
 
 def test_a_drill_that_restarts_hardware_activates_what_a_person_activated() -> None:
-    assert "Start it again as in G4, and activate left and right as in G5." in _gates("openarm_bimanual")["G5"]
+    again = "as in G4, and repeat the activation of"
+    assert f"Start it again {again} left and right in G5 with its checks." in _gates("openarm_bimanual")["G5"]
     assert "Start it again as in G4." in _gates("fr3_hand")["G5"]
     # A gripper that its person has not activated yet needs no second activation, and every later restart needs one.
     assert _in_order(_gates("ur5e_pick")["G5"], "Start it again as in G4.", "launch ur5e_pick activate.launch.xml")
-    assert "Start the cell again as in G4, and activate gripper as in G5." in _gates("hybrid_sdk")["G6"]
+    assert f"Start the cell again {again} gripper in G5 with its checks." in _gates("hybrid_sdk")["G6"]
 
 
 def test_a_robot_behind_an_adapter_has_no_driver_to_start() -> None:
@@ -171,10 +172,10 @@ def test_payload_is_asked_for_once_in_the_words_of_its_robot(cell: str) -> None:
 
 def test_a_gripper_gets_its_first_goal_when_it_is_claimed() -> None:
     claim = "Authorize the claims"
-    assert _in_order(_gates("ur5e_pick")["G7"], claim, "Keep all hands clear", "Open the fingers of gripper with their")
+    assert _in_order(_gates("ur5e_pick")["G7"], claim, "Keep all hands clear. Send two goals", "fingers of gripper")
     hand = _gates("fr3_hand")["G7"]
     # fr3_hand states `grip: {force: 20 N}`; the goal of a GripperCommand carries it.
-    assert _in_order(hand, claim, "Open the fingers of hand with their", "position 0.04 m, max_effort 20 N")
+    assert _in_order(hand, claim, "Send two goals", "max_effort 20 N: position 0.02 m, then 0.04 m")
 
 
 @pytest.mark.parametrize("cell", _WALKED)
@@ -238,3 +239,48 @@ def test_stopping_distance_is_read_where_it_is_published_and_unknown_elsewhere(c
     published = cell == "ur5e_pick"  # UR5e Hardware Manual (2022), p. 65; no other source was found
     assert ("Read time and distance of a stop of arm" in text) is published
     assert ("UNKNOWN: time and distance of a stop of" in text) is not published
+
+
+@pytest.mark.parametrize("cell", sorted(set(EVERY_CELL) - {"rail_arm"}))
+def test_area_and_observer_are_looked_at_again_before_anything_moves_after_people_were_in_reach(cell: str) -> None:
+    gate = _gates(cell)["G7"]
+    for release in ("Authorize the claims", "Authorize the motion clients"):
+        if release in gate:
+            before = gate[: gate.index(release)]
+            assert "no person and no loose object is within reach" in before
+            assert "Place the observer" in before
+
+
+@pytest.mark.parametrize("cell", ["ur5e_pick", "dual_ur"])
+def test_no_stage_runs_at_the_low_speed_of_the_first_goals(cell: str) -> None:
+    for stage in re.findall(r"Stage \d+ %[^\n]*", _gates(cell)["G7"]):
+        if "Check that" in stage:
+            assert "Set the speed slider of" in stage
+            assert "to 100 %, because the cap alone limits the stage" in stage
+
+
+def test_description_with_a_login_is_parsed_without_it_and_not_recorded() -> None:
+    # kortex_driver has its login in the description; xacro fails where a variable is not set.
+    assert "GEN3_USERNAME=none GEN3_PASSWORD=none xacro " in _gates("gen3_2f")["G1"]
+    assert "/robot_description" not in _gates("gen3_2f")["G7"]
+    assert "/robot_description" in _gates("ur5e_pick")["G7"]
+
+
+def test_firmware_that_shows_only_with_power_is_unknown_until_then() -> None:
+    gates = _gates("gen3_2f")
+    assert "arm.firmware" not in gates["G0"]
+    assert _in_order(gates["G3"], "switch its power on", "trip the stop", "Read arm.firmware at the device")
+    assert _in_order(gates["G4"], "no person controls the arm from the Web App", "launch gen3_2f cell.launch.xml")
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_arms_that_fall_are_supported_before_any_launch_is_stopped(cell: str) -> None:
+    # openarm_hardware/src/v10_simple_hardware.cpp:230; robotiq_driver/src/hardware_interface.cpp:252 lets go.
+    recovery = built(cell).texts["audit.md"].split("\n## Recovery\n")[1].split("\n## ")[0]
+    lost = built(cell).texts["audit.md"].split("\n## After a crash")[1].split("\n## ")[0]
+    for text in (recovery, lost):
+        assert ("Place a stand just below each of left and right" in text) == (cell == "openarm_bimanual")
+        assert ("which gripper may hold" in text) == (
+            "robotiq_driver/" in built(cell).texts["urdf/" + f"{cell}.real.urdf"]
+        )
+    assert "Power off at the teach pendant" in lost or "ur" not in cell

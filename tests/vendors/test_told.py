@@ -82,7 +82,7 @@ def test_in_remote_mode_nobody_is_sent_to_a_pendant_that_starts_nothing(
 def test_the_tcp_stands_in_the_gate_as_the_pendant_shows_it() -> None:
     # By hand: the gripper is 11 mm beyond tool0 and turned by 90 deg about z, the TCP 162 mm beyond the gripper.
     gate = _gate(artifacts_of("ur5e_pick")["gates/promotion.md"], "G5")
-    assert "the TCP of arm is frame tcp: 0.00 0.00 173.00 mm in arm_tool0" in gate.replace("\\", "")
+    assert "Check at arm that its TCP is frame tcp: 0.00 0.00 173.00 mm in arm_tool0" in gate.replace("\\", "")
     assert "rotation vector 0.0000 0.0000 1.5708 rad, roll pitch yaw 0.00 0.00 90.00 deg" in gate
     assert "timeout 10 ros2 topic echo --once /arm_tcp/pose" in gate
 

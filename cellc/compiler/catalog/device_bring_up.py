@@ -145,6 +145,7 @@ class SafetyFacts(CatalogModel):
         recovery: Recovery from the states that stop the device.
         ending: What people do at the device when nothing is claimed any more, before its driver ends.
         ended: What people do at the device after its driver has ended.
+        power_off: What people do after a loss that leaves the drives powered, before they repeat gates without power.
         watchdog: What the device does when commands stop, and after how long, such as ``20 lost packets in a row stop
             the motion``.
         stopping: Published times and distances of a stop; absent where no public source has them.
@@ -158,6 +159,7 @@ class SafetyFacts(CatalogModel):
     recovery: tuple[RecoveryFacts, ...] = ()
     ending: tuple[HumanStep, ...] = ()
     ended: tuple[HumanStep, ...] = ()
+    power_off: tuple[HumanStep, ...] = ()
     watchdog: Text | None = None
     stopping: StoppingFacts | None = None
     source: Text

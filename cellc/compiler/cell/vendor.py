@@ -53,6 +53,7 @@ class VendorSafety:
             the field that says it; the whole message where that is empty.
         stopping: which times and distances of a stop are published, and where; None where no public source has them.
         ending, ended: what people do at the device once nothing is claimed, before and after its driver ends.
+        power_off: what they do after a loss that leaves its drives powered.
     """
 
     stop_authority: str | None = None
@@ -60,6 +61,7 @@ class VendorSafety:
     topics: tuple[tuple[str, str], ...] = ()
     ending: tuple[str, ...] = ()
     ended: tuple[str, ...] = ()
+    power_off: tuple[str, ...] = ()
     modes: tuple[str, ...] = ()
     recovery: tuple[RecoveryProcedure, ...] = ()
     watchdog: str | None = None

@@ -50,6 +50,22 @@ def claimed_drills(graph: CellGraph) -> Iterator[Values]:
         yield from ((device.name, act, follows) for act, follows in _with_a_claim(graph.cell, device))
 
 
+def adapter_drills(graph: CellGraph) -> Iterator[Values]:
+    """Yield what people try on arms behind an adapter without a claim: only its author knows what it does."""
+    for device in _adapted(graph.cell):
+        yield device.name, "Unplug its communication cable for 10 s and plug it in again. Leave its power on."
+        yield device.name, f"End the hardware launch with Ctrl-C. Start it again {restart_of(graph.cell)}."
+
+
+def claimed_adapter_drills(graph: CellGraph) -> Iterator[Values]:
+    """Yield how people stop such an arm while it moves, out of its reach, and how they recover it."""
+    for device in _adapted(graph.cell):
+        stop = _tripped(device)
+        if stop is not None and stop.trip is not None:
+            act = f"{stop.trip} while it moves on a small goal. Record the stopping distance."
+            yield device.name, f"{act} Then do Recovery of {stop.name} in `audit.md` to its last step."
+
+
 def open_drills(graph: CellGraph) -> Iterator[Values]:
     """Yield the arms that no source says how to stop out of reach, with the state and what must follow."""
     for device in _drilled(graph.cell):
@@ -83,6 +99,11 @@ def _drilled(cell: Cell) -> Iterator[Device]:
     return (device for device in cell.devices if device.kind == "arm" and device.name not in adapted)
 
 
+def _adapted(cell: Cell) -> Iterator[Device]:
+    adapted = {each.device for each in cell.adapters}
+    return (device for device in cell.devices if device.kind == "arm" and device.name in adapted)
+
+
 def _activated_arms(cell: Cell) -> bool:
     activated = {name for name, _ in moved_by_activation(cell)}
     return any(device.name in activated for device in _drilled(cell))
@@ -102,7 +123,7 @@ def _without_a_claim(cell: Cell, again: str) -> Iterator[Values]:
     if follows:
         same = len(set(follows.values())) == 1
         said = next(iter(follows.values())) if same else " ".join(f"{name}: {text}" for name, text in follows.items())
-        act = f"{_supported(falling)}End the hardware launch with Ctrl-C."
+        act = f"{_supported(falling)}End the hardware launch with Ctrl-C, if it still runs."
         yield " and ".join(follows), act, f"{said} Start it again {again}."
 
 
@@ -113,8 +134,9 @@ def _of_the_cable(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
     if cut is None or again is None:
         return
     if again.motion in _CALM and cut.motion in _CALM:
-        yield "Unplug its communication cable for 10 s. Leave its power on.", _follows(cell, device, cut, ())
-        yield "Plug its communication cable in again.", _follows(cell, device, again, ())
+        ended = "" if cut.leaves == "active" else " Its controller manager may have ended instead."
+        yield "Unplug its communication cable for 10 s. Leave its power on.", _follows(cell, device, cut, ()) + ended
+        yield "Plug its communication cable in again.", _follows(cell, device, again, ()) + ended
     else:
         yield "Do not unplug its communication cable while it is active.", f"On reconnection: {_MOVES[again.motion]}"
 

@@ -9,9 +9,11 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in
 from cellc.compiler.deploy.gate_motion import Values
+from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.numbers import positive_zero
 from cellc.compiler.graph.cell_graph import CellGraph
 
+_SAME = " Both commands must print the same pose, that of the robot and that of TF."
 _UNSAID = "Enter it as the manual of its vendor says, and record the values that it shows."
 
 
@@ -42,7 +44,8 @@ def tool_centers(graph: CellGraph, *, powered: bool = False) -> Iterator[Values]
             if device.procedures.rotation_vector:
                 turned = f"rotation vector {turn}, {turned}"
             frames, gate = (device.robot.tcp, device.body.tool_frame), enabled_in(device)
-            yield device.name, *frames, xyz, turn, rpy, turned, _shows_center(graph, device), gate
+            command = _shows_center(graph, device)
+            yield device.name, *frames, xyz, turn, rpy, turned, command, command and _SAME, gate
 
 
 def tool_connectors(graph: CellGraph) -> Iterator[Values]:
@@ -65,7 +68,10 @@ def _shows_center(graph: CellGraph, device: Device) -> str:
     broadcaster = graph.once(_active_by_kind).get((device.robot.accepts.tcp_kind, device.name))
     if broadcaster is None:
         return ""
-    return f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.accepts.tcp_topic}"
+    shown = f"timeout 10 ros2 topic echo --once {broadcaster.full_name}/{device.robot.accepts.tcp_topic}"
+    measured_in = str(broadcaster.parameters["frame_id"])
+    tf = f"timeout 10 ros2 run tf2_ros tf2_echo {shell_word(measured_in)} {shell_word(device.robot.tcp or '')}"
+    return f"{shown}\n{tf}"
 
 
 def _active_by_kind(graph: CellGraph) -> Mapping[tuple[str | None, str | None], Controller]:

@@ -129,7 +129,10 @@ def authorized_motion(graph: CellGraph) -> Iterator[Values]:
 
 
 def gripper_goals(graph: CellGraph) -> Iterator[Values]:
-    """Yield the goal that opens each gripper, with the least force that it can be set to where its action has one."""
+    """Yield goals that close each gripper half way and open it, with the least force where its action has one.
+
+    Some activations leave the fingers open: a first goal to open them would move nothing.
+    """
     for device in graph.cell.devices:
         gripper = device.gripper
         for owner in graph.cell.controllers if gripper is not None else ():
@@ -141,7 +144,8 @@ def gripper_goals(graph: CellGraph) -> Iterator[Values]:
             own = "no stated force, so its driver uses its own"
             said = f"max_effort {shortest(least or 0.0)} N" if carries else own
             unit = "m" if device.joint(gripper.joint).slides else "rad"
-            yield device.name, served[0], f"{decimal(gripper.open)} {unit}", said
+            half = (gripper.open + gripper.closed) / 2.0
+            yield device.name, served[0], f"{decimal(half)} {unit}", f"{decimal(gripper.open)} {unit}", said
 
 
 def _served(owner: Controller) -> tuple[str, str] | None:
@@ -187,13 +191,16 @@ def later_stages(graph: CellGraph) -> Iterator[Values]:
 
 
 def _stages(graph: CellGraph) -> list[Values]:
-    """Return each stage with its file, the cap of one joint, and the command that shows it."""
+    """Return each stage with its file, the cap of one joint, what slows it no more, and the command that shows it."""
     rows = list[Values]()
+    controls = ((device.name, device.procedures.speed_control) for device in graph.cell.devices)
+    named = [f"the {control.name} of {name}" for name, control in controls if control is not None and control.name]
+    full = f" Set {' and '.join(named)} to 100 %, because the cap alone limits the stage." if named else ""
     for percent, file in stage_files(graph.cell).items():
         joint, node = graph.cell.groups[0].joints[0], graph.cell.planners[0].full_name
         parameter = f"robot_description_planning.joint_limits.{joint}.max_velocity"
         command = f"timeout 30 ros2 param get {shell_word(node)} {shell_word(parameter)}"
-        rows.append((percent, file, joint, command))
+        rows.append((percent, file, joint, full, command))
     return rows
 
 
@@ -208,11 +215,22 @@ def risk_assessment(graph: CellGraph) -> Iterator[Values]:
 
 
 def cancels(graph: CellGraph) -> Iterator[Values]:
-    """Yield the actions that promise how soon a cancel holds, without those of the first goals, which try it."""
-    tried = {goal.action for goal in first_goals(graph.cell)}
+    """Yield the actions that promise how soon a cancel holds, without those of the first goals, which try it.
+
+    A gripper has ended its stroke before a command of people arrives.
+    """
+    tried = {goal.action for goal in first_goals(graph.cell)} | {action for _, action, *_ in gripper_goals(graph)}
     for interface in graph.cell.interfaces:
         if "real" in interface.targets and interface.cancel_within_s is not None and interface.name not in tried:
             yield interface.name, shortest(interface.cancel_within_s), f"{interface.name}/_action/cancel_goal"
+
+
+def short_motions(graph: CellGraph) -> Iterator[Values]:
+    """Yield the actions of grippers that promise how soon a cancel holds."""
+    short = {action for _, action, *_ in gripper_goals(graph)}
+    for interface in graph.cell.interfaces:
+        if interface.name in short and interface.cancel_within_s is not None:
+            yield interface.name, shortest(interface.cancel_within_s)
 
 
 def real_actions(graph: CellGraph) -> Iterator[Values]:

@@ -75,17 +75,27 @@ def open_speed_controls(graph: CellGraph) -> Iterator[Values]:
 
 def stopping_devices(graph: CellGraph) -> Iterator[Values]:
     """Yield the states that stop each device, with what shows them, in the gates that look for them."""
+    adapted = {adapter.device for adapter in graph.cell.adapters}
     for device in graph.cell.devices:
         safety = device.procedures.safety
         for gate in GateCode:
             stops = [state for state in safety.states if state.stops and state.gate is gate and state.reported]
-            if stops:
+            if stops and device.name not in adapted:
                 echoes = (
                     f"timeout 10 ros2 topic echo --once {field and f'--field {field} '}{shell_word(topic)}"
                     for topic, field in safety.topics
                 )
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
                 yield device.name, states, "\n".join(echoes), gate
+
+
+def read_states(graph: CellGraph) -> Iterator[Values]:
+    """Yield the states that stop devices behind an adapter: what their driver would report, people read there."""
+    adapted = {adapter.device for adapter in graph.cell.adapters}
+    for device in graph.cell.devices:
+        states = (state for state in device.procedures.safety.states if state.stops and state.reported)
+        if device.name in adapted and (shown := ", ".join(f"{state.name} ({state.reported})" for state in states)):
+            yield device.name, shown
 
 
 def unreported_stops(graph: CellGraph) -> Iterator[Values]:
@@ -98,9 +108,10 @@ def unreported_stops(graph: CellGraph) -> Iterator[Values]:
 
 def ready_states(graph: CellGraph) -> Iterator[Values]:
     """Yield the states in which a device may be moved, where it reports them."""
+    adapted = {adapter.device for adapter in graph.cell.adapters}
     for device in graph.cell.devices:
         states = (state for state in device.procedures.safety.states if not state.stops and state.reported)
-        if shown := "; ".join(f"{state.name} ({state.reported})" for state in states):
+        if device.name not in adapted and (shown := "; ".join(f"{state.name} ({state.reported})" for state in states)):
             yield device.name, shown
 
 

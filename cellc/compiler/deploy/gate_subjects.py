@@ -8,9 +8,10 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.real_target import unmoved_on_real
-from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.drills import (
+    adapter_drills,
     claimed,
+    claimed_adapter_drills,
     claimed_drills,
     early_drills,
     interlocks,
@@ -18,7 +19,6 @@ from cellc.compiler.deploy.drills import (
     open_drills,
     pulled,
 )
-from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in
 from cellc.compiler.deploy.ends import is_late
 from cellc.compiler.deploy.files import is_servo
 from cellc.compiler.deploy.gate_loads import loaded_devices, tool_centers, tool_connectors
@@ -42,6 +42,7 @@ from cellc.compiler.deploy.gate_motion import (
     released,
     risk_assessment,
     senders,
+    short_motions,
     small_goal,
     stated_jogs,
     stop_reasons,
@@ -56,6 +57,7 @@ from cellc.compiler.deploy.gate_states import (
     modes,
     open_speed_controls,
     open_stop_figures,
+    read_states,
     ready_states,
     secret_files,
     self_resuming,
@@ -68,18 +70,26 @@ from cellc.compiler.deploy.gate_states import (
     variables,
     without_speed_control,
 )
+from cellc.compiler.deploy.gate_versions import (
+    built,
+    installed,
+    shown_with_power,
+    unknown,
+    unknown_with_power,
+    visible,
+)
 from cellc.compiler.deploy.labels import said_around
 from cellc.compiler.deploy.processes import description_nodes
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, restart_of, start_mock, start_real
-from cellc.compiler.deploy.versions import Installed, compared_on, fetched_parts, installed_parts
+from cellc.compiler.deploy.versions import fetched_parts
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import shortest
+from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
-from cellc.contract.pins import is_commit, last_word
 from cellc.contract.vocabulary import UNKNOWN, BringUpPhase, Feature, InterfaceKind, features
 
 Row = Mapping[str, str]
@@ -105,47 +115,9 @@ def cell_row(cell: Cell, header: Header, code: str) -> Row:
         "stop_path": stop.path,
         "observer": cell.safety.recovery.observer,
         "restart": restart_of(cell),
+        "secrets": "".join(f"{name}=none " for device in cell.devices for name in credentials(device)[0]),
         "attempt_fields": ", ".join(cell.recording.attempt_fields),
     }
-
-
-def _installed(graph: CellGraph) -> Iterator[Values]:
-    yield from ((part.name, part.text, part.command, on) for on, part in _read(graph, commits=False))
-
-
-def _built(graph: CellGraph) -> Iterator[Values]:
-    """Yield what is pinned to a commit, which the source that was built shows and no version of a package."""
-    yield from ((part.name, part.text, part.command, on) for on, part in _read(graph, commits=True))
-
-
-def _read(graph: CellGraph, *, commits: bool) -> Iterator[tuple[str, Installed]]:
-    """Yield what a computer shows, after the computer; a cell that runs in one place names none."""
-    places = tuple(compared_on(graph.cell))
-    placed = {part for _, parts in places for part in parts}
-    elsewhere = tuple(part for part in installed_parts(graph.cell) if part not in placed)
-    for host, parts in (*places, ("", elsewhere)):
-        where = f"On {host}: " if host else ""
-        yield from ((where, part) for part in parts if is_commit(last_word(part.text)) is commits)
-
-
-def _visible(graph: CellGraph) -> Iterator[Values]:
-    shown = {part.name for part in installed_parts(graph.cell)} | {name for name, *_ in fetched_parts(graph.cell)}
-    late = {name for name, *_ in _shown_with_power(graph)}
-    for name, value in version_tuple(graph.cell).items():
-        if value != UNKNOWN and name not in shown | late:
-            yield name, value
-
-
-def _shown_with_power(graph: CellGraph) -> Iterator[Values]:
-    """Yield firmware that no device shows before its drives have power, with the gate of that."""
-    firmware = {f"{each.name}.firmware": enabled_in(each) for each in graph.cell.devices if answers_when_powered(each)}
-    for name, value in version_tuple(graph.cell).items():
-        if value != UNKNOWN and name in firmware:
-            yield name, value, firmware[name]
-
-
-def _unknown(graph: CellGraph) -> Iterator[Values]:
-    return ((name,) for name, value in version_tuple(graph.cell).items() if value == UNKNOWN)
 
 
 def _calibrated_frames(graph: CellGraph) -> Iterator[Values]:
@@ -261,6 +233,19 @@ def _late_streams(graph: CellGraph) -> Iterator[Values]:
             yield interface.name, f"{shortest(interface.rate_hz)} Hz{several}, at most {_SLOWER} less", age
 
 
+def _seen(graph: CellGraph) -> Iterator[Values]:
+    """Yield the topics with a rate of nodes that look at images: without what they look for they publish nothing."""
+    watching = {
+        end.full_name
+        for each in _on_real(graph)
+        if each.type.endswith(("/Image", "/PointCloud2"))
+        for end in each.sinks
+    }
+    for interface in _on_real(graph):
+        if interface.kind is InterfaceKind.TOPIC and interface.rate_hz is not None:
+            yield from ((end.full_name, interface.name) for end in interface.sources if end.full_name in watching)
+
+
 def _late_groups(graph: CellGraph) -> Iterator[Values]:
     """Yield the ends of planning groups whose joints do not show from the start on."""
     for group in graph.cell.groups:
@@ -279,16 +264,17 @@ def _each(values: tuple[str, ...]) -> Iterator[Values]:
 _VENDOR_STEP = ("device", "does", "command", "gate", "sets")
 _DRILL = ("device", "act", "follows")
 _PAYLOAD = ("device", "mass", "center_of_mass", "inertia", "and_inertia", "frame", "set_by", "entry", "gate")
-_CENTER = ("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "rotation", "command", "gate")
+_CENTER = ("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "rotation", "command", "same", "gate")
 _STREAM = ("topic", "rate", "age")
 _FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name", "si")
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
-    "installed_part": (("part", "version", "command", "where"), _installed),
-    "built_part": (("part", "version", "command", "where"), _built),
+    "installed_part": (("part", "version", "command", "where"), installed),
+    "built_part": (("part", "version", "command", "where"), built),
     "fetched_part": (("part", "version", "driver"), lambda graph: fetched_parts(graph.cell)),
-    "visible_part": (("part", "version"), _visible),
-    "powered_part": (("part", "version", "gate"), _shown_with_power),
-    "unknown_part": (("part",), _unknown),
+    "visible_part": (("part", "version"), visible),
+    "powered_part": (("part", "version", "gate"), shown_with_power),
+    "unknown_part": (("part",), unknown),
+    "unknown_powered_part": (("part", "gate"), unknown_with_power),
     "nominal_device": (("device", "state", "file", "command"), _nominal_devices),
     "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
     "calibrated_frame": (("frame", "calibration"), _calibrated_frames),
@@ -303,6 +289,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "stopping_device": (("device", "states", "command", "gate"), stopping_devices),
     "unreported_stop": (("device", "state", "seen", "gate"), unreported_stops),
     "ready_states": (("device", "states"), ready_states),
+    "read_states": (("device", "states"), read_states),
+    "seen": (("node", "topic"), _seen),
     "variables": (("device", "names", "command"), variables),
     "secret_file": (("device", "file", "command"), secret_files),
     "modes": (("device", "modes"), modes),
@@ -324,8 +312,8 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "open_speed_control": (("device",), open_speed_controls),
     "first_motion": (_FIRST_MOTION, first_motion),
     "small_goal": ((*_FIRST_MOTION, "slow", "bound", "command", "cancel"), small_goal),
-    "first_stage": (("percent", "file", "joint", "command"), first_stage),
-    "later_stage": (("percent", "file", "joint", "command", "again"), later_stages),
+    "first_stage": (("percent", "file", "joint", "full", "command"), first_stage),
+    "later_stage": (("percent", "file", "joint", "full", "command", "again"), later_stages),
     "risk_assessment": (("document", "figures"), risk_assessment),
     "jogging": ((), jogging),
     "stated_jog": (("device", "does"), stated_jogs),
@@ -345,14 +333,17 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "real_claim": (("where", "command"), lambda graph: released(graph, CLAIM, BringUpPhase.CLAIM)),
     "real_motion": (("where", "command", "slow"), authorized_motion),
     "sender": (("node",), senders),
-    "gripper_goal": (("device", "action", "open", "force"), gripper_goals),
+    "gripper_goal": (("device", "action", "half", "open", "force"), gripper_goals),
     "real_action": (("action",), real_actions),
+    "short_motion": (("action", "seconds"), short_motions),
     "cancel": (("action", "seconds", "service"), cancels),
     "pulled": (("device", "does"), pulled),
     "claimed": (("device", "does"), claimed),
     "early_drill": (_DRILL, early_drills),
     "late_drill": (_DRILL, late_drills),
     "drill": (_DRILL, claimed_drills),
+    "adapter_drill": (("device", "act"), adapter_drills),
+    "claimed_adapter_drill": (("device", "act"), claimed_adapter_drills),
     "open_drill": (("device", "state", "follows"), open_drills),
     "interlock": (("area", "granted_by"), interlocks),
     "unmoved": (
@@ -371,7 +362,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
 _OF_CELL = ("cell", "build", "description", "start_mock", "record", "domain", "stop_authority", "stop_path")
 
 FIELDS: Mapping[str, Values] = {
-    CELL: ("gate", *_OF_CELL, "observer", "restart", "attempt_fields"),
+    CELL: ("gate", *_OF_CELL, "observer", "restart", "secrets", "attempt_fields"),
     **{name: fields for name, (fields, _) in _SUBJECTS.items()},
 }
 """Fields that a text of each subject may name. Every text may name those of the cell."""

@@ -24,7 +24,7 @@ from cellc.contract.gates import GateSetting
 from cellc.contract.vocabulary import GateCode, RobotSetting
 
 _FIELD = re.compile(r"`\{(\w+)\}`|\{(\w+)\}")
-_COMMANDS = ("build", "cancel", "command", "record", "start_mock")
+_COMMANDS = ("build", "cancel", "command", "record", "secrets", "start_mock")
 """Fields that are commands; every other is one word of a command."""
 
 _SETTINGS: Mapping[str, RobotSetting] = {
@@ -34,7 +34,7 @@ _SETTINGS: Mapping[str, RobotSetting] = {
     "first_motion": "first_motion",
 }
 """Subjects that are set or tried in a robot; a vendor's step names what it sets itself."""
-_UNSTATED = (*_COMMANDS, "gate", "sets", "device", "and_inertia", "name", "si", "entry", "rotation")
+_UNSTATED = (*_COMMANDS, "gate", "sets", "device", "and_inertia", "name", "si", "entry", "rotation", "same")
 """Fields that say how, when or on which device, or repeat another."""
 
 FILE = Path(__file__).with_name("gates.yaml")

@@ -26,6 +26,7 @@ def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
     cell = graph.cell
     taken = [step for step in plan.steps(target) if target == "mock" or step.phase is BringUpPhase.START]
     shown = [proof for step in taken for proof in step.effect]
+    claimed = [proof for step in plan.steps(target) for proof in step.effect]
     lifecycle: dict[str, ManagedState] = {node.full_name: "inactive" for node in cell.nodes if node.lifecycle}
     lifecycle |= {proof.node: proof.state for proof in shown if isinstance(proof, LifecycleProof)}
     ends = {each.name: ends_on(graph, each, target) for each in cell.interfaces if target in each.targets}
@@ -55,7 +56,16 @@ def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
             for manager in cell.managers
         },
         lifecycle=lifecycle,
+        lifecycle_claimed=lifecycle | {each.node: each.state for each in claimed if isinstance(each, LifecycleProof)},
+        late_joints=() if target == "mock" else tuple(sorted(_late_joints(cell))),
     )
+
+
+def _late_joints(cell: Cell) -> Iterator[str]:
+    for manager in cell.managers:
+        for device in components_of(cell, manager, "real"):
+            if device.control.startup_state == "unconfigured":
+                yield from (joint.name for joint in device.joints)
 
 
 def _components(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[tuple[str, HardwareState]]:

@@ -9,6 +9,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.deploy.files import RECORDING
 from cellc.compiler.formats.escape import shell_word
+from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.contract.entities import Qos
 from cellc.contract.qos import DEFAULT, recorder_depth, weakest
 from cellc.contract.vocabulary import TRAJECTORIES, Feature, InterfaceKind, features
@@ -30,8 +31,16 @@ def record_command(cell: Cell, bag: str) -> tuple[str, ...]:
 
 
 def recorded_topics(cell: Cell) -> dict[str, Qos]:
-    """Return every recorded topic with a profile that each of its publishers satisfies; none of the mock alone."""
-    topics = {interface.name: _offered(interface) for interface in cell.interfaces if _on_the_path(interface)}
+    """Return every recorded topic with a profile that each of its publishers satisfies; none of the mock alone.
+
+    A description with the password of a device is not recorded: bags are handed on.
+    """
+    secret = any(credentials(device) != ((), ()) for device in cell.devices)
+    topics = {
+        interface.name: _offered(interface)
+        for interface in cell.interfaces
+        if _on_the_path(interface) and not (secret and interface.name.endswith("/robot_description"))
+    }
     # Goals and results of actions are hidden services; feedback and status tell what became of them.
     for action in (i for i in cell.interfaces if i.kind is InterfaceKind.ACTION and "real" in i.targets):
         topics[f"{action.name}/_action/feedback"] = DEFAULT

@@ -37,7 +37,7 @@ START = Release(
     "confirm_real",
     "I_HAVE_PASSED_GATES_G0_TO_G2",
     "Confirmation of the person who authorizes the hardware launch. Gates G0 to G2 have their evidence. "
-    "The drives are disabled.",
+    "The drives are in the state that gate G3 names.",
 )
 ACTIVATE = Release(
     "activate",
@@ -83,7 +83,7 @@ def moved_by_activation(cell: Cell) -> Iterator[tuple[str, Effect]]:
 def restart_of(cell: Cell) -> str:
     """Return which gates people repeat after the launches were stopped: what a person activated is inactive then."""
     activated = " and ".join(name for name, _ in moved_by_activation(cell))
-    return f"as in G4, and activate {activated} as in G5" if activated else "as in G4"
+    return f"as in G4, and repeat the activation of {activated} in G5 with its checks" if activated else "as in G4"
 
 
 def start_mock(cell: Cell) -> str:

@@ -368,6 +368,7 @@ def _vendor_safety(facts: DeviceModel, known: Placeholders, holding: frozenset[s
         ),
         ending=applicable(safety.ending),
         ended=applicable(safety.ended),
+        power_off=applicable(safety.power_off),
         modes=safety.modes,
         recovery=tuple(
             RecoveryProcedure(state=facts.state, steps=applicable(facts.steps), by=facts.by)

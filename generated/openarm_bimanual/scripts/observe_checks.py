@@ -239,7 +239,8 @@ def joints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     )
     states = [name for name, each in package.contract["interfaces"].items() if each["type"].endswith("/JointState")]
     due = all(is_published(package, name, gate) for name in states)  # else some joints are not read yet
-    wanted = {joint for each in controllers for joint in each["joints"] if due}
+    later = package.plan["late_joints"] if gate < CLAIMED_FROM else ()  # a person activates their hardware first
+    wanted = {joint for each in controllers for joint in each["joints"] if due and joint not in later}
     problems = [f"{joint} is missing" for joint in sorted(wanted - found.keys())]
     problems += ["a position is no number"] if any(stream.not_finite for stream in seen.streams.values()) else []
     for joint, limits in package.contract["joint_limits"].items():
@@ -255,12 +256,13 @@ def joints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
 
 def transforms(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     """Compare transforms with the description: each child is published once, below its parent, at its place."""
+    later = package.plan["late_joints"] if gate < CLAIMED_FROM else ()
     both = sorted(seen.moving.keys() & seen.fixed.keys())
     missing, other = [], [f"{child} is on /tf and on /tf_static" for child in both]
     for joint in package.description.iterfind("joint"):
         parent, child = (_attribute(joint.find(end), "link", "") for end in ("parent", "child"))
         fixed = joint.get("type") == "fixed"
-        if child not in (seen.fixed if fixed else seen.moving):
+        if child not in (seen.fixed if fixed else seen.moving) and joint.get("name") not in later:
             missing.append(f"{child} is missing")
         if not fixed:
             parents = seen.moving.get(child, set()) - {parent}
@@ -344,7 +346,7 @@ def differences(wanted: Mapping[str, str], found: Mapping[str, str]) -> list[str
 
 def lifecycle(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     """Compare the states of managed nodes."""
-    for node, state in package.plan["lifecycle"].items():
+    for node, state in package.plan["lifecycle" if gate < CLAIMED_FROM else "lifecycle_claimed"].items():
         answer = seen.answers.get(f"{node}/get_state")
         found = "no answer" if answer is None else answer.current_state.label
         verdict = UNKNOWN if answer is None else PASSED if found == state else FAILED

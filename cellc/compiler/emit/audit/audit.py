@@ -15,7 +15,7 @@ from cellc.compiler.cell.stops import stops_of
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import stage_files
-from cellc.compiler.deploy.processes import motion_clients
+from cellc.compiler.deploy.processes import is_adapter, motion_clients
 from cellc.compiler.emit.audit.caps import caps_section
 from cellc.compiler.emit.audit.moments import moments_section, stops_section
 from cellc.compiler.emit.audit.tables import (
@@ -36,7 +36,7 @@ from cellc.compiler.formats.markdown_table import table
 from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.versions import Answer, Judgment, compatibility
-from cellc.contract.vocabulary import UNKNOWN, InterfaceKind
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment, Motion
 
 _QUESTIONS = {
     "graph": "Is there one command publisher or action server?",
@@ -118,6 +118,9 @@ def ending(cell: Cell) -> Iterator[str]:
         command = f"ros2 control switch_controllers --deactivate {claiming} -c {manager.node}"
         if claiming:
             yield f"Release the claims with {code(command)}"
+    for node in cell.nodes:
+        if is_adapter(cell, node):
+            yield f"Release the claim of the adapter with {code(f'ros2 lifecycle set {node.full_name} deactivate')}"
     for device in _outermost_first(cell):
         yield from (f"{device.name}: {step}" for step in device.procedures.safety.ending)
     yield "Stop cell.launch.xml with Ctrl-C on every computer. ros2 node list must show no node of this cell."
@@ -138,16 +141,29 @@ def _outermost_first(cell: Cell) -> list[Device]:
 
 def _losses(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield the recovery from a loss that no device reports: of a manager or a computer."""
-    seen = "Check each robot and each tool. Without its controller manager a tool may have dropped its part."
+    seen = "Keep out of reach. Check each robot and tool: an arm may still be driven, a tool may have dropped its part."
     ended = (
         "Stop every launch of the cell with Ctrl-C on every computer. Remaining processes wait forever for services."
     )
     alone = "Check with ros2 node list that no node of this cell is left. A second launch would start it twice."
+    off = tuple(f"{device.name}: {step}" for device in cell.devices for step in device.procedures.safety.power_off)
     begin = "Repeat from gate G3. Authorize activation and claims again."
+    before = (seen, *let_go_by_an_end(cell), ended, alone, *off)
     if cell.managers:
-        yield "If a controller manager ended", (seen, ended, alone, begin)
+        yield "If a controller manager ended", (*before, begin)
     if len(cell.hosts) > 1:
-        yield "If a computer or the network between computers failed", (seen, ended, "Repeat layers L1 to L5", begin)
+        yield "If a computer or the network between computers failed", (*before, "Repeat layers L1 to L5", begin)
+
+
+def let_go_by_an_end(cell: Cell) -> Iterator[str]:
+    """Yield what people do before the drivers end: arms that fall then, and what tools let go of."""
+    effects = {device.name: device.control.hardware.effects for device in cell.devices if device.control.hardware}
+    ended = {name: each[Moment.DEACTIVATE] for name, each in effects.items() if Moment.DEACTIVATE in each}
+    falling = [name for name, effect in ended.items() if effect.motion is Motion.FALLS]
+    if dropping := [name for name, effect in ended.items() if effect.drops_part]:
+        yield f"Make sure that nothing which {' and '.join(dropping)} may hold can fall on a person"
+    if falling:
+        yield f"Place a stand just below each of {' and '.join(falling)}, with no person in reach. They fall together."
 
 
 def _after_a_loss(cell: Cell) -> Iterator[str]:
@@ -160,6 +176,8 @@ def recovery(cell: Cell) -> Iterator[str]:
     recovery = cell.safety.recovery
     yield markdown(f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}.")
     yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
+    if let_go := tuple(let_go_by_an_end(cell)):
+        yield from ("", "Before any launch of the cell is stopped:", "", _numbered(let_go))
     for device in cell.devices:
         if device.procedures.safety.stop_authority is not None:
             yield from ("", markdown(f"{device.name} is stopped by: {device.procedures.safety.stop_authority}."))

@@ -316,8 +316,8 @@ def take_all(graph: Graph, steps: Sequence[SimpleNamespace]) -> bool:
 
 
 def run_while_claimed(graph: Graph, step: SimpleNamespace, command: Sequence[str]) -> int:
-    """Run a program while its robots follow and its controllers stay active; return its exit status, or 1."""
-    claims = [proof for proof in step.proof if proof.kind == "controller"]
+    """Run a program while robots follow and controllers and managed nodes are active; return its exit status, or 1."""
+    claims = [proof for proof in step.proof if proof.kind in ("controller", "lifecycle")]
     followed = {proof.topic: proof for proof in step.proof if hasattr(proof, "field")}
     children: list[subprocess.Popen[bytes]] = []
     against: list[str] = []

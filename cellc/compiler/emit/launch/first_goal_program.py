@@ -224,7 +224,7 @@ class Trial:
             MotionError: it was canceled, or ended otherwise.
         """
         robot, arguments = self._robot, self._arguments
-        before = dict(robot.positions)
+        before = {joint: self._near(joint) for joint in self._joints}
         target = {joint: self._start[joint] + (offset if joint == arguments.joint else 0.0) for joint in self._joints}
         robot.goal = name
         sent = robot.send([*target], [*target.values()], arguments.seconds)
@@ -252,7 +252,7 @@ class Trial:
         def ends() -> bool:
             for name in self._joints:
                 first, last = sorted((before[name], target[name]))
-                position = self._robot.positions[name]
+                position = self._near(name)
                 if not first - slack <= position <= last + slack:
                     raise MotionError(f"{name} at {position:.4f} left its way from {first:.4f} to {last:.4f}")
             if stale := self._stale():
@@ -263,7 +263,13 @@ class Trial:
 
     def _is_half_way(self, before: dict[str, float], target: dict[str, float]) -> bool:
         joint = self._arguments.joint
-        return bool(abs(self._robot.positions[joint] - before[joint]) >= abs(target[joint] - before[joint]) / 2.0)
+        return bool(abs(self._near(joint) - before[joint]) >= abs(target[joint] - before[joint]) / 2.0)
+
+    def _near(self, name: str) -> float:
+        """Return where a joint is; without limits it may be reported a turn away from its start, rad."""
+        position, start = self._robot.positions[name], self._start[name]
+        turns = all(map(math.isinf, self._limits[name]))
+        return float(start + math.remainder(position - start, math.tau) if turns else position)
 
     def _end(self, sent: Any) -> None:
         """Cancel a goal, also one that is accepted only now, and wait for its end."""
@@ -282,7 +288,7 @@ class Trial:
 
     def _report(self, name: str, answer: Any, expected: int, before: dict[str, float]) -> None:
         for joint in self._joints:
-            after = self._robot.positions[joint]
+            after = self._near(joint)
             moved = after - before[joint]
             print(f"{name}: {joint} {before[joint]:.4f} before, {after:.4f} after, {moved:+.4f}", flush=True)
         result = f"status {answer.status}, error_code {answer.result.error_code} {answer.result.error_string}".rstrip()
