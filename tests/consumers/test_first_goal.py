@@ -121,7 +121,11 @@ class Robot:
         seconds = point.time_from_start.sec + point.time_from_start.nanosec * 1e-9
         self.goals.append(target)
         if self.accepts:
-            self._goal, self._status = (self.now_s, seconds, dict(self.positions), target), None
+            start = {  # the shorter way, as a controller goes whose joint turns without limits
+                name: target[name] + math.remainder(place - target[name], math.tau) if name in target else place
+                for name, place in self.positions.items()
+            }
+            self._goal, self._status = (self.now_s, seconds, start, target), None
         self._feedback = feedback_callback
         answer = SimpleNamespace(status=0, result=SimpleNamespace(error_code=0, error_string=""))
 
