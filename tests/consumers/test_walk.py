@@ -169,7 +169,11 @@ def test_files_that_commands_read_are_in_the_package(cell: str, distro: str) -> 
 def test_gate_of_enabling_holds_no_command(cell: str, distro: str) -> None:
     # Enabling is a step of the vendor's procedure: no line to paste may stand for it. A gripper that moves as its
     # hardware is activated is released here, because here the area is empty; what the robot says may be read.
-    kinds = (f"ros2 launch {cell} activate", "timeout 10 ros2 topic echo --once ")
+    kinds = (
+        f"ros2 launch {cell} activate",
+        "timeout 10 ros2 topic echo --once ",
+        "timeout 10 ros2 run tf2_ros tf2_echo ",
+    )
     assert all(command.startswith(kinds) for command in commands(sections(cell, distro)["G5"]))
 
 

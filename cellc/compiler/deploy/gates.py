@@ -85,9 +85,9 @@ class Gate:
 
     @property
     def key_command(self) -> str:
-        """The first command that reads and has no pipe; empty for a gate without one."""
+        """The first line of commands that reads and has no pipe; empty for a gate without one."""
         read = (command for check in self.checks if not check.starts for command in check.commands)
-        return next((command for command in read if "|" not in command), "")
+        return next((command.splitlines()[0] for command in read if "|" not in command), "")
 
 
 class Line(CatalogModel):
