@@ -261,6 +261,16 @@ def test_a_joint_without_limits_may_be_reported_a_turn_away() -> None:
     assert [goal[_WRIST] - at for goal in robot.goals] == pytest.approx([_HALF, 0.0, -_HALF, 0.0])
 
 
+def test_a_joint_that_does_not_move_fails_where_a_wide_tolerance_lets_its_goal_succeed(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    # An OpenArm has a goal tolerance of 0.05 rad and a first goal of 0.0436: a silent motor would end it as succeeded.
+    robot = Robot(follows=lambda name, _place: _START[name])
+    assert _run(robot, _words()) == 1
+    assert len(robot.goals) == 1
+    assert f"out: {_WRIST} moved +0.0000 of +0.0436" in capsys.readouterr().err
+
+
 def test_joint_without_an_open_side_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     words = [f"{_WRIST}:0.08:0.12" if word.startswith(f"{_WRIST}:") else word for word in _words()]
     robot = Robot()

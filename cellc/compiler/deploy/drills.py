@@ -35,7 +35,7 @@ _REPEATED = "Where it repeats gates, leave out the goals and drills before this 
 def early_drills(graph: CellGraph) -> Iterator[Values]:
     """Yield drills of hardware that nothing has moved yet: devices, what people do, and what must follow."""
     if not _activated_arms(graph.cell):
-        yield from _without_a_claim(graph.cell, "as in G4")
+        yield from _without_a_claim(graph.cell, "as in G4, with the drives as they are")
 
 
 def late_drills(graph: CellGraph) -> Iterator[Values]:
@@ -192,7 +192,7 @@ def _supported(falling: Sequence[str]) -> str:
     """Return what is done first where arms fall; the power of one may be that of another."""
     if not falling:
         return ""
-    return f"Place a stand just below {' and '.join(falling)}, with no person in reach. "
+    return f"From out of reach, place a stand just below {' and '.join(falling)}. "
 
 
 def _effects(device: Device) -> Mapping[Moment, Effect]:

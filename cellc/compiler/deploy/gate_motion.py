@@ -144,8 +144,9 @@ def gripper_goals(graph: CellGraph) -> Iterator[Values]:
             own = "no stated force, so its driver uses its own"
             said = f"max_effort {shortest(least or 0.0)} N" if carries else own
             unit = "m" if device.joint(gripper.joint).slides else "rad"
-            half = (gripper.open + gripper.closed) / 2.0
-            yield device.name, served[0], f"{decimal(half)} {unit}", f"{decimal(gripper.open)} {unit}", said
+            stroke = gripper.closed - gripper.open
+            half, wide = (round(gripper.open + share * stroke, 6) for share in (0.5, 0.1))
+            yield device.name, served[0], f"{decimal(half)} {unit}", f"{decimal(wide)} {unit}", said
 
 
 def _served(owner: Controller) -> tuple[str, str] | None:

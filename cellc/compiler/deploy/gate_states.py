@@ -16,13 +16,18 @@ _RESTART = " Restart everything that this test stopped, the controller manager i
 
 def stop_tests(graph: CellGraph) -> Iterator[Values]:
     """Yield the gates in which the stop is tried, and what is restarted then."""
-    gates = {enabled_in(device) for device in graph.cell.devices if has_drives(device)} or {GateCode.G5}
-    yield from ((gate, _RESTART if gate is GateCode.G5 else "") for gate in sorted(gates))
+    names: dict[GateCode, list[str]] = {}
+    for device in graph.cell.devices:
+        if has_drives(device):
+            names.setdefault(enabled_in(device), []).append(device.name)
+    for gate, powered in sorted(names.items()) or [(GateCode.G5, ["every drive"])]:
+        named = f"{'each of ' if len(powered) > 1 else ''}{' and '.join(powered)}"
+        yield gate, named, _RESTART if gate is GateCode.G5 else ""
 
 
 def stop_evidence(graph: CellGraph) -> Iterator[Values]:
     """Yield what proves the test of the stop, in each gate with that test."""
-    for gate, _ in stop_tests(graph):
+    for gate, *_ in stop_tests(graph):
         yield from ((evidence, gate) for evidence in graph.cell.safety.stop.evidence)
 
 
@@ -117,8 +122,9 @@ def ready_states(graph: CellGraph) -> Iterator[Values]:
 
 def modes(graph: CellGraph) -> Iterator[Values]:
     """Yield the operating modes of each device, by its vendor's names."""
-    named = ((device.name, ", ".join(device.procedures.safety.modes)) for device in graph.cell.devices)
-    return ((name, listed) for name, listed in named if listed)
+    for device in graph.cell.devices:
+        if listed := ", ".join(device.procedures.safety.modes):
+            yield device.name, listed, enabled_in(device) if answers_when_powered(device) else GateCode.L2
 
 
 def variables(graph: CellGraph) -> Iterator[Values]:

@@ -83,7 +83,11 @@ def moved_by_activation(cell: Cell) -> Iterator[tuple[str, Effect]]:
 def restart_of(cell: Cell) -> str:
     """Return which gates people repeat after the launches were stopped: what a person activated is inactive then."""
     activated = " and ".join(name for name, _ in moved_by_activation(cell))
-    return f"as in G4, and repeat the activation of {activated} in G5 with its checks" if activated else "as in G4"
+    return (
+        f"as in G4, and repeat the activation of {activated} in G5 with its checks"
+        if activated
+        else "as in G4, with the drives as they are"
+    )
 
 
 def start_mock(cell: Cell) -> str:

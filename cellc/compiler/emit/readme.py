@@ -126,7 +126,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 
 
 def _gates(graph: CellGraph, plan: Deployment) -> Iterator[str]:
-    enabled = " and ".join(gate for gate, _ in stop_tests(graph))
+    enabled = " and ".join(gate for gate, *_ in stop_tests(graph))
     yield "## From power-off to a trajectory"
     yield (
         "Pass the gates from top to bottom. Each needs its evidence and a signature. If a gate fails, repeat it from "

@@ -163,7 +163,7 @@ def let_go_by_an_end(cell: Cell) -> Iterator[str]:
     if dropping := [name for name, effect in ended.items() if effect.drops_part]:
         yield f"Make sure that nothing which {' and '.join(dropping)} may hold can fall on a person"
     if falling:
-        yield f"Place a stand just below each of {' and '.join(falling)}, with no person in reach. They fall together."
+        yield f"From out of reach, place a stand just below each of {' and '.join(falling)}. They fall together."
 
 
 def _after_a_loss(cell: Cell) -> Iterator[str]:

@@ -224,7 +224,7 @@ class Trial:
             MotionError: it was canceled, or ended otherwise.
         """
         robot, arguments = self._robot, self._arguments
-        before = {joint: self._near(joint) for joint in self._joints}
+        before = self._places()
         target = {joint: self._start[joint] + (offset if joint == arguments.joint else 0.0) for joint in self._joints}
         robot.goal = name
         sent = robot.send([*target], [*target.values()], arguments.seconds)
@@ -242,6 +242,11 @@ class Trial:
             self._end(sent)
             raise MotionError(f"{name}: {error}") from None
         self._report(name, ended.result(), CANCELED if cancels else SUCCEEDED, before)
+        wanted, moved = (place[arguments.joint] - before[arguments.joint] for place in (target, self._places()))
+        if not cancels and moved * math.copysign(1.0, wanted) < abs(wanted) / 2.0:
+            raise MotionError(
+                f"{name}: {arguments.joint} moved {moved:+.4f} of {wanted:+.4f}: a wide tolerance hides it"
+            )
 
     def _watch(
         self, holds: Callable[[], bool], seconds: float, before: dict[str, float], target: dict[str, float]
@@ -264,6 +269,9 @@ class Trial:
     def _is_half_way(self, before: dict[str, float], target: dict[str, float]) -> bool:
         joint = self._arguments.joint
         return bool(abs(self._near(joint) - before[joint]) >= abs(target[joint] - before[joint]) / 2.0)
+
+    def _places(self) -> dict[str, float]:
+        return {joint: self._near(joint) for joint in self._joints}
 
     def _near(self, name: str) -> float:
         """Return where a joint is; without limits it may be reported a turn away from its start, rad."""
