@@ -13,6 +13,7 @@ from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.stops import effect_of, stops_of
 from cellc.compiler.cell.vendor import SafetyState
 from cellc.compiler.deploy.gate_motion import Values
+from cellc.compiler.deploy.processes import adapted_devices
 from cellc.compiler.deploy.releases import moved_by_activation, restart_of
 from cellc.compiler.deploy.watches import heard
 from cellc.compiler.formats.numbers import shortest
@@ -95,13 +96,12 @@ def claimed(graph: CellGraph) -> Iterator[Values]:
 
 def _drilled(cell: Cell) -> Iterator[Device]:
     """Return the arms that a driver moves, and no adapter."""
-    adapted = {each.device for each in cell.adapters}
+    adapted = adapted_devices(cell)
     return (device for device in cell.devices if device.kind == "arm" and device.name not in adapted)
 
 
 def _adapted(cell: Cell) -> Iterator[Device]:
-    adapted = {each.device for each in cell.adapters}
-    return (device for device in cell.devices if device.kind == "arm" and device.name in adapted)
+    return (cell.device(name) for name in sorted(adapted_devices(cell)) if cell.device(name).kind == "arm")
 
 
 def _activated_arms(cell: Cell) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in, has_drives
 from cellc.compiler.deploy.gate_motion import Values, speed_of
+from cellc.compiler.deploy.processes import adapted_devices
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
@@ -80,7 +81,7 @@ def open_speed_controls(graph: CellGraph) -> Iterator[Values]:
 
 def stopping_devices(graph: CellGraph) -> Iterator[Values]:
     """Yield the states that stop each device, with what shows them, in the gates that look for them."""
-    adapted = {adapter.device for adapter in graph.cell.adapters}
+    adapted = adapted_devices(graph.cell)
     for device in graph.cell.devices:
         safety = device.procedures.safety
         for gate in GateCode:
@@ -96,7 +97,7 @@ def stopping_devices(graph: CellGraph) -> Iterator[Values]:
 
 def read_states(graph: CellGraph) -> Iterator[Values]:
     """Yield the states that stop devices behind an adapter: what their driver would report, people read there."""
-    adapted = {adapter.device for adapter in graph.cell.adapters}
+    adapted = adapted_devices(graph.cell)
     for device in graph.cell.devices:
         states = (state for state in device.procedures.safety.states if state.stops and state.reported)
         if device.name in adapted and (shown := ", ".join(f"{state.name} ({state.reported})" for state in states)):
@@ -113,7 +114,7 @@ def unreported_stops(graph: CellGraph) -> Iterator[Values]:
 
 def ready_states(graph: CellGraph) -> Iterator[Values]:
     """Yield the states in which a device may be moved, where it reports them."""
-    adapted = {adapter.device for adapter in graph.cell.adapters}
+    adapted = adapted_devices(graph.cell)
     for device in graph.cell.devices:
         states = (state for state in device.procedures.safety.states if not state.stops and state.reported)
         if device.name not in adapted and (shown := "; ".join(f"{state.name} ({state.reported})" for state in states)):

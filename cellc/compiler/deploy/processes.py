@@ -52,6 +52,11 @@ def is_adapter(cell: Cell, node: Node) -> bool:
     return any(adapted.node == node.full_name for adapted in cell.adapters)
 
 
+def adapted_devices(cell: Cell) -> frozenset[str]:
+    """Return the devices that an adapter moves instead of their driver: nothing of that driver runs."""
+    return frozenset(adapter.device for adapter in cell.adapters)
+
+
 def started_by_a_person(cell: Cell, node: Node) -> bool:
     """Tell whether a node runs only from the gate before motion on; a managed mover runs earlier, unactivated."""
     return asks_for_motion(cell, node) and not node.lifecycle
