@@ -25,6 +25,11 @@ class StepEntry(ContractModel):
     state: str | None = Field(None, description="State that a switched device is set to, or that its sensors tell.")
     duration_s: Seconds | None = Field(None, description="How long a wait lasts.")
 
+    @property
+    def title(self) -> str:
+        """Its words, as records name it."""
+        return " ".join(word for word in (self.kind, self.command or "", self.target, self.state or "") if word)
+
 
 class FaultEvent(ContractModel):
     """What a fault waits for: how far a step has come.

@@ -6,14 +6,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from cellc.contract.attempt import AttemptRecord
     from cellc.mock.cell import MockCell, load, run_all
     from cellc.mock.errors import MockError
-    from cellc.mock.result import AttemptRecord, RehearsalResult, to_json_lines
+    from cellc.mock.result import RehearsalResult, to_json_lines
 
 __all__ = ["AttemptRecord", "MockCell", "MockError", "RehearsalResult", "load", "run_all", "to_json_lines"]
 
 _HOMES = {
-    "AttemptRecord": "cellc.mock.result",
+    "AttemptRecord": "cellc.contract.attempt",
     "MockCell": "cellc.mock.cell",
     "MockError": "cellc.mock.errors",
     "RehearsalResult": "cellc.mock.result",

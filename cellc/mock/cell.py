@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from time import process_time
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.contract import Contract
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget, BudgetError, limits, option
@@ -27,7 +28,7 @@ from cellc.mock.folder import GeneratedFolder, in_stage, read_folder
 from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Reality
-from cellc.mock.result import AttemptRecord, RehearsalResult, RunFailure, StageEvidence
+from cellc.mock.result import RehearsalResult, RunFailure, StageEvidence
 from cellc.mock.snapshot import SnapshotMemory, has_same_bring_up
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.task import Task

@@ -1,122 +1,20 @@
-"""What a rehearsal ends with: its result, and attempt records as the manufacturing cell checkpoint asks for them.
+"""What a rehearsal ends with: its result, and the lines that its attempt records are written as.
 
-Stamps are integer nanoseconds of simulated time, ages are seconds. No wall-clock time enters a record, so that two runs
-give the same bytes.
+No wall-clock time enters a record, so that two runs give the same bytes.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import fields
-from enum import Enum
 from typing import Any
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.diagnostics.notebook import html_table
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_json
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import AttemptOutcome, Term
-
-
-class PacketStep(str, Enum):
-    """The eight steps of one packet, from the observation to its result."""
-
-    OBSERVED = "1 object pose published with image stamp"
-    TRANSFORMED = "2 goal transformed into base"
-    PLANNED = "3 planned against current state and scene"
-    GOAL_SENT = "4 bounds checked and action goal sent"
-    ACCEPTED = "5 controller accepted and updates references"
-    WRITTEN = "6 hardware interface translates references"
-    DRIVEN = "7 robot enforces limits and drives"
-    RETURNED = "8 result and state returned"
-
-
-@dataclass(frozen=True, slots=True)
-class TracePoint:
-    """When one of the eight steps happened."""
-
-    step: PacketStep
-    stamp_ns: int
-
-
-@dataclass(frozen=True, slots=True)
-class MadeStep:
-    """When a step happened, and how long after the latest of the start of the attempt and the steps before."""
-
-    stamp_ns: int
-    after_s: float
-
-
-@dataclass(frozen=True, slots=True)
-class CancelRecord:
-    """A cancel request: ``held_ns`` is the first stamp from which all joints were at standstill, None where they did
-    not.
-
-    Without a ``return_code`` no person has answered it.
-    """
-
-    requested_ns: int
-    held_ns: int | None
-    latency_s: float | None
-    return_code: int | None
-
-
-@dataclass(frozen=True, slots=True)
-class ResultRecord:
-    """The terminal state of an action goal as its server reported it."""
-
-    status: str
-    error_code: int | None
-    error_string: str
-    stamp_ns: int
-
-
-@dataclass(frozen=True, slots=True)
-class AttemptRecord:
-    """One attempt to execute one step; the last record of a rehearsal has the step ``end`` and sums it up.
-
-    Attributes:
-        calibration_id: the calibrations, with revision, that the goal's transforms rest on.
-        goal_stamp: stamp at which the goal's frame was looked up.
-        joint_state_age: age of the joint state that was planned against.
-        tf_lookup_age: age of the transform when it was looked up.
-        fault_code: the reason in the words of the failed part; empty on success.
-        operator_intervention: ``none``, or what a person has to do before the next attempt.
-    """
-
-    attempt_id: str
-    rehearsal: str
-    step: str
-    outcome: AttemptOutcome
-    configuration_id: str
-    version_tuple: Mapping[str, str]
-    calibration_id: tuple[str, ...]
-    goal_frame: str | None
-    goal_stamp: int | None
-    joint_state_age: float | None
-    tf_lookup_age: float | None
-    plan_result: str | None
-    controller_name: str | None
-    action_goal_id: str | None
-    speed_scaling: float | None
-    safety_state: str
-    fault_code: str
-    cancel: CancelRecord | None
-    result: ResultRecord | None
-    operator_intervention: str
-    started_ns: int
-    ended_ns: int
-    trace: tuple[TracePoint, ...]
-
-    @property
-    def made(self) -> dict[PacketStep, MadeStep]:
-        """The steps that were made, in their order."""
-        stamps = {point.step: point.stamp_ns for point in self.trace}
-        before_ns, steps = self.started_ns, {}
-        for step in (step for step in PacketStep if step in stamps):
-            steps[step] = MadeStep(stamps[step], (stamps[step] - before_ns) / 1e9)
-            before_ns = max(before_ns, stamps[step])
-        return steps
 
 
 def to_json_line(record: AttemptRecord) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Vector3
 from cellc.mock.engine.process import Action, Signal
-from cellc.mock.result import AttemptRecord
 
 
 class TaskRequests:

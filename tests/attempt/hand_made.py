@@ -14,6 +14,9 @@ import numpy as np
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from tests.cells import generated
+from tests.cli.run import Ran, run
+
 JOINTS = tuple(
     f"arm_{name}_joint" for name in ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
 )
@@ -76,6 +79,19 @@ class HandMade:
         where = {"file": "", "function": "", "line": 0}
         self.add(at_ns, "/rosout", kind, made(kind, stamp=stamp(0), level=level, name=node, msg=text, **where))
 
+    def begin_move(self) -> None:
+        """Add a move that was planned from 100 ms on and accepted at 150 ms, while nothing was stopped."""
+        self.safety(0, 1)
+        self.goal(100 * MS, PLAN, 1, 100 * MS, EXECUTING)
+        self.goal(150 * MS, MOVE, 2, 150 * MS, EXECUTING)
+
+    def end_move(self, at_ns: int, status: int, canceled_ns: int | None = None) -> None:
+        """Add the end of that move; the planner says so 5 ms later."""
+        if canceled_ns is not None:
+            self.goal(canceled_ns, MOVE, 2, 150 * MS, CANCELING)
+        self.goal(at_ns, MOVE, 2, 150 * MS, status)
+        self.goal(at_ns + 5 * MS, PLAN, 1, 100 * MS, status)
+
     def write(
         self, folder: Path, plugin: StoragePlugin = StoragePlugin.MCAP, begin: int = 0, end: int | None = None
     ) -> Path:
@@ -107,9 +123,7 @@ def protective_stop() -> HandMade:
     bag = HandMade()
     for _ in moving(bag, 1000 * MS, lambda at_ns: 0.5 if 160 * MS < at_ns <= 620 * MS else 0.0):
         pass
-    bag.safety(0, 1)
-    bag.goal(100 * MS, PLAN, 1, 100 * MS, EXECUTING)
-    bag.goal(150 * MS, MOVE, 2, 150 * MS, EXECUTING)
+    bag.begin_move()
     bag.safety(600 * MS, 3)
     bag.goal(700 * MS, MOVE, 2, 150 * MS, ABORTED)
     bag.says(700 * MS, "arm_trajectory", "-4: path tolerance violated")
@@ -123,9 +137,13 @@ def arrived() -> HandMade:
     bag = HandMade()
     for _ in moving(bag, 800 * MS, lambda at_ns: 0.5 if 160 * MS < at_ns < 480 * MS else 0.0):
         pass
-    bag.safety(0, 1)
-    bag.goal(100 * MS, PLAN, 1, 100 * MS, EXECUTING)
-    bag.goal(150 * MS, MOVE, 2, 150 * MS, EXECUTING)
-    bag.goal(500 * MS, MOVE, 2, 150 * MS, SUCCEEDED)
-    bag.goal(505 * MS, PLAN, 1, 100 * MS, SUCCEEDED)
+    bag.begin_move()
+    bag.end_move(500 * MS, SUCCEEDED)
     return bag
+
+
+def attempted(*bags: Path, task: str | None = None, form: str = "json") -> Ran:
+    """Run the command on bags of the cell."""
+    named = () if task is None else ("--task", task)
+    files = [bag.as_posix() for bag in bags]
+    return run("attempt", *files, "--package", generated("ur5e_pick").as_posix(), *named, "--format", form)

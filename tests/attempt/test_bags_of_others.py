@@ -13,8 +13,6 @@ from tests.attempt.hand_made import (
     ABORTED,
     BEGIN_NS,
     CANCELED,
-    CANCELING,
-    EXECUTING,
     FINGER,
     JOINTS,
     MOVE,
@@ -22,18 +20,10 @@ from tests.attempt.hand_made import (
     PLAN,
     HandMade,
     arrived,
+    attempted,
     moving,
     protective_stop,
 )
-from tests.cells import generated
-from tests.cli.run import Ran, run
-
-
-def attempted(*bags: Path, task: str | None = None) -> Ran:
-    """Run the command on bags of the cell."""
-    named = () if task is None else ("--task", task)
-    files = [bag.as_posix() for bag in bags]
-    return run("attempt", *files, "--package", generated("ur5e_pick").as_posix(), *named, "--format", "json")
 
 
 def read(*bags: Path, task: str | None = None) -> dict[str, Any]:
@@ -90,12 +80,8 @@ def test_cancel_is_timed_from_the_request_to_standstill(tmp_path: Path) -> None:
     bag = HandMade()
     for _ in moving(bag, 900 * MS, lambda at_ns: 0.5 if 160 * MS < at_ns <= 540 * MS else 0.0):
         pass
-    bag.safety(0, 1)
-    bag.goal(100 * MS, PLAN, 1, 100 * MS, EXECUTING)
-    bag.goal(150 * MS, MOVE, 2, 150 * MS, EXECUTING)
-    bag.goal(500 * MS, MOVE, 2, 150 * MS, CANCELING)
-    bag.goal(560 * MS, MOVE, 2, 150 * MS, CANCELED)
-    bag.goal(565 * MS, PLAN, 1, 100 * MS, CANCELED)
+    bag.begin_move()
+    bag.end_move(560 * MS, CANCELED, canceled_ns=500 * MS)
     report = read(bag.write(tmp_path / "cancel"))
     first = report["attempts"][0]
     assert first["finding"]["layer"] == "canceled by a client"
@@ -108,12 +94,8 @@ def test_joint_states_that_stop_are_stale_state(tmp_path: Path) -> None:
     bag = HandMade()
     for _ in moving(bag, 400 * MS, lambda at_ns: 0.5 if at_ns > 160 * MS else 0.0):
         pass
-    bag.safety(0, 1)
-    bag.goal(100 * MS, PLAN, 1, 100 * MS, EXECUTING)
-    bag.goal(150 * MS, MOVE, 2, 150 * MS, EXECUTING)
-    bag.goal(600 * MS, MOVE, 2, 150 * MS, CANCELING)
-    bag.goal(610 * MS, MOVE, 2, 150 * MS, CANCELED)
-    bag.goal(615 * MS, PLAN, 1, 100 * MS, CANCELED)
+    bag.begin_move()
+    bag.end_move(610 * MS, CANCELED, canceled_ns=600 * MS)
     finding = read(bag.write(tmp_path / "frozen"))["attempts"][-1]["finding"]
     assert finding["layer"] == "stale state"
     assert finding["message"] == "joint state is 0.202 s old, 0.1 s allowed"
@@ -122,8 +104,7 @@ def test_joint_states_that_stop_are_stale_state(tmp_path: Path) -> None:
 def test_tolerance_is_the_words_of_the_controller(tmp_path: Path) -> None:
     bag = arrived()
     bag.messages = [each for each in bag.messages if each[1] not in (MOVE, PLAN)]
-    bag.goal(100 * MS, PLAN, 1, 100 * MS, EXECUTING)
-    bag.goal(150 * MS, MOVE, 2, 150 * MS, EXECUTING)
+    bag.begin_move()
     bag.says(499 * MS, "arm_trajectory", "-5: goal tolerance violated by wrist_3")
     bag.goal(500 * MS, MOVE, 2, 150 * MS, ABORTED)
     report = read(bag.write(tmp_path / "tolerance"))
@@ -166,7 +147,7 @@ def test_hostile_texts_stay_on_their_line(tmp_path: Path) -> None:
     bag.says(701 * MS, "arm_trajectory", "x\x1b[2J\r\n::error::| `a` <script>alert(1)</script>\u202e")
     folder = bag.write(tmp_path / "hostile")
     for form in ("text", "markdown", "json"):
-        ran = run("attempt", folder.as_posix(), "--package", generated("ur5e_pick").as_posix(), "--format", form)
+        ran = attempted(folder, form=form)
         assert ran.code == 1
         for mark in ("\x1b", "\r", "\u202e"):
             assert mark not in ran.out + ran.err

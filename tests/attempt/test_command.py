@@ -13,7 +13,7 @@ import pytest
 
 from cellc.mock.folder import read_folder
 from cellc.tools.attempt.read import read_attempt
-from tests.attempt.hand_made import EXECUTING, MOVE, MS, PLAN, SUCCEEDED, HandMade, arrived, moving, protective_stop
+from tests.attempt.hand_made import MS, SUCCEEDED, HandMade, arrived, moving, protective_stop
 from tests.cells import generated
 from tests.cli.run import run
 
@@ -89,9 +89,8 @@ def _long(seconds: int, tmp_path: Path) -> Path:
     bag, end_ms = HandMade(), seconds * 1000
     for _ in moving(bag, end_ms * MS, lambda at_ns: 0.0005):
         pass
-    bag.goal(100 * MS, PLAN, 1, 100 * MS, EXECUTING)
-    bag.goal(150 * MS, MOVE, 2, 150 * MS, EXECUTING)
-    bag.goal((end_ms - 10) * MS, MOVE, 2, 150 * MS, SUCCEEDED)
+    bag.begin_move()
+    bag.end_move((end_ms - 10) * MS, SUCCEEDED)
     return bag.write(tmp_path / f"long{seconds}")
 
 
@@ -104,5 +103,5 @@ def test_memory_does_not_grow_with_the_length_of_a_bag(tmp_path: Path) -> None:
         report = read_attempt([bag], folder.contract, folder.rehearsals, folder.watches, None)
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
-        assert report.messages == seconds * 500 + 3
+        assert report.messages == seconds * 500 + 5
     assert peaks[1] < 2 * peaks[0] + 10_000_000

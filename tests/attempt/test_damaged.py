@@ -9,13 +9,9 @@ from pathlib import Path
 import pytest
 from rosbags.rosbag2 import StoragePlugin
 
-from tests.attempt.hand_made import BEGIN_NS, MS, arrived, protective_stop
+from tests.attempt.hand_made import BEGIN_NS, MS, arrived, attempted, protective_stop
 from tests.cells import generated
-from tests.cli.run import Ran, run
-
-
-def attempted(bag: Path, form: str = "json") -> Ran:
-    return run("attempt", bag.as_posix(), "--package", generated("ur5e_pick").as_posix(), "--format", form)
+from tests.cli.run import run
 
 
 def file_of(folder: Path) -> Path:
@@ -75,7 +71,7 @@ def test_damaged_bytes_are_no_traceback(tmp_path: Path, plugin: StoragePlugin) -
             wrong[chance.randrange(len(wrong))] = chance.randrange(256)
         damaged = tmp_path / f"damaged{file.suffix}"
         damaged.write_bytes(wrong)
-        ran = attempted(damaged, "text")
+        ran = attempted(damaged, form="text")
         assert ran.code in (1, 2), ran.out + ran.err
         assert "bug of cellc" not in ran.err
         assert ran.out or ran.err.startswith("error: ")

@@ -12,10 +12,11 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.attempt import Layer
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.folder import read_folder
 from cellc.tools.attempt.read import read_attempt
-from cellc.tools.attempt.record import LAYER_OF, UNKNOWN, to_json
+from cellc.tools.attempt.record import UNKNOWN, to_json
 from tests.cells import EVERY_CELL, generated
 from tests.cli.run import run
 
@@ -32,6 +33,26 @@ FAULTS = (
     *("program_pause:arm@2", "stale_set_points:arm@3", "lose_part:gripper@5.moving", "missing_part:object@3"),
 )
 """Runs of the campaign of ur5e_pick: each kind of fault, at steps of each kind."""
+
+LAYER_OF = {
+    AttemptOutcome.SUCCEEDED: Layer.NONE,
+    AttemptOutcome.CANCELED: Layer.CANCEL,
+    AttemptOutcome.STALE_STATE: Layer.STALE,
+    AttemptOutcome.TF_FAILURE: Layer.TF,
+    AttemptOutcome.PLANNING_FAILURE: Layer.PLANNING,
+    AttemptOutcome.GOAL_REJECTION: Layer.REJECTION,
+    AttemptOutcome.TOLERANCE_VIOLATION: Layer.TOLERANCE,
+    AttemptOutcome.GRIP_FAILURE: Layer.GRIP,
+    AttemptOutcome.MISSED_CYCLE: Layer.CYCLE,
+    AttemptOutcome.PROTECTIVE_STOP: Layer.STOP,
+    AttemptOutcome.EMERGENCY_STOP: Layer.STOP,
+    AttemptOutcome.HARDWARE_FAULT: Layer.STOP,
+    AttemptOutcome.WRONG_OWNER: Layer.OWNER,
+    AttemptOutcome.CLAIM_FAILURE: Layer.OWNER,
+    AttemptOutcome.UNCOMMANDED_MOTION: Layer.OWNER,
+    AttemptOutcome.TIMEOUT: Layer.TIMEOUT,
+}
+"""The layer of each outcome that the mock tells apart."""
 
 
 def evidence(folder: Path, cell: str, *words: str) -> dict[str, tuple[Path, list[dict[str, Any]]]]:

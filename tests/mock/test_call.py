@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.contract.steps import StepKind
@@ -15,7 +16,7 @@ from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import load
 from cellc.mock.cell import cell_of
 from cellc.mock.folder import GeneratedFolder
-from cellc.mock.result import AttemptRecord, RehearsalResult
+from cellc.mock.result import RehearsalResult
 from tests.cells import diagnose, spec_text, written
 
 SERVICE = "/arm_io/zero_ftsensor"

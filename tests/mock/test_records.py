@@ -8,8 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from cellc.contract.attempt import PacketStep
 from cellc.mock import MockCell, to_json_lines
-from cellc.mock.result import PacketStep
 from tests.cells import ROOT
 
 # Chapter 4, "Manufacturing Cell Checkpoint": what every attempt logs.

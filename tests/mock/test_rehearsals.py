@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.steps import StepKind
 from cellc.mock import MockCell
-from cellc.mock.result import AttemptRecord
 from cellc.mock.task.task import EXECUTED
 from tests.mock.conftest import Fault, LoadWith, fault
 

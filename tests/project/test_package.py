@@ -131,9 +131,18 @@ def _reprs() -> list[object]:
     found = _hostile()
     checked = Checked(Findings(found.span.file, {}, (found,)), None)
     attempt = AttemptRecord(
-        found.message, "a", "b", AttemptOutcome.SUCCEEDED, "", {}, (), None, None, None, None, None, None, None, None,
-        "", found.message, None, None, "none", 0, 1, ()
-    )  # fmt: skip
+        attempt_id=found.message,
+        rehearsal="a",
+        step="b",
+        outcome=AttemptOutcome.SUCCEEDED,
+        configuration_id="",
+        version_tuple={},
+        safety_state="",
+        fault_code=found.message,
+        operator_intervention="none",
+        started_ns=0,
+        ended_ns=1,
+    )
     result = RehearsalResult(
         found.message, AttemptOutcome.SUCCEEDED, AttemptOutcome.SUCCEEDED, 1.0, None, None, (attempt,), (), ()
     )

@@ -5,12 +5,13 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Mapping, Sequence
 
+from cellc.contract.attempt import PacketStep
 from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.campaign.limits import LimitsReport
 from cellc.mock.faults.cases import FaultCase
-from cellc.mock.result import PacketStep, RehearsalResult
+from cellc.mock.result import RehearsalResult
 
 _JOINED = "+"
 

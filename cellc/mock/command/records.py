@@ -8,11 +8,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import BinaryIO
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.errors import reason_of
 from cellc.contract.store.regular_file import open_regular
 from cellc.contract.store.swap import open_stream, replace_whole
 from cellc.mock.errors import MockError
-from cellc.mock.result import AttemptRecord, to_json_lines
+from cellc.mock.result import to_json_lines
 
 _LONGEST_RECORD = 1 << 20
 

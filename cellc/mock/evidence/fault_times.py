@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.rehearsals import FaultEntry, FaultEvent
-from cellc.mock.result import AttemptRecord, PacketStep
 
 
 def fault_times(

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 
+from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.entities import Kpis
 from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.run_trace import StateChange, TraceResult
-from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+from cellc.mock.result import RehearsalResult
 from cellc.mock.stops import NORMAL
 
 _READY = ("active", NORMAL)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.control import (
     ControlEvent,
@@ -19,7 +20,6 @@ from cellc.mock.evidence.run_bag import RunBag, TransformStream
 from cellc.mock.evidence.run_trace import RunTrace
 from cellc.mock.evidence.statuses import Statuses
 from cellc.mock.plant import Plant
-from cellc.mock.result import AttemptRecord
 from cellc.mock.task_status import TaskEvent
 
 _PIECE_NS = 250_000_000

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.contract import ContractController
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import TRAJECTORIES
@@ -38,7 +39,7 @@ from cellc.mock.evidence.topics import (
 from cellc.mock.nodes.perception import ObjectPose
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ
 from cellc.mock.plant import Plant
-from cellc.mock.result import AttemptRecord, to_json_line
+from cellc.mock.result import to_json_line
 from cellc.mock.world.joint_states import NEVER_NS, JointStateHistory
 
 _OK, _WARN, _ERROR = 0, 1, 2

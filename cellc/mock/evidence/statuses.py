@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Protocol
 from uuid import UUID
 
+from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.contract import Contract
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import AttemptOutcome
@@ -20,7 +21,6 @@ from cellc.mock.evidence.bag.bag_file import LATCHED
 from cellc.mock.evidence.bag.messages import GOAL_STATUS, LOG, GoalState
 from cellc.mock.evidence.topics import BagTopic
 from cellc.mock.plant import Plant
-from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.mock.stops import NORMAL
 from cellc.mock.task.bounds import planning_actions, planning_server
 from cellc.mock.task.task import END_STEP

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import islice
 
+from cellc.contract.attempt import PacketStep
 from cellc.contract.contract import ContractController
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.campaign.limits import merge
 from cellc.mock.gates.gate import GateCheck, failed, judged, passed, unknown
 from cellc.mock.gates.runs import GateEvidence
-from cellc.mock.result import PacketStep
 from cellc.mock.sweep.summary import count_lines
 from cellc.mock.task.bounds import cancel_bound_s
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.contract import Contract
 from cellc.contract.faults import Interaction
 from cellc.contract.frozen import dataclass
@@ -11,7 +12,7 @@ from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import LimitsReport
 from cellc.mock.folder import GeneratedFolder
-from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+from cellc.mock.result import RehearsalResult
 from cellc.mock.sweep.sweep import Sweep
 
 

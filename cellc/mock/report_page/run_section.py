@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
+from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.frozen import dataclass
@@ -16,7 +17,7 @@ from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
 from cellc.mock.report_page.html import Child, at, cards, hint, seconds, tag
 from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
-from cellc.mock.result import AttemptRecord, PacketStep, RehearsalResult
+from cellc.mock.result import RehearsalResult
 from cellc.mock.sweep.sweep import SweepRun
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import field
+from dataclasses import field, fields
 
+from cellc.contract.attempt import AttemptFields, AttemptRecord, PacketStep, TracePoint
 from cellc.contract.contract import Contract, ContractBand
 from cellc.contract.errors import CellcError
 from cellc.contract.frozen import dataclass
@@ -17,7 +18,6 @@ from cellc.mock.errors import OversleptError
 from cellc.mock.nodes.observations import ObservationInbox
 from cellc.mock.nodes.robot_state_publisher import JointStateFeed
 from cellc.mock.plant import Plant, TaskNode
-from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, ResultRecord, TracePoint
 from cellc.mock.stops import EMERGENCY_STOP, FAULT, PROTECTIVE_STOP
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.mock.task.starved import starved_observation, starved_states
@@ -38,67 +38,34 @@ class Identity:
     configuration_id: str
     version_tuple: Mapping[str, str]
 
+    def begin(self, number: int, step: str, started_ns: int) -> Attempt:
+        """Return an attempt of which nothing else is known; its identifier is the same in every run."""
+        return Attempt(
+            attempt_id=f"{self.rehearsal}-{number:03d}",
+            rehearsal=self.rehearsal,
+            step=step,
+            configuration_id=self.configuration_id,
+            version_tuple=self.version_tuple,
+            started_ns=started_ns,
+        )
 
-@dataclass(slots=True)
-class Attempt:
-    """Fields of the record to be, filled in as they become known; see ``AttemptRecord``."""
 
-    identity: Identity
-    number: int
-    step: str
-    started_ns: int
-    calibration_id: tuple[str, ...] = ()
-    goal_frame: str | None = None
-    goal_stamp: int | None = None
-    joint_state_age: float | None = None
-    tf_lookup_age: float | None = None
-    plan_result: str | None = None
-    controller_name: str | None = None
-    action_goal_id: str | None = None
-    speed_scaling: float | None = None
-    operator: str | None = None
-    cancel: CancelRecord | None = None
-    result: ResultRecord | None = None
-    trace: list[TracePoint] = field(default_factory=list)
-
-    @property
-    def attempt_id(self) -> str:
-        """Identifier of the attempt, the same in every run."""
-        return f"{self.identity.rehearsal}-{self.number:03d}"
+@dataclass(slots=True, kw_only=True)
+class Attempt(AttemptFields[None]):
+    """The record to be, filled in as its fields become known."""
 
     def mark(self, step: PacketStep, stamp_ns: int) -> None:
         """Note when one of the eight steps of the packet happened."""
-        self.trace.append(TracePoint(step, stamp_ns))
+        self.trace = tuple(sorted((*self.trace, TracePoint(step, stamp_ns)), key=lambda point: point.step.value))
 
     def close(
         self, outcome: AttemptOutcome, fault_code: str, safety_state: str, intervention_due: str, now_ns: int
     ) -> AttemptRecord:
         """Return the record of the attempt; what a person did in it means what a person would have to do."""
-        return AttemptRecord(
-            attempt_id=self.attempt_id,
-            rehearsal=self.identity.rehearsal,
-            step=self.step,
-            outcome=outcome,
-            configuration_id=self.identity.configuration_id,
-            version_tuple=self.identity.version_tuple,
-            calibration_id=self.calibration_id,
-            goal_frame=self.goal_frame,
-            goal_stamp=self.goal_stamp,
-            joint_state_age=self.joint_state_age,
-            tf_lookup_age=self.tf_lookup_age,
-            plan_result=self.plan_result,
-            controller_name=self.controller_name,
-            action_goal_id=self.action_goal_id,
-            speed_scaling=self.speed_scaling,
-            safety_state=safety_state,
-            fault_code=fault_code,
-            cancel=self.cancel,
-            result=self.result,
-            operator_intervention=self.operator or intervention_due,
-            started_ns=self.started_ns,
-            ended_ns=now_ns,
-            trace=tuple(sorted(self.trace, key=lambda point: point.step.value)),
-        )
+        self.outcome, self.fault_code, self.safety_state = outcome, fault_code, safety_state
+        self.operator_intervention = self.operator_intervention or intervention_due
+        self.ended_ns = now_ns
+        return AttemptRecord(**{each.name: getattr(self, each.name) for each in fields(self)})
 
 
 class AttemptError(CellcError):

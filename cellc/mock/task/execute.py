@@ -7,12 +7,12 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
+from cellc.contract.attempt import CancelRecord, PacketStep, ResultRecord
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GoalStatus, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.plant import Plant
-from cellc.mock.result import CancelRecord, PacketStep, ResultRecord
 from cellc.mock.task.bounds import cancel_bound_s
 from cellc.mock.task.context import Attempt, AttemptError, GoalEnded, TaskContext
 from cellc.mock.task_status import CancelAsked

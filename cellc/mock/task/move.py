@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from cellc.contract.attempt import PacketStep
 from cellc.contract.contract import Contract, ContractGoal, ContractPoseTarget
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
@@ -14,7 +15,6 @@ from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import PLANNING_LATENCY_S, GoalPose, PlannedMotion
 from cellc.mock.plant import Plant
 from cellc.mock.reality import Arrival
-from cellc.mock.result import PacketStep
 from cellc.mock.task.bounds import goal_timeout_s, planning_server
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext, current_state
 from cellc.mock.task.execute import await_response, execute_together, require_success

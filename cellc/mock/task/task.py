@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.rehearsals import RehearsalEntry, StepEntry
 from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
@@ -11,7 +12,6 @@ from cellc.mock.bringup import activate
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ
 from cellc.mock.plant import Plant
-from cellc.mock.result import AttemptRecord, PacketStep
 from cellc.mock.stops import NORMAL
 from cellc.mock.task.call import call
 from cellc.mock.task.context import OUTCOME_OF_STOP, Attempt, AttemptError, Identity, TaskContext, current_state
@@ -65,7 +65,7 @@ def acknowledge(context: TaskContext, attempt: Attempt, role: str) -> Waiting[No
         return
     _require_role(plant, role)
     yield from _until_over(context)
-    attempt.operator = f"acknowledged by {role}"
+    attempt.operator_intervention = f"acknowledged by {role}"
     plant.stops.recover(plant.now_ns)
     plant.effects.recover()
     yield from context.let_take_effect()
@@ -159,11 +159,11 @@ class Task:
         failure: AttemptError | None = None
         for number, step in enumerate(self._rehearsal.steps, start=1):
             self._context.node.milestones.step = number
-            attempt = Attempt(self._identity, number, _title(step), self._context.now_ns)
+            attempt = self._identity.begin(number, step.title, self._context.now_ns)
             failure = yield from self._attempt(attempt, step, failure)
             if failure is not None and not self._is_acknowledged_after(number):
                 break
-        summary = Attempt(self._identity, len(self.records) + 1, END_STEP, started_ns)
+        summary = self._identity.begin(len(self.records) + 1, END_STEP, started_ns)
         self.outcome = self._close(summary, failure)
 
     def _attempt(self, attempt: Attempt, step: StepEntry, before: AttemptError | None) -> Waiting[AttemptError | None]:
@@ -203,7 +203,3 @@ class Task:
         self.records.append(record)
         self._context.node.actions.tell(record)
         return outcome
-
-
-def _title(step: StepEntry) -> str:
-    return " ".join(word for word in (step.kind, step.command or "", step.target, step.state or "") if word)

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from cellc.contract.attempt import CancelRecord, Layer, PacketStep, ResultRecord, TracePoint
 from cellc.contract.contract import Contract, ContractBand
 from cellc.contract.rehearsals import StepEntry
 from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.result import CancelRecord, PacketStep, ResultRecord, TracePoint
 from cellc.mock.task.bounds import planning_server
 from cellc.mock.task.move import dynamic_ancestor
 from cellc.tools.attempt.follow import ABORTED, CANCELED, SUCCEEDED, Followed, Goal, Snapshot
 from cellc.tools.attempt.grips import band_of
 from cellc.tools.attempt.layer import find
-from cellc.tools.attempt.record import Attempt, Layer
+from cellc.tools.attempt.record import Attempt
 from cellc.tools.attempt.scene import NORMAL, STOPPED, Scene, safety_at
 from cellc.tools.attempt.steps import Made, Pile, goes_on, needed
 
@@ -74,14 +74,7 @@ class Deriver:
 
     def _one(self, made: Made, later: Sequence[StepEntry] = ()) -> Attempt:
         """Return the record of one step."""
-        contract = self._contract
-        attempt = Attempt(
-            f"{self._stem}-{made.number:03d}",
-            self._task,
-            made.title,
-            contract.configuration_id,
-            contract.version_tuple,
-        )
+        attempt = self._begin(made.number, made.title)
         was_vague, self._is_vague = self._is_vague, False
         attempt.started_ns = self._now_ns if self._now_ns is not None else _planned_ns(made)
         if made.entry is not None and made.entry.kind is StepKind.GRIP:
@@ -100,6 +93,15 @@ class Deriver:
                 setattr(attempt, name, None)
                 attempt.lack(name, "what the task does between an observation and the next plan: it publishes nothing")
         return attempt
+
+    def _begin(self, number: int, step: str) -> Attempt:
+        return Attempt(
+            attempt_id=f"{self._stem}-{number:03d}",
+            rehearsal=self._task,
+            step=step,
+            configuration_id=self._contract.configuration_id,
+            version_tuple=self._contract.version_tuple,
+        )
 
     def _scene(self, made: Made, from_ns: int) -> Scene:
         next_ns = self._pile.next_ns()
@@ -325,14 +327,7 @@ class Deriver:
             self._bands[made.entry.target] = band
 
     def _sum(self, attempts: Sequence[Attempt]) -> Attempt:
-        contract = self._contract
-        end = Attempt(
-            f"{self._stem}-{len(attempts) + 1:03d}",
-            self._task,
-            "end",
-            contract.configuration_id,
-            contract.version_tuple,
-        )
+        end = self._begin(len(attempts) + 1, "end")
         if not attempts:
             for name in ("outcome", "fault_code", "started_ns", "ended_ns"):
                 end.lack(name, "status of the actions of the cell")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from cellc.contract.attempt import PacketStep
 from cellc.contract.contract import Contract
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.result import PacketStep
 from cellc.tools.attempt.follow import Followed
 from cellc.tools.attempt.record import Attempt, Figure
 

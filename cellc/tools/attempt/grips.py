@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from cellc.contract.attempt import Layer
 from cellc.contract.contract import Contract, ContractBand
 from cellc.contract.devices import ContractGripper
 from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.task.grip import ARRIVAL_SHARE
-from cellc.tools.attempt.record import Finding, Layer
+from cellc.tools.attempt.record import Finding
 from cellc.tools.attempt.scene import NORMAL, Scene, safety_at
 from cellc.tools.attempt.steps import Made
 

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from cellc.contract.attempt import Layer
 from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome, Need
 from cellc.mock.task.bounds import action_timeout_s, goal_timeout_s, grip_timeout_s, joint_state_age_s
 from cellc.mock.task.execute import RESPONSE_S
 from cellc.tools.attempt.follow import ABORTED, CANCELED, HOLDS, Goal
 from cellc.tools.attempt.grips import gripped_wrong, undone
-from cellc.tools.attempt.record import Finding, Layer
+from cellc.tools.attempt.record import Finding
 from cellc.tools.attempt.scene import NORMAL, STOPS, Scene, safety_at
 from cellc.tools.attempt.steps import Made, needed
 

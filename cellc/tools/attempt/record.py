@@ -1,4 +1,4 @@
-"""The record of an attempt as a bag shows it: the fields of the mock's own record, each known or UNKNOWN with why."""
+"""The record of an attempt as a bag shows it: each field known, or UNKNOWN with why."""
 
 from __future__ import annotations
 
@@ -6,51 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from enum import Enum
 
+from cellc.contract.attempt import AttemptFields, CancelRecord, Layer, ResultRecord, TracePoint
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import json_document
-from cellc.contract.vocabulary import AttemptOutcome, Term
-from cellc.mock.result import CancelRecord, PacketStep, ResultRecord, TracePoint
+from cellc.contract.vocabulary import AttemptOutcome
 
 UNKNOWN = "UNKNOWN"
-
-
-class Layer(Term):
-    """Where an attempt failed, in the order in which the cell would tell it."""
-
-    NONE = "none"
-    STOP = "stop"
-    CYCLE = "missed cycle"
-    OWNER = "owner of the command"
-    STALE = "stale state"
-    TF = "transforms"
-    PLANNING = "planning"
-    REJECTION = "rejected goal"
-    TOLERANCE = "tolerance"
-    GRIP = "grip"
-    TIMEOUT = "timeout"
-    CANCEL = "canceled by a client"
-    UNKNOWN = "UNKNOWN"
-
-
-LAYER_OF: Mapping[AttemptOutcome, Layer] = {
-    AttemptOutcome.SUCCEEDED: Layer.NONE,
-    AttemptOutcome.CANCELED: Layer.CANCEL,
-    AttemptOutcome.STALE_STATE: Layer.STALE,
-    AttemptOutcome.TF_FAILURE: Layer.TF,
-    AttemptOutcome.PLANNING_FAILURE: Layer.PLANNING,
-    AttemptOutcome.GOAL_REJECTION: Layer.REJECTION,
-    AttemptOutcome.TOLERANCE_VIOLATION: Layer.TOLERANCE,
-    AttemptOutcome.GRIP_FAILURE: Layer.GRIP,
-    AttemptOutcome.MISSED_CYCLE: Layer.CYCLE,
-    AttemptOutcome.PROTECTIVE_STOP: Layer.STOP,
-    AttemptOutcome.EMERGENCY_STOP: Layer.STOP,
-    AttemptOutcome.HARDWARE_FAULT: Layer.STOP,
-    AttemptOutcome.WRONG_OWNER: Layer.OWNER,
-    AttemptOutcome.CLAIM_FAILURE: Layer.OWNER,
-    AttemptOutcome.UNCOMMANDED_MOTION: Layer.OWNER,
-    AttemptOutcome.TIMEOUT: Layer.TIMEOUT,
-}
-"""The layer of each outcome that the mock tells apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,48 +32,20 @@ class Finding:
     message: str
 
 
-@dataclass(slots=True)
-class Attempt:
-    """One attempt to execute one step; the last one has the step ``end`` and sums up. Fields as in the mock's record.
+@dataclass(slots=True, kw_only=True)
+class Attempt(AttemptFields[None]):
+    """One attempt as bags show it.
 
     A field that is None is nothing where ``unknown`` does not name it; else ``unknown`` says what would have to be
     recorded.
     """
 
-    attempt_id: str
-    rehearsal: str | None
-    step: str
-    configuration_id: str
-    version_tuple: Mapping[str, str]
-    outcome: AttemptOutcome | None = None
-    calibration_id: tuple[str, ...] = ()
-    goal_frame: str | None = None
-    goal_stamp: int | None = None
-    joint_state_age: float | None = None
-    tf_lookup_age: float | None = None
-    plan_result: str | None = None
-    controller_name: str | None = None
-    action_goal_id: str | None = None
-    speed_scaling: float | None = None
-    safety_state: str | None = None
-    fault_code: str | None = None
-    cancel: CancelRecord | None = None
-    result: ResultRecord | None = None
-    operator_intervention: str | None = None
-    started_ns: int | None = None
-    ended_ns: int | None = None
-    trace: tuple[TracePoint, ...] = ()
     finding: Finding | None = None
     unknown: dict[str, str] = field(default_factory=dict)
 
     def lack(self, name: str, needed: str) -> None:
         """Note that a field is UNKNOWN, and what would have to be recorded."""
         self.unknown[name] = needed
-
-    @property
-    def stamps(self) -> dict[PacketStep, int]:
-        """When each of the eight steps happened that the bag shows."""
-        return {point.step: point.stamp_ns for point in self.trace}
 
 
 @dataclass(frozen=True, slots=True)

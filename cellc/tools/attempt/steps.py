@@ -65,7 +65,7 @@ class Pile:
 
     def take(self, contract: Contract, number: int, step: StepEntry) -> Made:
         """Return a step of the task with its goals."""
-        made = Made(number, step, title(step))
+        made = Made(number, step, step.title)
         made.wanted = len(needed(contract, step))
         for controller in needed(contract, step):
             _take(made, controller, self, together=step.command == "together")
@@ -120,8 +120,3 @@ def _overlaps(other: Goal, goal: Goal) -> bool:
     if other.action.name != goal.action.name or ends_ns is None:
         return other.action.name == goal.action.name
     return other.accepted_ns < ends_ns or (goal.status == ABORTED and other.accepted_ns == ends_ns)
-
-
-def title(step: StepEntry) -> str:
-    """Name a step as the mock's records do."""
-    return " ".join(word for word in (step.kind, step.command or "", step.target, step.state or "") if word)

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from dataclasses import fields
 
 from cellc.compiler.formats.escape import code
+from cellc.contract.attempt import PacketStep
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.result import PacketStep
 from cellc.tools.attempt.record import UNKNOWN, Attempt, Figure, Finding, Report
 
 _APART = ("trace", "finding", "unknown", "attempt_id", "step", "version_tuple", "configuration_id")

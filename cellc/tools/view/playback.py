@@ -9,13 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.rehearsals import FaultEntry
 from cellc.mock.cell import MockCell
 from cellc.mock.control import JointStateBlock
 from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.plant import Plant
-from cellc.mock.result import AttemptRecord, RehearsalResult
+from cellc.mock.result import RehearsalResult
 from cellc.tools.view.scene import Numbers, numbers
 from cellc.tools.view.skeleton import Carried, Skeleton
 

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import pytest
 
+from cellc.contract.attempt import AttemptRecord, CancelRecord, PacketStep, TracePoint
 from cellc.contract.entities import Kpis
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.evidence.kpis import Kpi, kpis
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
-from cellc.mock.result import AttemptRecord, CancelRecord, PacketStep, RehearsalResult, TracePoint
+from cellc.mock.result import RehearsalResult
 from tests.mock.conftest import Written
 
 TARGETS = Kpis(

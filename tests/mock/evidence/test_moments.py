@@ -7,11 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from cellc.contract.attempt import AttemptRecord, MadeStep, PacketStep, TracePoint
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent
 from cellc.mock.evidence.envelope import Envelope
 from cellc.mock.evidence.fault_times import fault_times
-from cellc.mock.result import AttemptRecord, MadeStep, PacketStep, RehearsalResult, TracePoint, simulated_s
+from cellc.mock.result import RehearsalResult, simulated_s
 from tests.mock.conftest import Written
 
 MS = 1_000_000

@@ -9,12 +9,13 @@ from typing import Any, Literal
 import numpy as np
 import pytest
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.contract.steps import StepKind
 from cellc.mock import MockCell, load
 from cellc.mock.plant import Plant
-from cellc.mock.result import AttemptRecord, RehearsalResult
+from cellc.mock.result import RehearsalResult
 from tests.cells import generated
 
 HOME = StepEntry(kind=StepKind.MOVE, target="home")

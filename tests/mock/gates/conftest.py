@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import pytest
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.mock import MockCell, load
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates import GateCheck, GateResult, JudgedRun, judged_rehearsals, sign_gates
-from cellc.mock.result import AttemptRecord
 from tests.cells import generated
 
 

@@ -7,6 +7,7 @@ from functools import partial
 
 import pytest
 
+from cellc.contract.attempt import CancelRecord
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome
@@ -14,7 +15,6 @@ from cellc.mock import MockCell
 from cellc.mock.campaign.limits import LimitExcess, LimitsReport, Peak
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.gates import JudgedRun, Verdict, sign_gates
-from cellc.mock.result import CancelRecord
 from cellc.robot.description.urdf_reader import read_urdf
 from tests.mock.gates.conftest import gate, line, with_attempt
 
