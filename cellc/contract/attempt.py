@@ -136,6 +136,10 @@ class Layer(Term):
     """Where an attempt failed, in the order in which the cell would tell it."""
 
     NONE = "none"
+    CONNECTION = "connection"
+    """Hosts, middleware or devices do not reach each other: logs alone tell it."""
+    NODES = "nodes"
+    """A node, controller, plugin or parameter kept something from running: logs alone tell it."""
     STOP = "stop"
     CYCLE = "missed cycle"
     OWNER = "owner of the command"

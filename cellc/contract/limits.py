@@ -87,6 +87,7 @@ class Limits:
     command_seconds: int = _adjustable(
         3600, "s", 360_000, "processor time of one spec or page, and of all of a call of `check`, `build` or `mock`"
     )
+    log_bytes: int = _adjustable(256 * MIB, "bytes", 1024 * 1024 * MIB, "logs of one call, from the begin of each file")
     folder_bytes: int = _adjustable(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
     folder_entries: int = _adjustable(
         2000, "entries", 100_000, "one list or mapping in JSON of a generated folder, and files of a git revision"

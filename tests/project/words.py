@@ -75,7 +75,7 @@ _YAML_KEY = re.compile(r"^[ -]*[\w./~-]+:(?: +[\w./~-]+$)?|[{,] *\w+:", re.MULTI
 _SEAM = re.compile(r"_|(?<=[a-z])(?=[A-Z])")
 _COMMENT = re.compile(r"(?:^ *|  )# (.*)$", re.MULTILINE)
 _QUOTES = re.compile(
-    r"^ *(?:logged|said|not|image): *\[.*$"
+    r"^ *(?:(?:logged|said|not|image): *\[|shows_else: *\{).*$"
     r"|current goal cancelled during deactivate transition|^cancelled due to$",
     re.MULTILINE | re.IGNORECASE,
 )

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, Strict, String
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
+from cellc.contract.attempt import Layer
 from cellc.contract.vocabulary import (
     Behavior,
     CommandAuthority,
@@ -58,6 +59,7 @@ LockName = Annotated[ManagerLock, Strict(False)]
 NeedName = Annotated[Need, Strict(False)]
 UnmetName = Annotated[Unmet, Strict(False)]
 GateName = Annotated[GateCode, Strict(False)]
+LayerName = Annotated[Layer, Strict(False)]
 ParameterFact = Union[bool, int, float, str, tuple[Union[bool, int, float, str], ...]]
 """A ROS parameter's value; an int where a double is declared is a mistake."""
 

@@ -8,12 +8,13 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from cellc.compiler.formats.escape import shell_word
 from cellc.tools.diagnose.fields import FIELDS, Scope, Subject, placeholders
-from cellc.tools.diagnose.log_lines import Named, found_in, length, plain
+from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, length, plain
 from cellc.tools.diagnose.symptoms import Hypothesis, LayerKnowledge, Observation, Symptom, knowledge, synonyms
 from cellc.tools.diagnose.words import Words
 
@@ -65,11 +66,12 @@ _AT_MOST = 3
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """A symptom that fits, and what the line names: (kind, name)."""
+    """A symptom that fits, what the line names, (kind, name), and the text of a source that it has."""
 
     layer: LayerKnowledge
     symptom: Symptom
     named: Named = ()
+    template: str = ""
 
 
 def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> tuple[Match, ...]:
@@ -97,6 +99,19 @@ def nearest(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str
     return tuple(possible[number] for number in _words_of(possible).nearest(text)[:_AT_MOST])
 
 
+def logged(text: str) -> tuple[Match, ...]:
+    """Return the symptoms that a log line shows, the longest text of a source first: no words are guessed from."""
+    pasted = plain(text)
+    return tuple(_logged(_known(knowledge()), text)) if any(begin in pasted for begin in _begins()) else ()
+
+
+@cache
+def _begins() -> tuple[str, ...]:
+    """Return a piece of each text of a source: a line without any of them shows nothing."""
+    texts = {fixed_begin(text) for layer in knowledge() for symptom in layer.symptoms for text in symptom.logged}
+    return tuple(sorted(texts))
+
+
 def _known(layers: Sequence[LayerKnowledge]) -> list[Match]:
     return [Match(layer, symptom) for layer in layers for symptom in layer.symptoms]
 
@@ -119,10 +134,11 @@ def _logged(known: Sequence[Match], text: str) -> list[Match]:
     matches: list[tuple[int, Match]] = []
     for match in known:
         lines = [(template, found_in(template, pasted)) for template in match.symptom.logged]
-        names = [(length(template), named) for template, named in lines if named is not None]
+        names = [named for _, named in lines if named is not None]
         if names:
-            named = tuple(dict.fromkeys(pair for _, pairs in names for pair in pairs))
-            matches.append((max(letters for letters, _ in names), Match(match.layer, match.symptom, named)))
+            named = tuple(dict.fromkeys(pair for pairs in names for pair in pairs))
+            template = max((text for text, found in lines if found is not None), key=length)
+            matches.append((length(template), Match(match.layer, match.symptom, named, template)))
     return [match for _, match in sorted(matches, key=lambda entry: -entry[0])]
 
 
@@ -138,19 +154,20 @@ def diagnose(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
         cell: whose names are filled in, and whose drivers decide which symptoms count; without one the commands hold
             placeholders.
     """
-    return tuple(_suspicion(match, text, cell) for match in classify(text, knowledge(), _drivers(cell)))
+    return tuple(suspicion_of(match, text, cell) for match in classify(text, knowledge(), _drivers(cell)))
 
 
 def near(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
     """Return the symptoms that are nearest to a text that none fits."""
-    return tuple(_suspicion(match, text, cell) for match in nearest(text, knowledge(), _drivers(cell)))
+    return tuple(suspicion_of(match, text, cell) for match in nearest(text, knowledge(), _drivers(cell)))
 
 
 def _drivers(cell: Cell | None) -> Collection[str] | None:
     return None if cell is None else {device.software.packages.driver or "" for device in cell.devices}
 
 
-def _suspicion(match: Match, text: str, cell: Cell | None) -> Suspicion:
+def suspicion_of(match: Match, text: str, cell: Cell | None) -> Suspicion:
+    """Return what a symptom that fits may mean in a cell."""
     area = match.layer.owner
     owner = f"owner of the approval `{area}`" if cell is None else str(getattr(cell.owners.approvals, area))
     causes = [_cause(hypothesis, text, cell) for hypothesis in match.symptom.hypotheses]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cache
 
 Named = tuple[tuple[str, str], ...]
 """What a line names: (kind, name)."""
@@ -33,8 +34,7 @@ def found_in(template: str, text: str) -> Named | None:
         template: begins with text, and has text between two places.
         text: one line, as ``plain`` gives it.
     """
-    pieces = _HOLE.split(template)
-    first, kinds, rest = pieces[0], pieces[1::2], pieces[2::2]
+    first, kinds, rest = _parts(template)
     start = text.find(first)
     while start >= 0:
         names = _names(kinds, rest, text, start + len(first))
@@ -43,6 +43,12 @@ def found_in(template: str, text: str) -> Named | None:
             return tuple(dict.fromkeys((kind, name) for kind, name in pairs if kind and name))
         start = text.find(first, start + 1)
     return None
+
+
+@cache
+def _parts(template: str) -> tuple[str, Sequence[str], Sequence[str]]:
+    pieces = _HOLE.split(template)
+    return pieces[0], pieces[1::2], pieces[2::2]
 
 
 def _names(kinds: Sequence[str], pieces: Sequence[str], text: str, position: int) -> list[str] | None:
@@ -56,6 +62,11 @@ def _names(kinds: Sequence[str], pieces: Sequence[str], text: str, position: int
         names.append(text[position:end].strip(_AROUND))
         position = end + len(piece)
     return names
+
+
+def fixed_begin(template: str) -> str:
+    """Return the text that a template begins with."""
+    return _parts(template)[0]
 
 
 def length(template: str) -> int:

@@ -9,12 +9,13 @@ from typing import Annotated, Literal, TypeVar, get_args
 
 from pydantic import Field, StringConstraints, field_validator, model_validator
 
-from cellc.compiler.catalog.catalog_model import CatalogModel, Text, Token
+from cellc.compiler.catalog.catalog_model import CatalogModel, LayerName, Text, Token
 from cellc.compiler.catalog.compiled import CATALOG, compiled_table
+from cellc.contract.attempt import Layer
 from cellc.contract.review import ApprovalArea
 from cellc.tools.diagnose.fields import FIELDS, Scope
 
-Layer = Literal[
+Topic = Literal[
     "network",
     "qos",
     "time",
@@ -28,7 +29,7 @@ Layer = Literal[
     "recording",
     "safety",
 ]
-LAYERS: tuple[Layer, ...] = get_args(Layer)
+LAYERS: tuple[Topic, ...] = get_args(Topic)
 """The layers in the order in which they are ruled out."""
 
 # Commands that read. Anything else, such as a switch, a parameter set or a published message, is refused as data.
@@ -90,6 +91,8 @@ class Symptom(CatalogModel):
         drivers: packages of the drivers that it belongs to; every device where empty.
         said: phrases; a text matches where it has all words of one.
         logged: texts of log lines, with ``{kind}`` where they name something, as ``log_lines`` reads them.
+        shows: layer of an attempt in which such a line shows a failure; UNKNOWN where it is of none.
+        shows_else: texts of ``logged`` that show another layer.
         hypotheses: causes, the likeliest first.
         never: the shortcut that hides the cause or takes a protection away.
     """
@@ -100,13 +103,28 @@ class Symptom(CatalogModel):
     drivers: tuple[Token, ...] = ()
     said: tuple[Phrase, ...] = Field(min_length=1)
     logged: tuple[Template, ...] = ()
+    shows: LayerName | None = None
+    shows_else: dict[LayerName, tuple[Template, ...]] = Field(default_factory=dict)
     hypotheses: tuple[Hypothesis, ...] = Field(min_length=1)
+
+    @model_validator(mode="after")
+    def _what_is_logged_shows_a_layer(self) -> Symptom:
+        if bool(self.logged) != (self.shows is not None):
+            raise ValueError("`logged` and `shows` belong together")
+        unknown = {text for texts in self.shows_else.values() for text in texts} - set(self.logged)
+        if unknown:
+            raise ValueError(f"`logged` has no {', '.join(sorted(unknown))}")
+        return self
+
+    def shown_by(self, template: str) -> Layer | None:
+        """Return the layer of an attempt in which a text of ``logged`` shows a failure."""
+        return next((layer for layer, texts in self.shows_else.items() if template in texts), self.shows)
 
 
 class LayerKnowledge(CatalogModel):
     """One layer: its symptoms and the approval area whose owner decides."""
 
-    layer: Layer
+    layer: Topic
     title: Text
     owner: ApprovalArea
     symptoms: tuple[Symptom, ...] = Field(min_length=1)

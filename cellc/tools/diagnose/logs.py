@@ -1,0 +1,261 @@
+"""Logs of any number and size, searched once for what the symptoms know; kept is the first line of each symptom.
+
+No more is read than the limit `log-bytes`, a line is cut at 64 KiB, and what is left out is named.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import BinaryIO
+
+from cellc.contract.attempt import Layer
+from cellc.contract.errors import CellcError, reason_of
+from cellc.contract.limits import limits, option
+from cellc.contract.printing import stage
+from cellc.contract.store.regular_file import open_regular
+from cellc.tools.diagnose.diagnose import Match, logged
+from cellc.tools.diagnose.log_entry import Gravity, Stamp, entry_of, in_year_of, is_minor
+
+_LONGEST = 1 << 16
+"""Bytes of a line; what follows is left out."""
+_HEAD = 8192
+_READ_WHOLE = 1000
+"""Lines of a file of which each is read for its time; later ones of no gravity are passed over."""
+_MOST_FILES = 10_000
+_QUARTER_NS = 15 * 60 * 1_000_000_000
+"""Zones are whole quarters of an hour away from UTC."""
+
+
+class LogError(CellcError):
+    """There is no log to read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spoken:
+    """The first line of a symptom.
+
+    Attributes:
+        at_ns: since 1970 in UTC; None where neither the line nor one before it in its file states a time.
+        file: with `line` the place, from 1.
+        count: lines of the symptom, in all files.
+        layer: of an attempt; None where the symptom is of none.
+    """
+
+    at_ns: int | None
+    file: str
+    line: int
+    gravity: Gravity
+    text: str
+    match: Match
+    count: int = 1
+
+    @property
+    def layer(self) -> Layer | None:
+        """The layer that the line shows."""
+        return self.match.symptom.shown_by(self.match.template)
+
+
+@dataclass(frozen=True, slots=True)
+class Searched:
+    """What some logs say.
+
+    Attributes:
+        spoken: in the order of time, at last those without one.
+        notes: what was left out, or is less certain, one line each.
+    """
+
+    spoken: tuple[Spoken, ...]
+    files: int
+    lines: int
+    notes: tuple[str, ...]
+
+    @property
+    def first(self) -> Spoken | None:
+        """The line that names the layer: the first error; without an error, the first warning."""
+        of_layer = [each for each in self.spoken if each.layer not in (None, Layer.UNKNOWN)]
+        grave = [each for each in of_layer if each.gravity is not Gravity.WARNING]
+        return next(iter(grave or of_layer or self.spoken), None)
+
+
+_Key = tuple[str, Layer | None, bool]
+"""Symptom, layer, and whether it is a warning."""
+
+
+@dataclass(slots=True)
+class _File:
+    """What is kept of one file: lines by symptom, once for each way to state a time.
+
+    Attributes:
+        offset_ns: how far its local time is ahead of UTC.
+        epoch_ns: the first time whose zone is known.
+        passed: the line before, where it was passed over.
+        unstated: what its times do not state.
+    """
+
+    name: str
+    kept: dict[tuple[_Key, bool, bool], tuple[Stamp | None, Spoken]] = field(default_factory=dict)
+    counts: dict[_Key, int] = field(default_factory=dict)
+    lines: int = 0
+    offset_ns: int | None = None
+    epoch_ns: int | None = None
+    passed: str = ""
+    unstated: dict[str, None] = field(default_factory=dict)
+
+
+def search(path: Path) -> Searched:
+    """Search a file, or every file below a folder.
+
+    Raises:
+        LogError: no log can be read.
+    """
+    notes: list[str] = []
+    left = limits().log_bytes
+    read: list[_File] = []
+    for number, place in enumerate(_files(path, notes), start=1):
+        stage(f"reading {place.name}, {number}")
+        found, used = _read(path, place, left, notes)
+        left -= used
+        read += [] if found is None else [found]
+    if not read:
+        raise LogError(f"{path.as_posix()}: holds no log that can be read; {'; '.join(notes) or 'it is empty'}")
+    return _joined(read, notes)
+
+
+def _files(path: Path, notes: list[str]) -> Iterator[Path]:
+    """Yield the files in the order of their names; links inside a folder, such as `latest`, are not followed."""
+    if not path.exists():
+        raise LogError(f"{path.as_posix()}: no such file or folder; name a log, or a folder such as `~/.ros/log`")
+    if not path.is_dir():
+        yield path
+        return
+    count = 0
+    for folder, folders, names in os.walk(path):
+        folders.sort()
+        for name in sorted(names):
+            place = Path(folder, name)
+            if place.is_symlink():
+                continue
+            count += 1
+            if count > _MOST_FILES:
+                notes.append(f"{path.as_posix()}: has more than {_MOST_FILES} files; the others are not read")
+                return
+            yield place
+
+
+def _read(root: Path, place: Path, most: int, notes: list[str]) -> tuple[_File | None, int]:
+    """Return what one file says, and how many bytes of it were read."""
+    name = place.relative_to(root).as_posix() if root.is_dir() else place.as_posix()
+    if most <= 0:
+        notes.append(f"{name}: is not read: {option('log-bytes')}")
+        return None, 0
+    try:
+        with open_regular(place) as stream:
+            size = os.fstat(stream.fileno()).st_size
+            if b"\0" in stream.read(_HEAD):
+                notes.append(f"{name}: is binary, and not read")
+                return None, 0
+            stream.seek(0)
+            found = _File(name)
+            used = _search(found, stream, most)
+    except OSError as problem:
+        notes.append(f"{name}: cannot be read: {reason_of(problem)}")
+        return None, 0
+    if used < size:
+        notes.append(f"{name}: only the first {used} of its {size} bytes are read; {option('log-bytes')}")
+    return found, used
+
+
+def _search(found: _File, stream: BinaryIO, most: int) -> int:
+    """Search the lines of a stream; return how many bytes were read."""
+    used, before = 0, None
+    while used < most:
+        line = stream.readline(min(_LONGEST, most - used))
+        if not line:
+            break
+        used += len(line)
+        rest = line
+        while not rest.endswith(b"\n") and used < most and (rest := stream.readline(min(_LONGEST, most - used))):
+            used += len(rest)
+        found.lines += 1
+        before = _take(found, line.decode("utf-8", "replace"), before)
+    return used
+
+
+def _take(found: _File, line: str, before: Stamp | None) -> Stamp | None:
+    """Take a line; return its time, which is that of the line before where it states none."""
+    if found.lines > _READ_WHOLE and is_minor(line):
+        found.passed = line
+        return before
+    if found.passed:
+        before, found.passed = entry_of(found.passed).stamp or before, ""
+    entry = entry_of(line)
+    stamp = entry.stamp or before
+    if stamp is not None and stamp.zoned:
+        found.epoch_ns = stamp.ns if found.epoch_ns is None else found.epoch_ns
+        if stamp.local_ns is not None and found.offset_ns is None:
+            found.offset_ns = _zone_ns(stamp)
+    if entry.gravity is Gravity.MINOR:
+        return stamp
+    for match in logged(entry.text)[:1]:
+        is_warning = entry.gravity is Gravity.WARNING
+        spoken = Spoken(None, found.name, found.lines, entry.gravity, " ".join(entry.text.split())[:_HEAD], match)
+        key = (match.symptom.name, spoken.layer, is_warning)
+        found.counts[key] = found.counts.get(key, 0) + 1
+        slot = (key, stamp is not None, stamp is not None and stamp.zoned)
+        old = found.kept.get(slot)
+        if old is None or (stamp is not None and old[0] is not None and stamp.ns < old[0].ns):
+            found.kept[slot] = (stamp, spoken)
+    return stamp
+
+
+def _zone_ns(stamp: Stamp) -> int:
+    """Return how far local time is ahead of UTC, by a line that has both; the year of the local time may be open."""
+    bare = Stamp(stamp.local_ns or 0, zoned=False, dated=False)
+    ahead_ns = in_year_of(bare, stamp.ns) - stamp.ns
+    return round(ahead_ns / _QUARTER_NS) * _QUARTER_NS
+
+
+def _joined(files: list[_File], notes: list[str]) -> Searched:
+    """Return the lines of all files in the order of time, each symptom once."""
+    epochs = [each.epoch_ns for each in files if each.epoch_ns is not None]
+    first: dict[_Key, Spoken] = {}
+    counts: dict[_Key, int] = {}
+    for file in files:
+        for key, number in file.counts.items():
+            counts[key] = counts.get(key, 0) + number
+        for (key, _, _), (stamp, spoken) in file.kept.items():
+            timed = replace(spoken, at_ns=_utc_ns(file, stamp, epochs))
+            if key not in first or _order(timed) < _order(first[key]):
+                first[key] = timed
+    ordered = sorted((replace(each, count=counts[key]) for key, each in first.items()), key=_order)
+    uncertain = [
+        f"{file.name}: its times state no {' and no '.join(file.unstated)}: its order among other files may be wrong"
+        for file in files
+        if file.unstated
+    ]
+    timeless = [f"{each.file}: line {each.line} has no time" for each in ordered if each.at_ns is None]
+    return Searched(tuple(ordered), len(files), sum(file.lines for file in files), (*notes, *uncertain, *timeless))
+
+
+def _utc_ns(file: _File, stamp: Stamp | None, epochs: list[int]) -> int | None:
+    """Return the time in UTC of a line, whose year and zone other lines may tell."""
+    if stamp is None:
+        return None
+    ns = stamp.ns
+    near_ns = file.epoch_ns if file.epoch_ns is not None else min(epochs, default=None)
+    if not stamp.dated and near_ns is not None:
+        ns = in_year_of(stamp, near_ns)
+    elif not stamp.dated:
+        file.unstated["year"] = None
+    if not stamp.zoned and file.offset_ns is None:
+        file.unstated["zone (UTC is taken)"] = None
+    elif not stamp.zoned:
+        ns -= file.offset_ns or 0
+    return ns
+
+
+def _order(spoken: Spoken) -> tuple[bool, int, str, int]:
+    return spoken.at_ns is None, spoken.at_ns or 0, spoken.file, spoken.line
