@@ -30,6 +30,9 @@ class ObservedTarget(ContractModel):
     """What runs on a target."""
 
     nodes: tuple[str, ...] = Field(description="Full names of all nodes, those that a later gate starts among them.")
+    hosts: dict[str, tuple[str, ...]] = Field(
+        default_factory=dict, description="Full names of the nodes of each host; empty where all runs in one place."
+    )
     inside: dict[str, tuple[str, ...]] = Field(description="Patterns of further nodes in the process of a node.")
     ends: dict[str, ObservedEnds] = Field(description="By interface.")
     states: dict[str, ObservedManager] = Field(description="By full name of a controller manager.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
 import re
 import signal
@@ -16,7 +17,7 @@ from xml.etree.ElementTree import fromstring
 
 import pytest
 
-from tests.cells import built
+from tests.cells import ROOT, built
 from tests.consumers.matrix import Build, build
 from tests.consumers.permissions import policy_of
 from tests.consumers.starting import launched
@@ -193,7 +194,8 @@ def _run(robot: Robot, words: list[str]) -> int:
             patch.setitem(sys.modules, name, module)
         patch.setitem(sys.modules, program.__name__, program)
         exec(compile(text, "scripts/first_goal", "exec"), program.__dict__)
-        program.time = SimpleNamespace(monotonic=lambda: robot.now_s, strftime=lambda _format: "20260701T120000")
+        clock = {"monotonic": lambda: robot.now_s, "gmtime": lambda: None, "strftime": lambda *_: "20260701T120000Z"}
+        program.time = SimpleNamespace(**clock)
         try:
             ended = program.main(words)
         finally:
@@ -356,6 +358,25 @@ def test_evidence_holds_command_state_and_error_of_every_joint_and_a_plot(tmp_pa
     lines = drawn.findall("{http://www.w3.org/2000/svg}polyline")
     assert all(len(line.get("points", "").split()) > 500 for line in lines)
     assert len(lines) == 3
+
+
+@pytest.mark.parametrize(("robot", "verdict"), [(Robot(), "PASSED"), (Robot(accepts=False), "FAILED")])
+def test_evidence_says_how_it_ended_and_of_which_configuration(robot: Robot, verdict: str, tmp_path: Path) -> None:
+    package = ROOT / "generated/ur5e_pick"
+    words = _words(evidence=str(tmp_path))
+    words[words.index("--package") + 1] = str(package)
+    _run(robot, words)
+    (record,) = (json.loads(file.read_text(encoding="utf-8")) for file in tmp_path.glob("*.json"))
+    manifest = json.loads((package / "manifest.json").read_text(encoding="utf-8"))
+    assert record["configuration_id"] == manifest["configuration_id"]
+    assert (record["cell"], record["gate"], record["joint"]) == ("ur5e_pick", "G7", _WRIST)
+    assert (record["verdict"], bool(record["seen"])) == (verdict, verdict == "FAILED")
+
+
+def test_evidence_without_a_package_has_no_configuration(tmp_path: Path) -> None:
+    _run(Robot(), _words(evidence=str(tmp_path)))
+    (record,) = (json.loads(file.read_text(encoding="utf-8")) for file in tmp_path.glob("*.json"))
+    assert "configuration_id" not in record
 
 
 def test_evidence_is_never_replaced(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import json
 import math
+import platform
 import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
@@ -444,6 +445,26 @@ def test_a_folder_that_is_no_package_is_a_wrong_use(tmp_path: Path, capsys: pyte
         observe_program.main(["--package", str(tmp_path)])
     assert ended.value.code == 2
     assert "--package must be the share folder of this package" in capsys.readouterr().err
+
+
+def test_every_node_of_a_cell_on_two_computers_is_on_one_of_them() -> None:
+    contract = contract_data(built("fr3_hand").texts["contract.json"])
+    plan = json.loads(built("fr3_hand").texts["config/observe.json"])["real"]
+    assert sorted(node for nodes in plan["hosts"].values() for node in nodes) == sorted(plan["nodes"])
+    for name in ("move_group", "task", "controller_manager", "arm_trajectory"):  # those with a clock of their own
+        assert f"/{name}" in plan["hosts"][contract["clock_of"][name]]
+    assert "hosts" not in json.loads(built("minimal").texts["config/observe.json"])["real"]
+
+
+@pytest.mark.parametrize(("hosts", "named", "host"), [({"a": [], "b": []}, "b", "b"), ({}, None, platform.node())])
+def test_a_report_names_its_host(hosts: dict[str, list[str]], named: str | None, host: str) -> None:
+    assert observe_program.host_of(hosts, named, pytest.fail) == host
+
+
+def test_a_computer_that_is_no_host_of_the_cell_must_be_named() -> None:
+    refused: list[str] = []
+    observe_program.host_of({"control_pc": [], "planner_pc": []}, "elsewhere", refused.append)
+    assert refused == ["--host must be one of control_pc, planner_pc, got elsewhere"]
 
 
 def test_a_message_that_is_too_short_for_its_header_is_named() -> None:

@@ -72,6 +72,34 @@ def test_every_gate_leaves_evidence_of_its_own(cell: str, distro: str) -> None:
 
 
 @every_build
+def test_contract_has_as_data_what_each_gate_leaves_and_who_signs(cell: str, distro: str) -> None:
+    contract = contract_data(build(cell, distro).texts["contract.json"])
+    stated = {one["gate"]: one for one in contract["gates"]["evidence"]}
+    assert set(stated) == set(_ORDER)
+    for code, text in sections(cell, distro).items():
+        assert f"Passed when {stated[code]['shows']}." in text
+        left = stated[code]["files"]
+        closed = "Do not pass this gate." in text
+        assert [file["name"] for file in left if file["kind"] == "notes"] == (
+            [] if closed else re.findall(r"^Evidence: `(.+?)`\. ", text, re.MULTILINE)
+        )
+        assert f"Signed by: `{stated[code]['signed_by']}`." in text
+        typed = commands(text)
+        looks = [
+            re.search(r" --for (\d+) --evidence \"\$E\"(?: --host (\w+))?$", line)
+            for line in typed
+            if " observe " in line
+        ]
+        asked = {(float(look[1]), look[2]) for look in looks if look is not None}
+        assert {(file["least_s"], file["host"]) for file in left if file["kind"] == "observe"} == asked
+        moves = [line for line in typed if " goal.launch.xml " in line]
+        assert sum(file["kind"] == "first_goal" for file in left) == len(set(moves))
+        bags = [re.findall(r'--output "\$E/(\S+)"', line) for line in typed if " bag record " in line]
+        assert [file["name"] for file in left if file["kind"] == "bag"] == [name for found in bags for name in found]
+        assert sum(file["kind"] == "attempt" for file in left) == sum("cellc attempt " in line for line in typed)
+
+
+@every_build
 def test_every_interface_of_the_real_target_has_the_ends_of_the_contract(cell: str, distro: str) -> None:
     assert f"observe --package generated/{cell} --gate L3 " in sections(cell, distro)["L3"]
     observed = json.loads(build(cell, distro).texts["config/observe.json"])["real"]["ends"]
@@ -96,7 +124,7 @@ def test_what_is_read_is_kept_and_what_is_started_is_not(cell: str, distro: str)
             # What a command says of its failure is evidence too: nothing reaches the file without it.
             if "| tee" in block:
                 # What the gate itself has recorded, and the report that the observer writes beside it.
-                written = re.sub(r'ros2 bag info "\$E/G\d-bag"| --evidence "\$E" 2', "", block)
+                written = re.sub(r'"\$E/G\d-bag"| --evidence "\$E"| -o "\$E"', "", block)
                 assert len(_KEPT.findall(block)) == block.count("| tee") == written.count("$E"), block
                 assert not re.search("[<>]", _KEPT.sub("", block)), block
 

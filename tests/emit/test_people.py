@@ -16,6 +16,7 @@ from tests.foreign_yaml import safe_load
 # What a checklist may tell people to type: reading commands, and starting what its gate releases.
 _ALLOWED = (
     "cat ",
+    "cellc attempt ",
     "cellc build ",
     "cellc gates ",
     "cellc mock ",

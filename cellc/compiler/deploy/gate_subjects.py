@@ -79,7 +79,7 @@ from cellc.compiler.deploy.gate_versions import (
     visible,
 )
 from cellc.compiler.deploy.labels import said_around
-from cellc.compiler.deploy.processes import description_nodes
+from cellc.compiler.deploy.processes import description_nodes, launch_hosts
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, restart_of, start_mock, start_real
@@ -141,6 +141,12 @@ def _mock_actions(graph: CellGraph) -> Iterator[Values]:
         for controller in graph.cell.controllers
         if controller.action and "mock" in controller.targets
     )
+
+
+def _observing(graph: CellGraph) -> Iterator[Values]:
+    """Yield where the running graph is observed: on each host, which answers for the ends that it has."""
+    hosts = launch_hosts(graph.cell)
+    return ((f"On {host}: ", f" --host {host}") for host in hosts) if hosts else iter((("", ""),))
 
 
 def _joint_states(graph: CellGraph) -> Iterator[Interface]:
@@ -283,6 +289,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "success": (("rehearsal", "share", "confidence"), _success),
     "mock_motion": (("command",), lambda graph: _each(move_mock(graph.cell))),
     "manager": (("manager",), lambda graph: ((manager.node,) for manager in graph.cell.managers)),
+    "observing": (("where", "host"), _observing),
     "mock_action": (("action",), _mock_actions),
     "real_start": (("where", "command"), lambda graph: start_real(graph.cell)),
     "joint_states": (("topic",), lambda graph: ((interface.name,) for interface in _joint_states(graph))),

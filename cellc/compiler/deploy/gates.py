@@ -24,7 +24,7 @@ from cellc.contract.gates import GateSetting
 from cellc.contract.vocabulary import GateCode, RobotSetting
 
 _FIELD = re.compile(r"`\{(\w+)\}`|\{(\w+)\}")
-_COMMANDS = ("build", "cancel", "command", "record", "secrets", "start_mock")
+_COMMANDS = ("build", "cancel", "command", "host", "record", "secrets", "start_mock")
 """Fields that are commands; every other is one word of a command."""
 
 _SETTINGS: Mapping[str, RobotSetting] = {
@@ -67,10 +67,11 @@ class Gate:
     Args:
         shows: what the passed gate proves, in one phrase.
         state: state that the robot or its drives are in.
-        evidence: name of the file that the gate must leave.
+        evidence: name of the file that people and commands write their notes to; `left_by` has all that it leaves.
         owner: who signs, from the spec.
         stop: conditions that stop the gate.
         measured: values that are measured or read back, and recorded.
+        closed: whether it must not be passed, because nothing moves the cell on the real target.
     """
 
     code: GateCode
@@ -82,6 +83,7 @@ class Gate:
     owner: str
     stop: tuple[str, ...]
     measured: tuple[str, ...] = ()
+    closed: bool = False
 
     @property
     def key_command(self) -> str:
@@ -201,6 +203,7 @@ def _gate(text: GateText, graph: CellGraph, header: Header) -> Gate:
         owner=_owners(graph)[text.signed_by],
         stop=tuple(check.text for line in text.stop for check in _checks(line, graph, base)),
         measured=() if closed else tuple(check.text for line in text.measured for check in _checks(line, graph, base)),
+        closed=bool(closed),
     )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.deploy.ends import ends_on
+from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.deploy.readiness import components_of
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import observe_enclave
@@ -23,7 +24,7 @@ def observation(graph: CellGraph, plan: BringUp) -> Observation:
 
 
 def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
-    cell = graph.cell
+    cell, placed = graph.cell, tuple(_nodes(graph.cell, plan, target))
     taken = [step for step in plan.steps(target) if target == "mock" or step.phase is BringUpPhase.START]
     shown = [proof for step in taken for proof in step.effect]
     claimed = [proof for step in plan.steps(target) for proof in step.effect]
@@ -31,7 +32,8 @@ def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
     lifecycle |= {proof.node: proof.state for proof in shown if isinstance(proof, LifecycleProof)}
     ends = {each.name: ends_on(graph, each, target) for each in cell.interfaces if target in each.targets}
     return ObservedTarget(
-        nodes=tuple(sorted(set(_nodes(cell, plan, target)))),
+        nodes=tuple(sorted({name for name, _ in placed})),
+        hosts={host: tuple(sorted({name for name, at in placed if at == host})) for host in launch_hosts(cell)},
         inside={
             node.full_name: tuple(inner.full_name for inner in node.inside)
             for node in cell.nodes
@@ -74,19 +76,20 @@ def _components(cell: Cell, manager: ControllerManager, target: Target) -> Itera
             yield device.control.hardware.name, device.control.startup_state
 
 
-def _nodes(cell: Cell, plan: BringUp, target: Target) -> Iterator[str]:
-    """Yield the full name of every node on a target."""
+def _nodes(cell: Cell, plan: BringUp, target: Target) -> Iterator[tuple[str, str]]:
+    """Yield the full name of every node on a target, with its host."""
     for node in cell.nodes:
         if target == "real" or not node.real_only:
-            yield node.full_name
+            yield node.full_name, node.host
     for manager in cell.managers:
-        yield from (controller.full_name for controller in manager.controllers if target in controller.targets)
+        here = [controller.full_name for controller in manager.controllers if target in controller.targets]
+        yield from ((name, manager.host) for name in here)
         for device in components_of(cell, manager, target):
             if device.control.hardware is None:
                 continue
             bare = [node.full_name.rpartition("/")[2] for node in device.control.hardware.nodes]
             if Feature.HARDWARE_NODES in features(cell.distro):
                 bare.append(device.control.hardware.name.lower().replace("/", "_"))
-            yield from (f"{manager.namespace}/{name}" for name in bare)
-    if plan.watches and target == "real":
-        yield CLAIM_WATCH
+            yield from ((f"{manager.namespace}/{name}", manager.host) for name in bare)
+    if target == "real":
+        yield from ((CLAIM_WATCH, watch.host) for watch in plan.watches)

@@ -22,6 +22,7 @@ from cellc.compiler.deploy.files import (
     semantic_file,
     stage_files,
 )
+from cellc.compiler.deploy.gate_evidence import left_by
 from cellc.compiler.emit.contract.clocks import clock_of, clocks
 from cellc.compiler.emit.contract.devices import adapters, devices, simulated_joints
 from cellc.compiler.emit.contract.motion import (
@@ -108,7 +109,8 @@ def _gates(cell: Cell, plan: Deployment) -> Gates:
         PinAnswer(holder=judged.pin.holder, part=judged.pin.part, answer=judged.answer.value, reason=judged.evidence)
         for judged in compatibility(cell)
     )
-    return Gates(settings=tuple(settings), versions=versions)
+    evidence = tuple(map(left_by, (*plan.promotion, *plan.network)))
+    return Gates(settings=tuple(settings), evidence=evidence, versions=versions)
 
 
 def _safety(cell: Cell) -> ContractSafety:

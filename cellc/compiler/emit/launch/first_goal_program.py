@@ -2,14 +2,15 @@
 """Moves one joint a little by a trajectory controller, to both sides of where it is; all others keep their position.
 
     first_goal --action NAME --states TOPIC --joint NAME --by RAD --seconds S --timeout S [--absent NODE]... \
-        [--then end|cancel] [--evidence DIR] JOINT:LOWER:UPPER...
+        [--then end|cancel] [--evidence DIR] [--package DIR] JOINT:LOWER:UPPER...
 
 It starts only when the states of all joints are fresh and all joints are at standstill, with no motion client running.
 `end` moves the joint by BY, back, to the other side and back: four goals, within twice BY in all. A side beyond a limit
 is left out. `cancel` moves it by BY, cancels half way, prints the time from the request to standstill, and moves it
 back. A joint that leaves its way, or
 states that stop arriving, cancel the goal; so does Ctrl-C. It ends with 0 when every goal ended as requested.
-With --evidence it writes command, state and error of each joint as CSV, and of the joint that moves as SVG.
+With --evidence it writes how it ended as JSON, command, state and error of each joint as CSV, and of the joint that
+moves as SVG.
 goal.launch.xml starts it, by a person's authorization, while the claims hold.
 """
 
@@ -18,6 +19,7 @@ from __future__ import annotations
 import argparse
 import csv
 import html
+import json
 import math
 import signal
 import sys
@@ -311,10 +313,15 @@ def limits_of(text: str) -> tuple[str, tuple[float, float]]:
     return name, (float(lower or "-inf"), float(upper or "inf"))
 
 
-def write_evidence(samples: Sequence[Sample], joint: str, then: str, folder: Path) -> None:
-    """Write command, state and error as CSV, and those of one joint as SVG; nothing that exists is replaced."""
+def write_evidence(samples: Sequence[Sample], arguments: argparse.Namespace, why: str) -> None:
+    """Write how it ended as JSON, samples as CSV, and those of one joint as SVG; nothing that exists is replaced."""
+    joint, then, folder = arguments.joint, arguments.then, arguments.evidence
     folder.mkdir(parents=True, exist_ok=True)
-    stem = f"G7-first-goal-{joint}-{then}-{time.strftime('%Y%m%dT%H%M%S')}"
+    begun = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
+    stem = f"G7-first-goal-{joint}-{then}-{begun}"
+    record = {"attempt_id": begun, **identity(arguments.package), "gate": "G7", "joint": joint, "then": then}
+    with (folder / f"{stem}.json").open("x", encoding="utf-8") as file:
+        json.dump({**record, "verdict": "FAILED" if why else "PASSED", "seen": why}, file, indent=1)
     start = samples[0].time_s if samples else 0.0
     with (folder / f"{stem}.csv").open("x", encoding="utf-8", newline="") as file:
         table = csv.writer(file)
@@ -325,7 +332,16 @@ def write_evidence(samples: Sequence[Sample], joint: str, then: str, folder: Pat
     moved = [sample._replace(time_s=sample.time_s - start) for sample in samples if sample.joint == joint]
     with (folder / f"{stem}.svg").open("x", encoding="utf-8") as file:
         file.write(plot(moved, joint))
-    print(f"wrote {folder / stem}.csv and .svg", flush=True)
+    print(f"wrote {folder / stem}.json, .csv and .svg", flush=True)
+
+
+def identity(package: Path | None) -> dict[str, str]:
+    """Return cell and configuration ID of a package; none where it cannot be read: what moved is kept all the same."""
+    try:
+        contract = json.loads(((package or Path()) / "contract.json").read_text(encoding="utf-8"))
+        return {name: contract[name] for name in ("cell", "configuration_id")}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
 
 
 def plot(samples: Sequence[Sample], joint: str) -> str:
@@ -361,6 +377,7 @@ def arguments_of(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--absent", action="append", default=[], help="node that may not run")
     parser.add_argument("--then", choices=("end", "cancel"), default="end")
     parser.add_argument("--evidence", type=Path, help="folder of the attempt")
+    parser.add_argument("--package", type=Path, help="share folder of this package, whose configuration is recorded")
     parser.add_argument("joints", nargs="+", help="all joints of the controller, each with its limits")
     options = [*words[: words.index("--ros-args")]] if "--ros-args" in words else [*words]
     return parser.parse_args(options)
@@ -378,7 +395,7 @@ def main(words: Sequence[str]) -> int:
     finally:
         robot.leave()
     if arguments.evidence is not None:
-        write_evidence(robot.samples, arguments.joint, arguments.then, arguments.evidence)
+        write_evidence(robot.samples, arguments, why)
     if why:
         print(f"first_goal failed: {why}", file=sys.stderr, flush=True)
     return 1 if why else 0

@@ -146,7 +146,7 @@ def _sending(cell: Cell, goals: tuple[FirstGoal, ...]) -> Iterator[Element]:
     yield _argument("joint", None, "Joint that moves.", *dict.fromkeys(name for goal in goals for name in goal.moves))
     about = "Move to both sides and back, or move to one side, cancel half way and move back."
     yield _argument("then", "end", about, "end", "cancel")
-    yield _argument("evidence", ".", "Folder for the samples and the plot of command, state and error.")
+    yield _argument("evidence", ".", "Folder for the result, the samples and the plot of command, state and error.")
     yield comment("small motions of one joint from its current position; no motion client may run")
     for goal in goals:
         yield element(
@@ -156,7 +156,8 @@ def _sending(cell: Cell, goals: tuple[FirstGoal, ...]) -> Iterator[Element]:
                 "exec": NODE,
                 "name": NODE,
                 "output": "both",
-                "args": f"--then $(var then) --joint $(var joint) --evidence $(var evidence) {_goal_words(goal)}",
+                "args": f"--then $(var then) --joint $(var joint) --evidence $(var evidence) "
+                f"--package $(find-pkg-share {cell.name}) {_goal_words(goal)}",
                 "launch-prefix": before_motion(cell, "real"),
                 "if": _says(GOAL, goal.release, f" and '$(var joint)' in {[*goal.moves]}"),
                 **enclave(first_goal_enclave(cell)),

@@ -2,12 +2,13 @@
 """Compares the running graph with this package, and only looks: it publishes, sets, commands and starts nothing.
 
     observe --package FOLDER [--gate L3|L4|L5|G3|G4|G7] [--target real|mock] [--for SECONDS] [--evidence FOLDER]
+            [--host NAME]
 
 It reads the ends of every interface, listens to every topic with a rate and to the transforms, and asks controller
 managers, managed nodes and parameters, by four services that change nothing. Each line is PASSED, FAILED or UNKNOWN,
-with what is expected and what is seen. Nodes that a later gate starts need not run. Layers L3 to L5 have one part each:
-graph, flow, tf. Ctrl-C ends the listening; what was seen until then is compared. Exit status: 0 all passed, 1 a line
-failed or is unknown, 2 usage.
+with what is expected and what is seen. On a cell of several computers each runs it: `cellc evidence` joins the
+reports. Nodes that a later gate starts need not run. Layers L3 to L5 have one part each: graph, flow, tf. Ctrl-C ends
+the listening; what was seen until then is compared. Exit status: 0 all passed, 1 a line failed or is unknown, 2 usage.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+import platform
 import struct
 import sys
 import time
@@ -322,6 +324,14 @@ def seconds(text: str) -> float:
     return value
 
 
+def host_of(hosts: Mapping[str, Any], named: str | None, refuse: Callable[[str], object]) -> str:
+    """Return the host of the cell that this computer is; its own name where the cell runs in one place."""
+    own = platform.node()
+    if hosts and (named or own) not in hosts:
+        refuse(f"--host must be one of {', '.join(hosts)}, got {escaped(named or own)}")
+    return named or own
+
+
 def main(arguments: Sequence[str]) -> int:
     """Look, compare, print and write; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -330,11 +340,13 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--target", choices=("real", "mock"), default="real", help="hardware (default: real)")
     parser.add_argument("--for", type=seconds, default=30.0, dest="for_s", metavar="SECONDS", help="default: 30")
     parser.add_argument("--evidence", type=Path, metavar="FOLDER", help="folder of this attempt's evidence")
+    parser.add_argument("--host", metavar="NAME", help="this computer, as the spec names it (default: its own name)")
     read = parser.parse_args(arguments)
     try:
         package = read_package(read.package, read.target)
     except (OSError, ValueError, KeyError, ElementTree.ParseError) as error:
         parser.error(f"--package must be the share folder of this package: {escaped(str(error))}")
+    host = host_of(package.plan.get("hosts", {}), read.host, parser.error)
     graph = Graph(package.plan["enclave"])
     try:
         seen = look(graph, package, read.for_s)
@@ -348,7 +360,8 @@ def main(arguments: Sequence[str]) -> int:
     if read.evidence is not None:
         contract, begun = package.contract, time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
         attempt = {"attempt_id": begun, "cell": contract["cell"], "configuration_id": contract["configuration_id"]}
-        write(lines, read.evidence, {**attempt, "gate": read.gate, "target": read.target, "seconds": seen.listened_s})
+        asked = {"gate": read.gate, "target": read.target, "host": host, "seconds": seen.listened_s}
+        write(lines, read.evidence, {**attempt, **asked})
     failed = sum(line.verdict == FAILED for line in lines)
     unknown = sum(line.verdict not in (FAILED, PASSED) for line in lines)
     print(f"{len(lines)} compared: {failed} failed, {unknown} unknown", flush=True)
