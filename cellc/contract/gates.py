@@ -49,7 +49,7 @@ class GateFile:
 
     __pydantic_config__: ClassVar[ConfigDict] = _READ
 
-    name: Annotated[str, Field(description="Its name; `*` stands for the time of writing.")]
+    name: Annotated[str, Field(description="Its name; `*` is the time of writing.")]
     kind: Annotated[
         Literal["notes", "observe", "bag", "first_goal", "attempt"], Field(description="Who writes it, and how.")
     ] = "notes"

@@ -369,7 +369,7 @@ def test_evidence_says_how_it_ended_and_of_which_configuration(robot: Robot, ver
     (record,) = (json.loads(file.read_text(encoding="utf-8")) for file in tmp_path.glob("*.json"))
     manifest = json.loads((package / "manifest.json").read_text(encoding="utf-8"))
     assert record["configuration_id"] == manifest["configuration_id"]
-    assert (record["cell"], record["gate"], record["joint"]) == ("ur5e_pick", "G7", _WRIST)
+    assert (record["cell"], record["joint"], record["then"]) == ("ur5e_pick", _WRIST, "end")
     assert (record["verdict"], bool(record["seen"])) == (verdict, verdict == "FAILED")
 
 

@@ -58,7 +58,7 @@ def _first_goal(by: float, seconds: float) -> str:
     )
     return (
         '<node pkg="ur5e_pick" exec="first_goal" name="first_goal" output="both" args="--then $(var then) '
-        "--joint $(var joint) --evidence $(var evidence) "
+        "--joint $(var joint) --evidence $(var evidence) --package $(find-pkg-share ur5e_pick) "
         "--action /arm_trajectory/follow_joint_trajectory --states /joint_states "
         f'--by={by} --seconds={seconds} --timeout=50.0 --absent=/task {joints}" '
         f'launch-prefix="{prove} --target real move --" '

@@ -144,7 +144,7 @@ def _mock_actions(graph: CellGraph) -> Iterator[Values]:
 
 
 def _observing(graph: CellGraph) -> Iterator[Values]:
-    """Yield where the running graph is observed: on each host, which answers for the ends that it has."""
+    """Yield where the running graph is observed: on each host, which is responsible for its own ends."""
     hosts = launch_hosts(graph.cell)
     return ((f"On {host}: ", f" --host {host}") for host in hosts) if hosts else iter((("", ""),))
 

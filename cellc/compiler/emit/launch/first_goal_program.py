@@ -7,11 +7,9 @@
 It starts only when the states of all joints are fresh and all joints are at standstill, with no motion client running.
 `end` moves the joint by BY, back, to the other side and back: four goals, within twice BY in all. A side beyond a limit
 is left out. `cancel` moves it by BY, cancels half way, prints the time from the request to standstill, and moves it
-back. A joint that leaves its way, or
-states that stop arriving, cancel the goal; so does Ctrl-C. It ends with 0 when every goal ended as requested.
-With --evidence it writes how it ended as JSON, command, state and error of each joint as CSV, and of the joint that
-moves as SVG.
-goal.launch.xml starts it, by a person's authorization, while the claims hold.
+back. A joint that leaves its way, or states that stop arriving, cancel the goal; so does Ctrl-C. It ends with 0 when
+every goal ended as requested. With --evidence it writes how it ended as JSON, command, state and error of each joint as
+CSV, and of the joint that moves as SVG. goal.launch.xml starts it, by a person's authorization, while the claims hold.
 """
 
 from __future__ import annotations
@@ -315,23 +313,20 @@ def limits_of(text: str) -> tuple[str, tuple[float, float]]:
 
 def write_evidence(samples: Sequence[Sample], arguments: argparse.Namespace, why: str) -> None:
     """Write how it ended as JSON, samples as CSV, and those of one joint as SVG; nothing that exists is replaced."""
-    joint, then, folder = arguments.joint, arguments.then, arguments.evidence
-    folder.mkdir(parents=True, exist_ok=True)
-    begun = time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
+    joint, then, begun = arguments.joint, arguments.then, time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
+    (folder := arguments.evidence).mkdir(parents=True, exist_ok=True)
     stem = f"G7-first-goal-{joint}-{then}-{begun}"
-    record = {"attempt_id": begun, **identity(arguments.package), "gate": "G7", "joint": joint, "then": then}
+    record = {"attempt_id": begun, **identity(arguments.package), "joint": joint, "then": then, "seen": why}
     with (folder / f"{stem}.json").open("x", encoding="utf-8") as file:
-        json.dump({**record, "verdict": "FAILED" if why else "PASSED", "seen": why}, file, indent=1)
-    start = samples[0].time_s if samples else 0.0
+        json.dump({**record, "verdict": "FAILED" if why else "PASSED"}, file, indent=1)
+    timed = [sample._replace(time_s=sample.time_s - samples[0].time_s) for sample in samples]
     with (folder / f"{stem}.csv").open("x", encoding="utf-8", newline="") as file:
-        table = csv.writer(file)
-        table.writerow(Sample._fields)
-        for sample in samples:
+        (table := csv.writer(file)).writerow(Sample._fields)
+        for sample in timed:
             figures = ("" if math.isnan(value) else f"{value:.6f}" for value in sample[3:])
-            table.writerow([f"{sample.time_s - start:.4f}", sample.goal, sample.joint, *figures])
-    moved = [sample._replace(time_s=sample.time_s - start) for sample in samples if sample.joint == joint]
+            table.writerow([f"{sample.time_s:.4f}", sample.goal, sample.joint, *figures])
     with (folder / f"{stem}.svg").open("x", encoding="utf-8") as file:
-        file.write(plot(moved, joint))
+        file.write(plot([sample for sample in timed if sample.joint == joint], joint))
     print(f"wrote {folder / stem}.json, .csv and .svg", flush=True)
 
 
@@ -377,7 +372,7 @@ def arguments_of(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--absent", action="append", default=[], help="node that may not run")
     parser.add_argument("--then", choices=("end", "cancel"), default="end")
     parser.add_argument("--evidence", type=Path, help="folder of the attempt")
-    parser.add_argument("--package", type=Path, help="share folder of this package, whose configuration is recorded")
+    parser.add_argument("--package", type=Path, help="share folder of this package, whose ID is recorded")
     parser.add_argument("joints", nargs="+", help="all joints of the controller, each with its limits")
     options = [*words[: words.index("--ros-args")]] if "--ros-args" in words else [*words]
     return parser.parse_args(options)
