@@ -22,6 +22,7 @@ FOLDERS = {
     "cli/compare.py": "report/test_comparison.py cli",
     "cli/diagnose.py": "cli/test_diagnose.py diagnose",
     "cli/diff.py": "review",
+    "cli/evidence.py": "evidence",
     "cli/gates.py": "mock/gates cli",
     "cli/import_.py": "foreign cli",
     "cli/init.py": "catalog/test_starter.py cli",

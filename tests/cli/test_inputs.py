@@ -97,6 +97,17 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
         (2, ROBOT),
         (2, NOT_GENERATED),
     ),
+    "evidence {} --package built": (
+        (1, "14 gates: 0 complete, 0 FAILED, 14 UNKNOWN"),
+        (2, "no such folder"),
+        (2, "is not a folder"),
+        (2, "no such folder"),
+        (2, "is not a folder"),
+        (2, "is not a folder"),
+        (1, "0 complete, 0 FAILED"),
+        (2, "is not a folder"),
+        (1, "0 complete, 0 FAILED"),
+    ),
     "format {} --check": (
         (2, "there is no cell.yaml, device.yaml or *.family.yaml below `{}`"),
         (1, NO_FILE),

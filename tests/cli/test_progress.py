@@ -33,6 +33,7 @@ LONG: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "compare": (("cell.yaml", "cell.yaml"), ("compare: linking",)),
     "diagnose": (("no goal", "cell.yaml"), ("diagnose: linking",)),
     "diff": (("cell.yaml", "minimal"), ("comparing: cell.yaml, linking", "comparing: minimal")),
+    "evidence": (("bag", "--package", "drawn"), ("evidence: reading bag",)),
     "format": (("cell.yaml",), ("format: cell.yaml",)),
     "import": (("lift.urdf",), ("import: reading the robot", "import: copying meshes", "import: rules")),
     "campaign": (("minimal", "--jobs", "1"), ("campaign: reading minimal", "campaign: run 1 of ")),

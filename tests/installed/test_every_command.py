@@ -49,6 +49,8 @@ CALLS = (
     ("mock cells --matrix ros=jazzy --cluster tcp://127.0.0.1:1", 2, CLUSTER),
     (f"attempt bag.mcap --package {BUILT}", 2, BAGS),
     ("attempt --help", 0, "print its record and the layer"),
+    (f"evidence {BUILT} --package {BUILT}", 1, "14 gates: 0 complete"),
+    ("evidence nothing", 2, "error: nothing: no such folder"),
     (f"audit {SPEC}", 0, "Cell bench."),
     ("audit nothing.yaml", 1, NO_SPEC),
     ("catalog ur5e", 0, "# `ur5e`"),

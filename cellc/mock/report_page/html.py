@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from xml.etree.ElementTree import Element, tostring
 
 from cellc.contract.diagnostics.unsafe_text import escaped_within
+from cellc.contract.store.regular_file import own_text
 
 Child = Element | str
 _NONE = "–"
@@ -69,6 +71,11 @@ def svg(width: float, height: float, label: str, *children: Child, class_: str =
     element = tag("svg", tag("title", label), *children, class_=class_, role="img")
     element.set("viewBox", f"0 0 {width:g} {height:g}")
     return element
+
+
+def style() -> str:
+    """Return the style sheet of reports."""
+    return own_text(Path(__file__).with_name("style.css"))
 
 
 def to_page(title: str, style: str, body: Element, *, policy: str = "") -> str:

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.frozen import dataclass
-from cellc.contract.store.regular_file import own_text
 from cellc.contract.vocabulary import UNKNOWN
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
 from cellc.mock.evidence.kpis import TITLES, Kpi
 from cellc.mock.gates.gate import GateCheck, GateResult, Tally, Verdict
-from cellc.mock.report_page.html import Child, cards, hint, pairs, plain, seconds, section, tag, to_page
+from cellc.mock.report_page.html import Child, cards, hint, pairs, plain, seconds, section, style, tag, to_page
 from cellc.mock.report_page.run_section import RunEvidence, run_section
 from cellc.mock.report_page.sweep_section import sweep_section, sweep_verdict
 from cellc.mock.result import simulated_s
@@ -242,7 +240,6 @@ def identity(contract: Contract) -> Element:
 
 def to_report(content: ReportContent) -> str:
     """Return the report of a call as one page; the same runs give the same bytes."""
-    style = own_text(Path(__file__).with_name("style.css"))
     runs = [run_section(number, run, content.contract) for number, run in enumerate(content.runs, start=1)]
     main = tag(
         "main",
@@ -256,7 +253,7 @@ def to_report(content: ReportContent) -> str:
         unproven(),
         _colophon(),
     )
-    return to_page(f"{content.contract.cell}: rehearsals on the mock", style, tag("body", main))
+    return to_page(f"{content.contract.cell}: rehearsals on the mock", style(), tag("body", main))
 
 
 def _colophon() -> Element:

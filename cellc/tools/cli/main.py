@@ -29,6 +29,7 @@ _COMMANDS = {
     "sweep": "Estimate success rates of rehearsals by random draws.",
     "replay": "Repeat single runs of a campaign or a sweep.",
     "gates": "Check the gates that the mock can check.",
+    "evidence": "List the evidence of the gates, what is missing and who signs.",
     "attempt": "Read the record of an attempt from its bags.",
     "view": "Write one HTML page of a cell with 3D view, rehearsals and findings.",
     "audit": "Print versions, expectations, command paths and open questions.",

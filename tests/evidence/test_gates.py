@@ -1,0 +1,282 @@
+"""What a folder of evidence says of each gate: complete, missing, failed, of others, and who signs."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.cells import generated
+from tests.cli.run import Ran, run
+from tests.evidence.attempts import JOINTS, complete, first_goal, manifest, observe
+
+PACKAGE = ("--package", generated("ur5e_pick").as_posix())
+_GATES = [f"G{number}" for number in range(8)] + [f"L{number}" for number in range(1, 7)]
+_OWN = manifest("ur5e_pick")["configuration_id"]
+_OTHER = "cfg-0123456789ab"
+
+
+@pytest.fixture(name="whole", scope="module")
+def whole_fixture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return complete(tmp_path_factory.mktemp("evidence") / "attempt-001")
+
+
+@pytest.fixture(name="folder")
+def folder_fixture(whole: Path, tmp_path: Path) -> Path:
+    """A copy to change."""
+    return Path(shutil.copytree(whole, tmp_path / "attempt-001"))
+
+
+def states(folder: Path, *words: str) -> tuple[Ran, dict[str, Any], dict[str, Any]]:
+    """Return what was printed, the report, and its gates by code."""
+    ran = run("evidence", folder.as_posix(), *PACKAGE, "--format", "json", *words)
+    report = json.loads(ran.out)
+    return ran, report, {gate["gate"]: gate for gate in report["gates"]}
+
+
+def test_all_that_the_checklists_ask_for_is_complete_and_names_who_signs(whole: Path) -> None:
+    ran, report, gates = states(whole)
+    assert ran.code == 0
+    assert (report["complete"], report["refused"], report["unread"], report["beside"]) == (True, [], [], [])
+    assert (report["cell"], report["configuration_id"]) == ("ur5e_pick", _OWN)
+    assert list(gates) == _GATES
+    signing: dict[str, str] = {}
+    for page in ("promotion", "network"):
+        text = (generated("ur5e_pick") / f"gates/{page}.md").read_text(encoding="utf-8")
+        owners = re.findall(r"Signed by: `(.+?)`\.", text)
+        signing.update(zip(re.findall(r"^## ([GL]\d) ", text, re.MULTILINE), owners, strict=True))
+    assert {code: gate["signed_by"] for code, gate in gates.items()} == signing
+    assert {gate["status"] for gate in gates.values()} == {"complete"}
+    assert [piece["attempts"] for piece in gates["G3"]["files"] if piece["kind"] == "observe"] == [["20261128T101500Z"]]
+
+
+def test_nothing_is_there(tmp_path: Path) -> None:
+    ran, _, gates = states(tmp_path)
+    assert ran.code == 1
+    assert {gate["status"] for gate in gates.values()} == {"UNKNOWN"}
+    assert gates["G3"]["missing"] == ["G3-freshness.md", "observe-G3-*.json"]
+    assert gates["G7"]["missing"] == [
+        "G7-attempt.md",
+        "G7-bag",
+        *(f"G7-first-goal-arm_{joint}_joint-end-*.json" for joint in JOINTS),
+        "G7-first-goal-arm_wrist_3_joint-cancel-*.json",
+        "G7-bag.attempt.json",
+    ]
+
+
+def test_gates_that_are_not_asked_for_count_for_nothing(folder: Path) -> None:
+    for each in folder.glob("G7-*"):
+        shutil.rmtree(each) if each.is_dir() else each.unlink()
+    assert states(folder)[0].code == 1
+    ran, _, gates = states(folder, "--gate", "L4", "--gate", "G3")
+    assert (ran.code, list(gates)) == (0, ["G3", "L4"])
+
+
+def _rewrite(place: Path, **fields: Any) -> None:
+    place.write_text(json.dumps({**json.loads(place.read_text(encoding="utf-8")), **fields}), encoding="utf-8")
+
+
+_OBSERVED = "observe-G3-20261128T101500Z.json"
+_ILL: dict[str, tuple[Callable[[Path], object], str, str, str]] = {
+    "no notes": (lambda folder: (folder / "G1-model.md").unlink(), "G1", "UNKNOWN", "missing"),
+    "empty notes": (lambda folder: (folder / "G1-model.md").write_text(" \n"), "G1", "UNKNOWN", "is empty"),
+    "notes that say FAILED": (
+        lambda folder: (folder / "G2-mock.md").write_text("passed  a: x\nFAILED  pick: timeout (expected succeeded)\n"),
+        "G2",
+        "FAILED",
+        "G2-mock.md says FAILED of pick",
+    ),
+    "notes without the configuration": (
+        lambda folder: (folder / "G0-inventory.md").write_text("uname\n"),
+        "G0",
+        "UNKNOWN",
+        f"does not have the configuration ID {_OWN}",
+    ),
+    "notes of two configurations": (
+        lambda folder: (folder / "G1-model.md").write_text(f"{_OWN} after {_OTHER}\n"),
+        "G1",
+        "UNKNOWN",
+        f"also names configuration {_OTHER}",
+    ),
+    "a short time": (lambda folder: _rewrite(folder / _OBSERVED, seconds=12.0), "G3", "UNKNOWN", "600 s must be"),
+    "no comparison": (lambda folder: _rewrite(folder / _OBSERVED, lines=[]), "G3", "UNKNOWN", "nothing was compared"),
+    "a recording that was not ended": (
+        lambda folder: (folder / "G6-bag/metadata.yaml").unlink(),
+        "G6",
+        "UNKNOWN",
+        "the recording was not ended",
+    ),
+    "a failed first goal": (
+        lambda folder: first_goal(folder, "arm_elbow_joint", "end", "FAILED", seen="out: left its way"),
+        "G7",
+        "FAILED",
+        "out: left its way",
+    ),
+    "an attempt of which nothing is known": (
+        lambda folder: _rewrite(folder / "G7-bag.attempt.json", outcome="UNKNOWN"),
+        "G7",
+        "UNKNOWN",
+        "outcome UNKNOWN",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", _ILL)
+def test_what_is_wrong_is_named_at_its_gate_alone(what: str, folder: Path) -> None:
+    spoil, code, status, said = _ILL[what]
+    spoil(folder)
+    ran, _, gates = states(folder)
+    assert ran.code == 1
+    assert {gate: each["status"] for gate, each in gates.items() if each["status"] != "complete"} == {code: status}
+    assert said in json.dumps(gates[code])
+
+
+def test_each_comparison_that_did_not_pass_is_named(folder: Path) -> None:
+    observe(folder, "ur5e_pick", "G3", at="20261128T110000Z", wrong=lambda seen: seen.nodes.append("/perception"))
+    _, _, gates = states(folder)
+    assert gates["G3"]["status"] == "FAILED"
+    (finding,) = gates["G3"]["findings"]
+    assert finding["status"] == "FAILED"
+    assert finding["text"] == "node names: /perception runs 2 times (expected: each once)"
+    assert gates["G3"]["notes"] == [f"{_OBSERVED} is an earlier run, in which 0 lines failed"]
+
+
+def test_a_newer_run_that_passes_replaces_a_failed_one_which_is_still_named(folder: Path) -> None:
+    observe(folder, "ur5e_pick", "G3", at="20261128T090000Z", wrong=lambda seen: seen.nodes.append("/perception"))
+    ran, _, gates = states(folder)
+    assert ran.code == 0
+    assert gates["G3"]["notes"] == ["observe-G3-20261128T090000Z.json is an earlier run, in which 1 line failed"]
+
+
+_FOREIGN: dict[str, tuple[Callable[[Path], object], str, str]] = {
+    "observation of another configuration": (
+        lambda folder: _rewrite(folder / _OBSERVED, configuration_id=_OTHER),
+        _OBSERVED,
+        f"is of configuration {_OTHER}, this package is {_OWN}",
+    ),
+    "observation of another cell": (
+        lambda folder: _rewrite(folder / _OBSERVED, cell="minimal"),
+        _OBSERVED,
+        "is of cell `minimal`, this package is of `ur5e_pick`",
+    ),
+    "observation of the mock": (
+        lambda folder: _rewrite(folder / _OBSERVED, target="mock"),
+        _OBSERVED,
+        "observes the mock; G3 is passed on the real target",
+    ),
+    "observation of another gate": (
+        lambda folder: _rewrite(folder / _OBSERVED, gate="L3"),
+        _OBSERVED,
+        "says to be observe-L3-20261128T101500Z.json: it was renamed",
+    ),
+    "notes of another configuration": (
+        lambda folder: (folder / "G1-model.md").write_text(f"{_OTHER}\n"),
+        "G1-model.md",
+        f"is of configuration {_OTHER}, this package is {_OWN}",
+    ),
+    "manifest of another cell": (
+        lambda folder: (folder / "G0-inventory.md").write_text('{\n  "cell": "minimal",\n}\n'),
+        "G0-inventory.md",
+        "is of cell `minimal`, this package is of `ur5e_pick`",
+    ),
+    "attempt of another configuration": (
+        lambda folder: _rewrite(folder / "G7-bag.attempt.json", configuration_id=_OTHER),
+        "G7-bag.attempt.json",
+        f"is of configuration {_OTHER}, this package is {_OWN}",
+    ),
+    "first goal of another configuration": (
+        lambda folder: first_goal(folder, "arm_elbow_joint", "end", configuration_id=_OTHER),
+        "G7-first-goal-arm_elbow_joint-end-20261128T103000Z.json",
+        f"is of configuration {_OTHER}, this package is {_OWN}",
+    ),
+    "checklist of another cell": (
+        lambda folder: shutil.copy(generated("minimal") / "gates/promotion.md", folder),
+        "promotion.md",
+        "is no copy of gates/promotion.md of this package: G0 differs",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", _FOREIGN)
+def test_evidence_of_others_is_refused_file_by_file(what: str, folder: Path) -> None:
+    spoil, path, why = _FOREIGN[what]
+    spoil(folder)
+    ran, report, _ = states(folder)
+    assert ran.code == 1
+    assert report["refused"] == [{"path": path, "why": why}]
+
+
+def test_a_first_goal_without_its_package_names_no_configuration(folder: Path) -> None:
+    place = first_goal(folder, "arm_elbow_joint", "end")
+    record = json.loads(place.read_text(encoding="utf-8"))
+    del record["cell"], record["configuration_id"]
+    place.write_text(json.dumps(record), encoding="utf-8")
+    _, _, gates = states(folder)
+    (piece,) = (each for each in gates["G7"]["files"] if each["status"] == "UNKNOWN")
+    assert piece["said"] == "names no configuration: it was started without --package"
+
+
+def test_rehearsals_that_were_kept_count_for_the_mock_gate(folder: Path) -> None:
+    runs = folder / "runs"
+    assert run("mock", generated("minimal").as_posix(), "--evidence", runs.as_posix()).code == 0
+    _, report, _ = states(folder)
+    assert [each["path"] for each in report["refused"]] == ["runs/evidence.json"]
+    of_minimal = ("--package", generated("minimal").as_posix(), "--gate", "G2", "--format", "json")
+    (folder / "G2-mock.md").write_text("passed  ready: succeeded\n", encoding="utf-8")
+    gate = json.loads(run("evidence", folder.as_posix(), *of_minimal).out)["gates"][0]
+    assert (gate["status"], gate["notes"]) == ("complete", ["1 of 1 rehearsals ended as expected: runs/evidence.json"])
+    (runs / "ready.kpis.json").write_text("{}", encoding="utf-8")
+    gate = json.loads(run("evidence", folder.as_posix(), *of_minimal).out)["gates"][0]
+    assert gate["findings"] == [
+        {"status": "UNKNOWN", "text": "runs/evidence.json: `ready.kpis.json` is not as cellc wrote it"}
+    ]
+
+
+def test_accepted_versions_are_shown_to_who_signs(folder: Path) -> None:
+    line = "2026-11-28T09:00:00Z vm accepted by Ann: arm.sdk must be ur_client_library 2.14.1, is 2.15.0"
+    (folder / "versions.txt").write_text(f"{line}\n", encoding="utf-8")
+    _, _, gates = states(folder)
+    assert gates["G0"]["notes"] == [f"versions.txt: {line}"]
+
+
+def _filled(folder: Path, code: str, *, ticked: bool, result: str = "") -> None:
+    """Fill in the checklist of one gate, and tick nothing of the others."""
+    page = (generated("ur5e_pick") / "gates/network.md").read_text(encoding="utf-8")
+    before, section = page.split(f"## {code} ")
+    section, *after = section.split("\n## ")
+    if ticked:
+        section = section.replace("- [ ]", "- [x]")
+    blank = "Result (passed or stopped): ________ Name: ________________ Date, time: ________________"
+    if result:
+        section = section.replace(blank, f"Result (passed or stopped): {result} Name: Ann Date, time: 2026-11-28 09:00")
+    (folder / "network.md").write_text(f"{before}## {code} " + "\n## ".join([section, *after]), encoding="utf-8")
+
+
+def test_a_filled_in_checklist_says_what_is_ticked_and_signed(folder: Path) -> None:
+    _filled(folder, "L2", ticked=True, result="passed")
+    ran, report, gates = states(folder)
+    assert report["refused"] == []
+    assert gates["L2"]["status"] == "complete"
+    assert gates["L2"]["page"] == "network.md: 6 of 6 lines ticked; result: passed, Ann, 2026-11-28 09:00"
+    assert gates["L3"]["status"] == "UNKNOWN"
+    assert gates["L3"]["page"] == "network.md: 0 of 3 lines ticked; result: blank"
+    (finding,) = gates["L3"]["findings"]
+    assert finding["text"] == "network.md: 3 lines not ticked: Check that every shell and node uses ROS domain 42"
+    assert gates["G0"]["page"] == ""
+    assert ran.code == 1
+
+
+def test_a_checklist_that_says_stopped_fails_its_gate(folder: Path) -> None:
+    _filled(folder, "L2", ticked=True, result="stopped")
+    assert states(folder)[2]["L2"]["status"] == "FAILED"
+
+
+def test_what_no_gate_asks_for_is_listed(folder: Path) -> None:
+    (folder / "photo.jpg").write_bytes(b"\xff\xd8")
+    ran, report, _ = states(folder)
+    assert (ran.code, report["beside"]) == (0, ["photo.jpg"])
