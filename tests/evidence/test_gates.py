@@ -271,6 +271,22 @@ def test_a_filled_in_checklist_says_what_is_ticked_and_signed(folder: Path) -> N
     assert ran.code == 1
 
 
+def test_people_may_write_behind_a_line_of_the_checklist(folder: Path) -> None:
+    _filled(folder, "L2", ticked=True)
+    page = folder / "network.md"
+    page.write_text(re.sub(r"(- \[x\] .*)", r"\1 done at 9:12", page.read_text(encoding="utf-8")), encoding="utf-8")
+    _, report, gates = states(folder)
+    assert (report["refused"], gates["L2"]["page"]) == ([], "network.md: 6 of 6 lines ticked; result: blank")
+
+
+def test_what_cannot_be_read_beside_what_can_is_named(folder: Path) -> None:
+    (folder / "observe-G3-20261128T120000Z.json").write_text("{", encoding="utf-8")
+    _, _, gates = states(folder)
+    (finding,) = gates["G3"]["findings"]
+    assert (gates["G3"]["status"], finding["status"]) == ("UNKNOWN", "UNKNOWN")
+    assert finding["text"].startswith("observe-G3-20261128T120000Z.json: is not JSON")
+
+
 def test_a_checklist_that_says_stopped_fails_its_gate(folder: Path) -> None:
     _filled(folder, "L2", ticked=True, result="stopped")
     assert states(folder)[2]["L2"]["status"] == "FAILED"

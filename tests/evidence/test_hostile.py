@@ -15,6 +15,7 @@ from tests.cli.run import run
 from tests.evidence.attempts import observe
 
 PACKAGE = ("--package", generated("ur5e_pick").as_posix())
+_RESULT = "Result (passed or stopped): "
 _OBSERVED = "observe-G4-20261128T101500Z.json"
 
 
@@ -92,6 +93,32 @@ def _own() -> str:
 def _edited(folder: Path, **fields: object) -> None:
     place = observe(folder, "ur5e_pick", "G4")
     place.write_text(json.dumps({**json.loads(place.read_text(encoding="utf-8")), **fields}), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\n" * 3_000_000,
+        " " * 3_000_000 + "x",
+        "- [ ] " + " " * 3_000_000 + "x",
+        _RESULT + " Name: " * 200_000 + " Date, time: " * 200_000,
+    ],
+    ids=["lines", "blanks", "a box", "blanks to fill in"],
+)
+def test_a_text_that_is_made_to_be_read_for_hours_is_read(text: str, tmp_path: Path) -> None:
+    (tmp_path / "network.md").write_text(f"## L1 Physical\n{text}", encoding="utf-8")
+    (tmp_path / "G0-inventory.md").write_text(text, encoding="utf-8")
+    ran = run("evidence", tmp_path.as_posix(), *PACKAGE, "--gate", "L1")
+    assert "network.md: is no copy of gates/network.md of this package: L1 differs" in ran.out
+
+
+def test_all_files_together_are_bounded(tmp_path: Path) -> None:
+    for number in range(70):
+        with (tmp_path / f"{number:02}.md").open("wb") as file:
+            file.truncate(4 * MIB)  # no byte of it is on the disk
+    ran = run("evidence", tmp_path.as_posix(), *PACKAGE, "--gate", "L1")
+    assert "69.md: exceeds what is read of a folder; " in ran.out
+    assert "63.md: exceeds" not in ran.out
 
 
 @pytest.mark.parametrize("output_format", ["text", "json", "html"])

@@ -9,10 +9,8 @@ from cellc.contract.frozen import dataclass
 
 PAGES = ("gates/promotion.md", "gates/network.md")
 _SECTION = re.compile(r"^## ([GL]\d) .*$", re.MULTILINE)
-_BOX = re.compile(r"^- \[([ xX])\] (.*?)\s*$", re.MULTILINE)
-_RESULT = re.compile(
-    r"^Result \(passed or stopped\): (.*?) Name: (.*?) Date, time: (.*?) Signature: (.*?)\s*$", re.MULTILINE
-)
+_BOX = re.compile(r"^- \[([ xX])\] ([^\n]*)$", re.MULTILINE)
+_BLANKS = ("Result (passed or stopped): ", " Name: ", " Date, time: ", " Signature: ")
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,10 +32,10 @@ class Section:
         """The lines that are not ticked."""
         return tuple(text for text, ticked in self.boxes if not ticked)
 
-    @property
-    def texts(self) -> tuple[str, ...]:
-        """The lines without what people filled in."""
-        return tuple(text for text, _ in self.boxes)
+    def is_copy_of(self, printed: Section) -> bool:
+        """Whether its lines are those that were printed, behind which people may have written something."""
+        pairs = zip(self.boxes, printed.boxes, strict=False)
+        return len(self.boxes) == len(printed.boxes) and all(own.startswith(text) for (own, _), (text, _) in pairs)
 
 
 def sections_of(page: str) -> Mapping[str, Section]:
@@ -47,9 +45,10 @@ def sections_of(page: str) -> Mapping[str, Section]:
 
 
 def _section(text: str) -> Section:
-    boxes = tuple((box[2], box[1] != " ") for box in _BOX.finditer(text))
-    result = _RESULT.search(text)
-    if result is None:
-        return Section(boxes)
-    said, name, date, _ = (each.strip(" _") for each in result.groups())
-    return Section(boxes, said, name, date)
+    boxes = tuple((box[2].strip(), box[1] != " ") for box in _BOX.finditer(text))
+    lines = (line for line in text.splitlines() if line.startswith(_BLANKS[0]))
+    filled, rest = list[str](), next(lines, "").removeprefix(_BLANKS[0])
+    for blank in _BLANKS[1:]:
+        before, _, rest = rest.partition(blank)
+        filled.append(before.strip(" _"))
+    return Section(boxes, *filled)

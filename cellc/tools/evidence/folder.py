@@ -18,6 +18,8 @@ from cellc.contract.store.regular_file import FileTooLargeError, read_regular
 
 _DEPTH = 8
 _METADATA = "metadata.yaml"
+_READ = (".json", ".md", ".txt")
+"""Ends of the names of files that are read."""
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
@@ -27,11 +29,12 @@ class EvidenceError(CellcError):
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A file, or a bag as a whole; `path` is relative to the folder, with forward slashes."""
+    """A file, or a bag as a whole; `path` is relative to the folder, with forward slashes, `size` in bytes."""
 
     path: str
     place: Path
     is_bag: bool = False
+    size: int = 0
 
     @property
     def name(self) -> str:
@@ -80,17 +83,20 @@ def listed(folder: Path, bags: Collection[str]) -> tuple[tuple[Item, ...], tuple
     """
     if not folder.is_dir():
         raise EvidenceError(f"{folder.as_posix()}: {'is not a folder' if folder.exists() else 'no such folder'}")
-    most, items, unread = limits().folder_entries, list[Item](), list[Unread]()
+    most, left, items, unread = limits().folder_entries, limits().folder_total_bytes, list[Item](), list[Unread]()
     for number, found in enumerate(_below(folder, "", bags, _DEPTH)):
         if number >= most:
             unread.append(
                 Unread(".", f"holds more than {most} files, the rest is not read; {option('folder-entries')}")
             )
             break
-        if isinstance(found, Item):
-            items.append(found)
-        else:
+        left -= found.size if isinstance(found, Item) and found.name.endswith(_READ) else 0
+        if isinstance(found, Unread):
             unread.append(found)
+        elif left < 0:
+            unread.append(Unread(found.path, f"exceeds what is read of a folder; {option('folder-total-bytes')}"))
+        else:
+            items.append(found)
     return tuple(items), tuple(unread)
 
 
@@ -108,7 +114,7 @@ def _below(folder: Path, above: str, bags: Collection[str], depth: int) -> Itera
         elif entry.is_symlink():
             yield Unread(path, "is a symbolic link, which is not followed; copy the file itself")
         elif entry.is_file(follow_symlinks=False):
-            yield Item(path, place)
+            yield Item(path, place, size=entry.stat(follow_symlinks=False).st_size)
         elif not entry.is_dir(follow_symlinks=False):
             yield Unread(path, "must be a file or a folder")
         elif entry.name in bags or os.path.lexists(place / _METADATA):

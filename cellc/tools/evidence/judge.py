@@ -29,7 +29,7 @@ def judged(gate: GateEvidence, package: Package, found: Sorted) -> GateState:
         closed = "must not be passed: nothing of the catalog moves this cell on the real target"
         return GateState(gate, (), (Finding(Status.UNKNOWN, closed),))
     pieces = tuple(_piece(file, gate, package, found) for file in gate.files)
-    findings = [*_lines(gate, package, found), *_noted(gate, package, found)]
+    findings = [*_lines(gate, package, found), *_noted(gate, package, found), *_broken(pieces, found)]
     notes = list(_earlier(gate, found))
     if gate.gate is GateCode.G0:
         notes += _deviations(found)
@@ -161,6 +161,14 @@ def _noted(gate: GateEvidence, package: Package, found: Sorted) -> Iterator[Find
             yield from (Finding(Status.UNKNOWN, f"{item.path} also names configuration {each}") for each in others)
         if gate.gate is GateCode.G0 and texts and not any(own is not None and own in text for _, text, _ in texts):
             yield Finding(Status.UNKNOWN, f"{file.name} does not have the configuration ID {own}")
+
+
+def _broken(pieces: tuple[Piece, ...], found: Sorted) -> Iterator[Finding]:
+    """Yield what cannot be read beside what can."""
+    there = dict.fromkeys(path for piece in pieces for path in piece.paths)
+    for name in dict.fromkeys(piece.file.name for piece in pieces):
+        those = (each for each in found.broken.get(name, ()) if each.path not in there)
+        yield from (Finding(Status.UNKNOWN, f"{each.path}: {each.why}") for each in those)
 
 
 def _earlier(gate: GateEvidence, found: Sorted) -> Iterator[str]:

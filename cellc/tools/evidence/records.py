@@ -13,7 +13,7 @@ from cellc.contract.frozen import dataclass
 UNKNOWN = "UNKNOWN"
 CONFIGURATION = re.compile(r"\bcfg-[0-9a-f]{12}\b")
 """An id as `manifest.json` has it, in the notes of people."""
-_CELL = re.compile(r'^\s*"cell": "([a-z][a-z0-9_]{1,63})",?\s*$', re.MULTILINE)
+_CELL = re.compile(r'^[ \t]*"cell": "([a-z][a-z0-9_]{1,63})",?[ \t]*$', re.MULTILINE)
 
 
 class _Record(BaseModel):

@@ -155,7 +155,7 @@ def _further(item: Item, package: Package, found: Sorted) -> bool:
 def _page(item: Item, package: Package, found: Sorted) -> None:
     for code, section in sections_of(item.text()).items():
         own = package.pages.get(code)
-        if own is None or section.texts != own.texts:
+        if own is None or not section.is_copy_of(own):
             found.refused.append(Unread(item.path, f"is no copy of gates/{item.name} of this package: {code} differs"))
             return
         found.pages.setdefault(code, []).append((item.path, section))
