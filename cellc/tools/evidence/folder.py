@@ -57,7 +57,7 @@ class Item:
             raise EvidenceError("must be text in UTF-8") from None
 
     def record(self, model: type[_Model]) -> _Model:
-        """Return a record in JSON; raise EvidenceError where it is none."""
+        """Return a record in JSON; raise EvidenceError where it is not one."""
         try:
             return read_json(self.text(), model)
         except FormatError as error:

@@ -32,7 +32,7 @@ def report_of(folder: Path, generated: Path, codes: Collection[GateCode] = ()) -
         codes: gates that are asked for; all of the package if empty.
 
     Raises:
-        EvidenceError: a folder is none, or the package states no evidence.
+        EvidenceError: a folder is not one, or the package states no evidence.
         MockError: the package is not as it was generated.
     """
     stage(f"reading {folder.name}")

@@ -53,7 +53,7 @@ class GateState:
 
     Attributes:
         notes: what a person should know who signs.
-        page: what a filled-in checklist says of it, in words; empty without one.
+        page: what a filled-in checklist reports of it, in words; empty without one.
     """
 
     evidence: GateEvidence
