@@ -123,3 +123,12 @@ def test_a_host_that_is_none_of_the_cell_is_refused(tmp_path: Path) -> None:
 def test_hosts_are_responsible_for_their_own_ends(part: str, subject: str, hosts: tuple[str, ...]) -> None:
     plan = ObservedTarget.model_validate(json.loads(built("fr3_hand").texts["config/observe.json"])["real"])
     assert responsible(part, subject, plan, _HOSTS) == hosts
+
+
+@pytest.mark.parametrize(("part", "hosts"), [("flow", ("planner_pc",)), ("graph", _HOSTS)])
+def test_what_arrives_is_judged_where_it_is_taken(part: str, hosts: tuple[str, ...]) -> None:
+    ends = {"/poses": {"sources": {"/camera": ""}, "sinks": {"/task": ""}}}
+    homes = {"control_pc": ["/camera"], "planner_pc": ["/task"]}
+    stated = {"nodes": ["/camera", "/task"], "hosts": homes, "inside": {}, "ends": ends, "states": {}}
+    plan = ObservedTarget.model_validate({**stated, "lifecycle": {}, "lifecycle_claimed": {}, "late_joints": []})
+    assert responsible(part, "/poses" if part == "flow" else "/poses, QoS", plan, _HOSTS) == hosts
