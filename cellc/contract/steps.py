@@ -103,7 +103,7 @@ class StepKind(Term):
     )
     SENSE = Declared(
         "sense",
-        "Wait until the sensors of a switched device tell a state.",
+        "Wait until the sensors of a switched device report a state.",
         StepTarget.SENSED,
         "Device with sensors.",
         "door",
@@ -111,7 +111,7 @@ class StepKind(Term):
     )
     CALL = Declared(
         "call",
-        "Ask a service and wait for its answer; the mock answers in place of its server.",
+        "Call a service and wait for its answer; the mock answers in place of its server.",
         StepTarget.SERVICE,
         "Service interface of the cell.",
         "/conveyor/start",
@@ -119,7 +119,7 @@ class StepKind(Term):
     WAIT = Declared("wait", "Let simulated time pass.", StepTarget.TIME, "How long.", "1 s")
     ACKNOWLEDGE = Declared(
         "acknowledge",
-        "Let a person acknowledge a stop, so that the cell may go on; without it every further goal is refused.",
+        "Let a person acknowledge a stop, so that the cell may continue; without it, every further goal is refused.",
         StepTarget.PERSON,
         "Who acknowledges.",
         "operator",

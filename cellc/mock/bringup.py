@@ -163,7 +163,7 @@ def configure(plant: Plant) -> Waiting[StageEvidence]:
         manager = plant.control.managers[name]
         for controller, declared in entry.controllers.items():
             if "mock" not in declared.targets:
-                facts.append(f"`{controller}` is left out: it is for real hardware alone")
+                facts.append(f"`{controller}` is left out: it is only for real hardware")
                 continue
             mark = LogMark(manager)
             response = manager.spawn((controller,), inactive=True)
@@ -250,7 +250,7 @@ def claim(plant: Plant, plan: PlanTaker) -> Waiting[StageEvidence]:
     for device, server in plant.control.adapters.items() if not problems else ():
         server.adapter.activate()
         client = plant.contract.adapters[device].client
-        permitted = f"`{client}` alone" if client else "no client"
+        permitted = f"only `{client}`" if client else "no client"
         facts.append(f"the adapter of `{device}` is {server.adapter.phase.value}, for {permitted}")
     if not problems:
         seen, missing = yield from plan.take(BringUpPhase.MOVE)

@@ -41,7 +41,7 @@ def refuse_not_executed(folder: GeneratedFolder) -> None:
     others = ", ".join(f"`{name}`" for name in files[1:_SHOWN])
     more = f" and {len(files) - _SHOWN} more" if len(files) > _SHOWN else ""
     also = f", as {others}{more}" if others else ""
-    reason = f"was edited or removed by hand{also}, and is not executed, so that no run would show it"
+    reason = f"was edited or removed by hand{also}, and is not executed, so no run would show it"
     raise MockError(files[0], f"{reason}; put it back, or build the folder again")
 
 

@@ -279,7 +279,7 @@ class MockCell:
         model = self._memory.model
         lines = (
             f"{len(links)} that {word}, {', '.join(f'`{link}`' for link in links[:_SHOWN])}"
-            for word, stand in (("move", False), ("stand", True))
+            for word, stand in (("move", False), ("do not move", True))
             if (links := [link for link in model.unseen if model.links.is_fixed(link) is stand])
         )
         if named := "; ".join(lines):

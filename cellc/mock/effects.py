@@ -29,7 +29,7 @@ JOG_NS = 10_000_000
 JOG_SPEED = 0.25
 """rad/s or m/s of a joint that is jogged."""
 _SILENCE = {
-    Need.PROGRAM_RUNNING: "the program of {device} does not run",
+    Need.PROGRAM_RUNNING: "the program of {device} is not running",
     Need.NO_STOP: "{device} is stopped",
     Need.NOT_PAUSED: "the program of {device} is paused",
 }
@@ -198,7 +198,9 @@ class Effects:
         if not stop.ends:
             self._deafen(device)
         if stop.motion is Motion.FALLS:
-            self.dangers.append(f"dangerous: `{device}` fell as it stopped; old joint states continue and show nothing")
+            self.dangers.append(
+                f"dangerous: `{device}` fell when it stopped; old joint states continue and do not show it"
+            )
 
     def end_stop(self, device: str, name: str, *, resumed: bool = True) -> None:
         """Let what stopped a device be over; unless a person has to act first, it goes on.
@@ -330,7 +332,8 @@ class Effects:
         if followed is None or distance <= followed:
             return False
         self.ignored[device] = (
-            f"{device} ignores a set point {distance:.4f} rad beside {joint}, it follows {followed:g} rad: {why}"
+            f"{device} ignores a set point {distance:.4f} rad away from {joint}, "
+            f"it follows at most {followed:g} rad: {why}"
         )
         return True
 

@@ -107,7 +107,7 @@ class Proofs:
             return f"no node {proof.node}"
         state = self._states.get(proof.node, _UNCONFIGURED)
         passed = ("inactive", "active") if proof.state == "inactive" else ("active",)
-        return "" if state in passed else f"{proof.node} must be {proof.state}, is {state}"
+        return "" if state in passed else f"{proof.node} must be {proof.state}, got {state}"
 
     def _controller(self, proof: ControllerProof) -> str:
         if proof.manager not in self.managers:
@@ -116,21 +116,21 @@ class Proofs:
         listed = self._plant.control.managers[self.managers[proof.manager]].list_controllers()
         state = next((state.state for state in listed if state.name == key), "not loaded")
         passed = ("inactive", "active") if proof.state == "inactive" else ("active",)
-        return "" if state in passed else f"controller {proof.controller} must be {proof.state}, is {state}"
+        return "" if state in passed else f"controller {proof.controller} must be {proof.state}, got {state}"
 
     def _hardware(self, proof: HardwareProof) -> str:
         if proof.manager not in self.managers:
             return f"no manager {proof.manager}"
         listed = self._plant.control.managers[self.managers[proof.manager]].list_hardware_components()
         state = next((state.state for state in listed if state.name == proof.component), "not there")
-        return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
+        return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, got {state}"
 
     def _topic(self, proof: TopicProof) -> str:
         interface = self._plant.contract.interfaces.get(proof.topic)
         if interface is None or interface.kind != "topic" or not interface.sources:
             return f"no message on {proof.topic}"
         if interface.type != proof.type:
-            return f"{proof.topic} must be {proof.type}, is {interface.type}"
+            return f"{proof.topic} must be {proof.type}, got {interface.type}"
         heard = {source.node for source in interface.sources} & self._heard()
         return "" if interface.type != JOINT_STATE_TYPE or heard else f"no message on {proof.topic}"
 
@@ -141,7 +141,7 @@ class Proofs:
     def _action(self, proof: ActionProof) -> str:
         interface = self._plant.contract.interfaces.get(proof.action)
         served = interface is not None and interface.kind == "action" and bool(interface.sources)
-        return "" if served else f"no server of {proof.action}"
+        return "" if served else f"no server for {proof.action}"
 
     def _connected(self, frame: str) -> set[str]:
         """Return a frame and those above it, as far as transforms have arrived."""
@@ -165,4 +165,4 @@ class Proofs:
         foreign = ", ".join(sorted(self._plugins - set(proof.plugins)))
         if self._plugins and not foreign:
             return ""
-        return f"{proof.node} must describe the mock alone, has {foreign or 'no hardware'}"
+        return f"{proof.node} must describe only the mock, got {foreign or 'no hardware'}"

@@ -201,7 +201,7 @@ def test_one_cell_named_twice_is_no_fault(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("init", "Bench", "ur5e"), "`Bench` is no package name"),
+        (("init", "Bench", "ur5e"), "`Bench` is not a package name"),
         (("init", "bench"), "name at least one model"),
         (("init", "bench", "arm=ur5e", "arm=ur5e"), "two devices have the name `arm`"),
         (("init", "bench", "ur5e", "--ros", "foxy"), "foxy"),

@@ -367,7 +367,7 @@ def test_ur_is_claimed_while_its_program_runs_and_the_person_acknowledges_for_it
     activated_by_people(graph, tmp_path)
     graph.messages[_RUNNING] = SimpleNamespace(data=False)
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
-    assert "/arm_io/robot_program_running must be True, is False" in capsys.readouterr().err
+    assert "/arm_io/robot_program_running must be True, got False" in capsys.readouterr().err
     graph.messages[_RUNNING] = SimpleNamespace(data=True)
     assert run(graph, tmp_path, "--target", "real", "claim") == 0
     assert graph.log[-4:] == ["acknowledge arm", "activate arm_trajectory", "activate gripper_action", "leave"]
@@ -419,7 +419,7 @@ def test_claims_that_hold_are_not_called_done_while_the_robot_is_deaf(
     run(graph, tmp_path, "--target", "real", "claim")
     graph.messages[_RUNNING] = SimpleNamespace(data=False)
     assert run(graph, tmp_path, "--target", "real", "claim", wait_s=0.05) == 1
-    assert "robot_program_running must be True, is False" in capsys.readouterr().err
+    assert "robot_program_running must be True, got False" in capsys.readouterr().err
 
 
 def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Path) -> None:
@@ -431,8 +431,8 @@ def test_processes_that_come_up_late_are_waited_for(graph: StandIn, tmp_path: Pa
 @pytest.mark.parametrize(
     ("kind", "said"),
     [
-        ("spawner", "controller joint_states must be inactive, is not loaded"),
-        ("hardware", "hardware arm_hardware must be active, is inactive"),
+        ("spawner", "controller joint_states must be inactive, got not loaded"),
+        ("hardware", "hardware arm_hardware must be active, got inactive"),
         ("transform", "no transform from arm_base_link to tcp"),
         ("states", "no message on /joint_states"),
         ("refusal", "/perception refused to configure"),
@@ -482,14 +482,14 @@ def test_mover_waits_for_its_claims(graph: StandIn, tmp_path: Path, capfd: pytes
     assert run(graph, tmp_path, "--target", "real", "move", "--", "echo", "it moves", wait_s=0.05) == 1
     said = capfd.readouterr()
     assert "it moves" not in said.out
-    assert "controller arm_trajectory must be active, is inactive" in said.err
+    assert "controller arm_trajectory must be active, got inactive" in said.err
 
 
 def test_mover_does_not_survive_its_claims(graph: StandIn, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     claimed(graph, tmp_path)
     graph.on_spin = lambda times: graph.controllers.update(arm_trajectory="inactive")
     assert run(graph, tmp_path, "--target", "real", "move", "--", sys.executable, "-c", _ENDLESS) == 1
-    assert "stopped: controller arm_trajectory must be active, is inactive" in capfd.readouterr().err
+    assert "stopped: controller arm_trajectory must be active, got inactive" in capfd.readouterr().err
 
 
 def test_mover_does_not_survive_a_managed_node(
@@ -499,16 +499,16 @@ def test_mover_does_not_survive_a_managed_node(
     claimed(graph, tmp_path)
     graph.on_spin = lambda times: graph.nodes_.update({"/perception": "inactive"})
     assert run(graph, tmp_path, "--target", "real", "move", "--", sys.executable, "-c", _ENDLESS) == 1
-    assert "stopped: /perception must be active, is inactive" in capfd.readouterr().err
+    assert "stopped: /perception must be active, got inactive" in capfd.readouterr().err
 
 
 @pytest.mark.parametrize(
     ("topic", "message", "said"),
     [
-        ("/arm_io/safety_mode", SimpleNamespace(mode=5), "/arm_io/safety_mode must be 1 or 2, is 5"),
-        (_SPEED, SimpleNamespace(data=0.0), "/arm_speed/speed_scaling must be above 0, is 0.0"),
-        ("/arm_io/robot_mode", SimpleNamespace(mode=3), "/arm_io/robot_mode must be 7, is 3"),
-        (_RUNNING, SimpleNamespace(data=False), "/arm_io/robot_program_running must be True, is False"),
+        ("/arm_io/safety_mode", SimpleNamespace(mode=5), "/arm_io/safety_mode must be 1 or 2, got 5"),
+        (_SPEED, SimpleNamespace(data=0.0), "/arm_speed/speed_scaling must be above 0, got 0.0"),
+        ("/arm_io/robot_mode", SimpleNamespace(mode=3), "/arm_io/robot_mode must be 7, got 3"),
+        (_RUNNING, SimpleNamespace(data=False), "/arm_io/robot_program_running must be True, got False"),
     ],
 )
 def test_mover_does_not_survive_a_stop_that_is_over_before_anybody_looks(

@@ -222,7 +222,7 @@ def test_one_joint_moves_to_both_sides_within_what_the_spec_allows_and_every_oth
     assert robot.positions == pytest.approx(_START)
 
 
-def test_a_canceled_goal_ends_half_way_and_the_joint_moves_back(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_canceled_goal_ends_halfway_and_the_joint_moves_back(capsys: pytest.CaptureFixture[str]) -> None:
     robot = Robot()
     assert _run(robot, _words(then="cancel")) == 0
     assert [goal[_WRIST] - _START[_WRIST] for goal in robot.goals] == pytest.approx([_HALF, 0.0])
@@ -234,7 +234,7 @@ def test_a_canceled_goal_ends_half_way_and_the_joint_moves_back(capsys: pytest.C
     assert robot.positions == pytest.approx(_START)
 
 
-def test_a_robot_at_a_tenth_of_its_speed_ends_every_goal_and_is_canceled_half_way() -> None:
+def test_a_robot_at_a_tenth_of_its_speed_ends_every_goal_and_is_canceled_halfway() -> None:
     robot = Robot(speed=0.1)
     assert _run(robot, _words()) == 0
     assert len(robot.goals) == 4
@@ -251,7 +251,7 @@ def test_joint_at_a_limit_moves_to_its_open_side_alone(
         robot = Robot(positions=_START | {_WRIST: at})
         assert _run(robot, _words(then=then)) == 0
         assert [goal[_WRIST] - at for goal in robot.goals] == pytest.approx([side * _HALF, 0.0])
-        assert f"only the side of {open_side} is open" in capsys.readouterr().out
+        assert f"moving only to the {open_side} side" in capsys.readouterr().out
 
 
 def test_a_joint_without_limits_may_be_reported_a_turn_away() -> None:
@@ -278,7 +278,7 @@ def test_joint_without_an_open_side_is_refused(capsys: pytest.CaptureFixture[str
     robot = Robot()
     assert _run(robot, words) == 1
     assert robot.goals == []
-    assert "closer than 0.0436 to its limits 0.08 0.12" in capsys.readouterr().err
+    assert "closer than 0.0436 to one of its limits 0.08 and 0.12" in capsys.readouterr().err
 
 
 def test_goal_is_no_faster_than_the_first_motion_of_the_spec() -> None:
@@ -292,8 +292,8 @@ def test_goal_is_no_faster_than_the_first_motion_of_the_spec() -> None:
 @pytest.mark.parametrize(
     ("robot", "expected"),
     [
-        (Robot(there=["/move_group", "/task"]), "end /task first"),
-        (Robot(served=False), "no server of /arm_trajectory/follow_joint_trajectory"),
+        (Robot(there=["/move_group", "/task"]), "stop /task first"),
+        (Robot(served=False), "no server for /arm_trajectory/follow_joint_trajectory"),
         (Robot(states=False), "no state of arm_elbow_joint, arm_shoulder_lift_joint"),
         (Robot(positions={"arm_elbow_joint": 1.4}), "no state of arm_shoulder_lift_joint"),
         (Robot(age_s=0.7), "stamps on /joint_states are 0.70 s old"),
@@ -389,7 +389,7 @@ def test_joint_of_another_device_is_refused(capsys: pytest.CaptureFixture[str]) 
     words = [word.replace(_WRIST, "finger") if word == _WRIST else word for word in _words()]
     robot = Robot()
     assert _run(robot, words) == 1
-    assert "finger is no joint of /arm_trajectory" in capsys.readouterr().err
+    assert "finger is not a joint of /arm_trajectory" in capsys.readouterr().err
     assert robot.goals == []
 
 

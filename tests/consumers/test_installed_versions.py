@@ -66,7 +66,7 @@ def test_commit_is_read_in_the_source_beside_the_installation(tmp_path: Path, wo
     assert _compare(tmp_path, {"gripper.driver": "robotiq_driver 3b6cf8f"}, **there)[0] == 0
     code, said = _compare(tmp_path, {"gripper.driver": "robotiq_driver a29c69b"}, **there)
     assert code == 1
-    assert f"gripper.driver must be robotiq_driver a29c69b, is {_COMMIT}" in said
+    assert f"gripper.driver must be robotiq_driver a29c69b, got {_COMMIT}" in said
 
 
 def test_commit_without_a_source_is_told_as_not_provable_and_stops_nothing(tmp_path: Path, workspace: Path) -> None:
@@ -86,9 +86,9 @@ def test_number_of_a_package_distribution_and_middleware_are_told_with_both_figu
     env = {"AMENT_PREFIX_PATH": _prefix(workspace), "ROS_DISTRO": "humble", "RMW_IMPLEMENTATION": "rmw_zenoh_cpp"}
     code, said = _compare(tmp_path, pinned, **env)
     assert code == 1
-    assert "gripper.driver must be robotiq_driver 0.0.2, is 0.0.1" in said
-    assert "ros must be jazzy, is humble" in said
-    assert "rmw must be rmw_fastrtps_cpp 8.4.4, is rmw_zenoh_cpp in RMW_IMPLEMENTATION" in said
+    assert "gripper.driver must be robotiq_driver 0.0.2, got 0.0.1" in said
+    assert "ros must be jazzy, got humble" in said
+    assert "rmw must be rmw_fastrtps_cpp 8.4.4, got rmw_zenoh_cpp in RMW_IMPLEMENTATION" in said
     assert 'CELL_ACCEPT_VERSIONS: "gripper.driver: NAME; ros: NAME; rmw: NAME"' in said
 
 
@@ -102,8 +102,8 @@ def test_person_accepts_each_part_by_name_and_the_record_has_both(tmp_path: Path
     assert (code, "set E to the folder of the attempt" in said) == (1, True)
     assert _compare(tmp_path, pinned, shown, **env, CELL_ACCEPT_VERSIONS=both, E=str(tmp_path))[0] == 0
     first, second = (tmp_path / "versions.txt").read_text(encoding="utf-8").splitlines()
-    assert first.endswith(" accepted by Ada: ros must be jazzy, is humble")
-    assert " accepted by Ben: kernel must be 6.1, is " in second
+    assert first.endswith(" accepted by Ada: ros must be jazzy, got humble")
+    assert " accepted by Ben: kernel must be 6.1, got " in second
     for nobody in ("yes", "ros", "ros:", "ros: ; kernel: "):
         assert _compare(tmp_path, pinned, shown, **env, CELL_ACCEPT_VERSIONS=nobody, E=str(tmp_path))[0] == 1
 
@@ -116,7 +116,7 @@ def test_library_of_a_debian_package_is_compared_without_epoch_and_revision(tmp_
     shown, path = {"left.sdk": "debian:libopenarm-can-dev"}, f"{query.parent}:/usr/bin:/bin"
     assert _compare(tmp_path, {"left.sdk": "openarm_can 1.2.9"}, shown, PATH=path)[0] == 0
     code, said = _compare(tmp_path, {"left.sdk": "openarm_can 1.3.0"}, shown, PATH=path)
-    assert (code, "left.sdk must be openarm_can 1.3.0, is 1.2.9" in said) == (1, True)
+    assert (code, "left.sdk must be openarm_can 1.3.0, got 1.2.9" in said) == (1, True)
 
 
 @pytest.mark.parametrize("cell", EVERY_CELL)

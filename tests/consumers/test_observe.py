@@ -293,7 +293,7 @@ _WRONGS: dict[str, tuple[Callable[[Seen], object], str, str]] = {
     "no number": (
         lambda seen: seen.streams[_STATES].take_joints(["arm_elbow_joint"], [math.nan]),
         "joint states",
-        "a position is no number",
+        "a position is not a number",
     ),
     "a joint moves": (
         lambda seen: seen.streams[_STATES].take_joints(["arm_elbow_joint"], [0.01]),

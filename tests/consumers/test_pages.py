@@ -117,7 +117,7 @@ def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str)
     wanted: list[str] = []
     limits: list[str] = []
     if dropping := [name for name, one in written(cell)["devices"].items() if _drops_as_its_driver_ends(one["model"])]:
-        wanted.append(f"1. Make sure that nothing which {' and '.join(dropping)} may hold can fall on a person")
+        wanted.append(f"1. Make sure that nothing that {' and '.join(dropping)} may hold can fall on a person")
     for device, one in written(cell)["devices"].items():
         facts, by = catalog_facts(one["model"]), _driven_by(one)
         assert one.get("program", {"mode": "local"})["mode"] == "local"  # of these cells each is started at the pendant
@@ -129,7 +129,7 @@ def test_audit_has_the_way_back_that_the_catalogue_knows(cell: str, distro: str)
         limits += [f": {limit}" for limit in facts.get("mock_cannot_prove", ())]
         limits += [pair["because"] for pair in facts.get("allowed_collisions", ())]
         limits += [": its adapter - no launch file starts it on the mock"] if by == "adapter" else []
-    limits += [] if written(cell).get("scene") else ["planned paths may pass through table and fence"]
+    limits += [] if written(cell).get("scene") else ["planned paths may pass through a table or fence"]
     assert [line for line in text.splitlines() if re.match(r"\d+\. |\w+, \w+:$", line)] == wanted
     proof = build(cell, distro).texts["audit.md"].split("\n## What the mock cannot prove\n")[1]
     assert len([line for line in proof.splitlines() if line.startswith("- ")]) == len(limits)
@@ -161,10 +161,10 @@ def test_confirmations_say_what_a_person_states_by_them(cell: str, distro: str) 
     stated = {
         "authorizes the hardware launch. Gates G0 to G2 have their evidence. The drives are in the state that "
         "gate G3 names.",
-        "authorizes hardware that moves on activation. Gates G0 to G4 have their evidence. No person is in reach. "
-        "Nothing is held. No program of the robot is running.",
-        "authorizes claims on real hardware. Gates G0 to G6 have their evidence. The robot accepts commands as its "
-        "vendor says. Jogging has ended.",
+        "authorizes hardware that moves on activation. Gates G0 to G4 have their evidence. No person is within "
+        "reach. Nothing is held. No robot program is running.",
+        "authorizes claims on real hardware. Gates G0 to G6 have their evidence. The robot accepts commands, as its "
+        "vendor describes. Jogging has ended.",
         "authorizes motion on real hardware. Gates G0 to G6 have their evidence. The observer is at the stop.",
         "sends the first goal to real hardware. Gates G0 to G6 have their evidence. Claims are authorized. The speed "
         "is low. The observer is at the stop.",

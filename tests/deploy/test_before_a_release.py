@@ -18,7 +18,7 @@ def test_each_device_that_its_activation_moves_is_confirmed_by_hand_before_any_o
     gate = _gate(cell, "G5")
     released = gate.index("Authorize hardware that moves on activation")
     for device in devices:
-        assert 0 < gate.index(f"that {device} is near the position that its activation moves it to") < released
+        assert 0 < gate.index(f"that {device} is near the position to which activation moves it") < released
 
 
 @pytest.mark.parametrize(

@@ -109,13 +109,13 @@ def test_robot_listens_before_it_is_claimed_and_is_claimed_before_anything_asks_
 def test_one_small_goal_ends_before_the_application_is_started(distro: str) -> None:
     # The application picks, grips and places at once: a person cannot follow that as the first motion.
     lines = _gates("ur5e_pick", distro)["G7"]
-    small = _place(lines, "Move one joint after another by small goals")
+    small = _place(lines, "Move the joints one at a time with small goals")
     assert _place(lines, "Authorize the claims") < small < _place(lines, "Authorize the motion clients")
 
 
 def test_load_is_read_back_before_the_brakes_open_and_a_robot_is_local_before_its_driver_starts() -> None:
     gates = _gates("ur5e_pick", "jazzy")
-    assert _place(gates["G5"], "read them back there") < _place(gates["G5"], "release the brakes")
+    assert _place(gates["G5"], "read both back there") < _place(gates["G5"], "release the brakes")
     assert _place(gates["G3"], "shows LOCAL") < _place(gates["G3"], "Authorize the hardware launch")
     assert _place(gates["G4"], "shows LOCAL") < _place(gates["G4"], "Authorize the hardware launch")
 

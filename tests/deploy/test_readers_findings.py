@@ -36,7 +36,13 @@ def _in_order(text: str, *words: str) -> bool:
 def test_a_driver_that_commands_from_its_start_on_is_started_after_the_test_of_the_stop() -> None:
     # kortex_driver/src/hardware_interface.cpp:211: loaded, it clears faults and takes low-level control.
     gates = _gates("gen3_2f")
-    before = ("Place the observer", "With its power off", "trip the stop", "power the drives again", "Payload of arm")
+    before = (
+        "Place the observer",
+        "With the power of the",
+        "trip the stop",
+        "power the drives again",
+        "Payload of arm",
+    )
     assert _in_order(gates["G3"], *before, "Complete layers L1", "launch gen3_2f cell.launch.xml")
     assert "trip the stop" not in gates["G5"]
     assert not [code for code in ("G3", "G4") if "rives disabled" in gates[code]]
@@ -62,7 +68,7 @@ def test_an_axis_is_homed_after_the_stop_was_tested_and_again_after_its_power_wa
         "home it again",
     )
     assert _in_order(_driven_rail(tmp_path)["G5"], *order)
-    assert "UNKNOWN: time and distance of a stop of rail" in _driven_rail(tmp_path)["G5"]
+    assert "UNKNOWN: stopping time and stopping distance of rail" in _driven_rail(tmp_path)["G5"]
 
 
 def test_gates_of_a_closed_real_target_have_one_line_and_no_command() -> None:
@@ -70,7 +76,7 @@ def test_gates_of_a_closed_real_target_have_one_line_and_no_command() -> None:
     gates = _gates("rail_arm")
     for code in ("G3", "G4", "G5", "G6", "G7"):
         assert len(re.findall(r"^- \[ \]", gates[code], re.MULTILINE)) == 1
-        assert "The real target is closed, because nothing in the catalog moves rail_carriage_joint" in gates[code]
+        assert "The real target is closed, because no plugin in the catalog moves rail_carriage_joint" in gates[code]
         assert "```" not in gates[code]
     assert "cellc mock generated/rail_arm" in gates["G2"]
 
@@ -105,7 +111,7 @@ def test_a_state_that_no_topic_reports_is_looked_for_at_the_device(cell: str) ->
         safety = device_of(device.model).model.safety
         for state in () if safety is None else safety.states:
             if state.stops and state.seen is not None:
-                assert f"Check at {device.name} that it is not in state {state.name}, which no topic reports" in text
+                assert f"At {device.name}, check that it is not in state {state.name}, which no topic reports" in text
                 assert f"({state.seen})" not in reported
 
 
@@ -119,10 +125,10 @@ def test_no_sentence_of_a_checklist_has_more_than_25_words(cell: str) -> None:
 
 def test_a_drill_that_restarts_hardware_activates_what_a_person_activated() -> None:
     again = "as in G4, and repeat the activation of"
-    assert f"Start it again {again} left and right in G5 with its checks." in _gates("openarm_bimanual")["G5"]
-    assert "Start it again as in G4, with the drives as they are." in _gates("fr3_hand")["G5"]
+    assert f"Start the launch again {again} left and right in G5 with its checks." in _gates("openarm_bimanual")["G5"]
+    assert "Start the launch again as in G4, with the drives as they are." in _gates("fr3_hand")["G5"]
     # A gripper that its person has not activated yet needs no second activation, and every later restart needs one.
-    assert _in_order(_gates("ur5e_pick")["G5"], "Start it again as in G4, with", "launch ur5e_pick activate.launch.xml")
+    assert _in_order(_gates("ur5e_pick")["G5"], "Start the launch again as", "launch ur5e_pick activate.launch.xml")
     assert f"Start the cell again {again} gripper in G5 with its checks." in _gates("hybrid_sdk")["G6"]
 
 
@@ -175,7 +181,7 @@ def test_a_gripper_gets_its_first_goal_when_it_is_claimed() -> None:
     assert _in_order(_gates("ur5e_pick")["G7"], claim, "Keep all hands clear. Send two goals", "fingers of gripper")
     hand = _gates("fr3_hand")["G7"]
     # fr3_hand states `grip: {force: 20 N}`; the goal of a GripperCommand carries it.
-    assert _in_order(hand, claim, "Send two goals", "max_effort 20 N: position 0.02 m, then 0.036 m")
+    assert _in_order(hand, claim, "Send two goals", "position 0.02 m, then position 0.036 m. Set max_effort to 20 N.")
 
 
 @pytest.mark.parametrize("cell", _WALKED)
@@ -224,7 +230,7 @@ def test_each_motor_of_an_openarm_has_its_own_firmware(motor: str, firmware: str
     assert f"{firmware} on a {motor}" in gates["G5"].replace("\n", " ")
     # A motor answers with its 24 V on, which G0 does not have.
     assert "firmware" not in gates["G0"]
-    assert _in_order(gates["G5"], "Switch its 24 V on", "trip the stop", "Read left.firmware at the device")
+    assert _in_order(gates["G5"], "Switch its 24 V supply on", "trip the stop", "Read left.firmware at the device")
 
 
 def test_a_repeated_gate_gets_an_evidence_folder_of_its_own() -> None:
@@ -237,8 +243,8 @@ def test_a_repeated_gate_gets_an_evidence_folder_of_its_own() -> None:
 def test_stopping_distance_is_read_where_it_is_published_and_unknown_elsewhere(cell: str) -> None:
     text = "".join(_gates(cell).values())
     published = cell == "ur5e_pick"  # UR5e Hardware Manual (2022), p. 65; no other source was found
-    assert ("Read time and distance of a stop of arm" in text) is published
-    assert ("UNKNOWN: time and distance of a stop of" in text) is not published
+    assert ("Look up the stopping time and the stopping distance of arm" in text) is published
+    assert ("UNKNOWN: stopping time and stopping distance of" in text) is not published
 
 
 @pytest.mark.parametrize("cell", sorted(set(EVERY_CELL) - {"rail_arm"}))
@@ -256,7 +262,7 @@ def test_no_stage_runs_at_the_low_speed_of_the_first_goals(cell: str) -> None:
     for stage in re.findall(r"Stage \d+ %[^\n]*", _gates(cell)["G7"]):
         if "Check that" in stage:
             assert "Set the speed slider of" in stage
-            assert "to 100 %, because the cap alone limits the stage" in stage
+            assert "to 100 %, so that only the cap limits the speed" in stage
 
 
 def test_description_with_a_login_is_parsed_without_it_and_not_recorded() -> None:
@@ -280,7 +286,7 @@ def test_arms_that_fall_are_supported_before_any_launch_is_stopped(cell: str) ->
     lost = built(cell).texts["audit.md"].split("\n## After a crash")[1].split("\n## ")[0]
     for text in (recovery, lost):
         assert ("place a stand just below each of left and right" in text) == (cell == "openarm_bimanual")
-        assert ("which gripper may hold" in text) == (
+        assert ("that gripper may hold" in text) == (
             "robotiq_driver/" in built(cell).texts["urdf/" + f"{cell}.real.urdf"]
         )
     assert "Power off at the teach pendant" in lost or "ur" not in cell

@@ -151,7 +151,7 @@ def test_audit_says_the_whole_rate_of_transforms_and_of_what_is_latched() -> Non
 def test_audit_says_where_the_planner_knows_nothing_around_the_devices(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick")
     scene = text[text.index("scene:\n") : text.index("nodes:\n")]
-    told = "`scene` is empty, so planned paths may pass through table and fence"
+    told = "`scene` is empty, so planned paths may pass through a table or fence"
     assert told in emitted(tmp_path, text.replace(scene, ""))["audit.md"]
     assert told not in artifacts_of("ur5e_pick")["audit.md"]
 

@@ -96,11 +96,11 @@ def test_caps_of_a_cell_are_in_its_files_its_contract_and_its_gates(tmp_path: Pa
     gates = texts["gates/promotion.md"]
     assert "Stage 20 % of commissioning" in gates
     assert "Stage 100 %: Start only if the previous stage is signed and ran without a stop" in gates
-    assert "at most those of RA-017 rev 2: tool speed 500 mm/s" in gates
+    assert "do not exceed those of RA-017 rev 2: tool speed 500 mm/s" in gates
     audit = texts["audit.md"]
     assert "| 20 % | manipulator 0.1 m/s | 0.05 m/s |" in audit
     assert "Reach 0.9 m: poses and goals are checked." in audit
-    assert "Not capped: a goal that a client sends to /arm_trajectory/follow_joint_trajectory itself" in audit
+    assert "Not capped: a goal that a client sends directly to /arm_trajectory/follow_joint_trajectory" in audit
 
 
 def test_cell_without_a_planner_has_no_stage() -> None:

@@ -37,9 +37,9 @@ def test_a_person_looks_at_what_is_signed_for_before_the_mock_starts(file: str, 
     lines = [line for line in section.splitlines() if "touches no hardware" in line]
     assert [line.startswith("- [ ] ") for line in lines] == [True, True]
     assert "`bare_arm_simulation/Hardware`" in lines[0]
-    assert "Ada of controls, 2026-07-01" in lines[0]
+    assert "Ada of controls, dated 2026-07-01" in lines[0]
     assert "`bare_arm_driver/status`" in lines[1]
-    assert "Ben of drivers, 2026-07-02" in lines[1]
+    assert "Ben of drivers, dated 2026-07-02" in lines[1]
     assert section.index(lines[1]) < section.index("```sh")
 
 
@@ -48,8 +48,8 @@ def test_audit_says_what_rests_on_a_statement(cell: Compiled) -> None:
     said = [line for line in proof.splitlines() if "touches no hardware" in line]
     assert [line.partition(":")[0] for line in said] == ["- one", "- two"]
     assert [line.rpartition(" of ")[2] for line in said] == [
-        "controls alone, 2026-07-01",
-        "drivers alone, 2026-07-02",
+        "controls, 2026-07-01",
+        "drivers, 2026-07-02",
     ]
 
 

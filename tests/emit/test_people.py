@@ -120,11 +120,11 @@ def test_no_tool_of_ros_is_waited_for_without_end(page: str, cell: str) -> None:
 
 
 def test_each_action_that_promises_how_soon_a_cancel_holds_has_the_command_that_cancels_it() -> None:
-    gate = artifacts_of("ur5e_pick")["gates/promotion.md"].split("\n## G7")[1]
+    gate = artifacts_of("ur5e_pick")["gates/promotion.md"].split("\n## G7")[1].replace("\\", "")
     # The first goals cancel at the controller; nothing else sends it a goal.
     assert [found[1] for found in _CANCEL.finditer(gate)] == ["/move_action"]
-    assert "UNKNOWN: whether a cancel of `/gripper_action/gripper_cmd` holds within 0.2 s" in gate.replace("\\", "")
-    assert "The printed time is from the request to standstill. It must be at most 0.2 s." in gate
+    assert "UNKNOWN: whether a canceled goal of `/gripper_action/gripper_cmd` holds within 0.2 s" in gate
+    assert "The printed time runs from the request to standstill. It must be at most 0.2 s." in gate
     assert "then:=cancel" in gate
     assert not _CANCEL.search(artifacts_of("ur5e_pick")["gates/promotion.md"].split("\n## G7")[0])
 

@@ -90,7 +90,7 @@ def test_the_checklist_of_the_mock_asks_for_the_sweep_of_each_rate_that_is_expec
         for cell in ("ur5e_pick", "minimal")
     }
     asked = (
-        "generated/ur5e_pick --sweep 10000`. pick_and_place must succeed in at least 0.99 of its runs with confidence"
+        "generated/ur5e_pick --sweep 10000`. pick_and_place must succeed in at least 99 % of its runs, with confidence"
     )
     assert asked in sections["ur5e_pick"].split("\n## ")[0]
     assert "--sweep" not in sections["minimal"].split("\n## ")[0]

@@ -66,7 +66,7 @@ def test_difference_is_told_with_its_figures(tmp_path: Path) -> None:
     ]
     # 210 mm instead of 200 mm, 12 N m instead of 10 N m.
     assert "`arm_arm` is 10 mm off" in found.message
-    assert "effort of `arm_turn` is 10, and 12 there" in found.message
+    assert "effort of `arm_turn` is 10 here and 12 there" in found.message
 
 
 @pytest.mark.parametrize("name", ["vendored_arm", "unread_arm"])

@@ -28,7 +28,7 @@ def test_object_pose_that_does_not_reach_the_task_ends_in_stale_state(edit_contr
     result = with_best_effort(edit_contract, "/object_pose", "perception")
     assert result.outcome == "stale_state"
     assert result.attempts[-2].fault_code == (
-        "no observation of object has arrived; no pose of `perception` has reached `task`"
+        "no observation of object has arrived; no pose from `perception` has reached `task`"
     )
     assert result.findings == (
         "`/object_pose` from `perception` to `task` is not connected: "

@@ -69,31 +69,31 @@ def test_claim_that_differs_from_the_contract_is_a_problem(folder: Path) -> None
 NEVER: list[tuple[str, dict[str, Any], str]] = [
     ("node", {"node": "/nobody"}, "no node /nobody"),
     ("lifecycle", {"node": "/nobody", "state": "active"}, "no node /nobody"),
-    ("lifecycle", {"node": "/task", "state": "active"}, "/task must be active, is unconfigured"),
+    ("lifecycle", {"node": "/task", "state": "active"}, "/task must be active, got unconfigured"),
     ("controller", {"manager": "/nobody", "controller": "arm_io", "state": "active"}, "no manager /nobody"),
     (
         "controller",
         {"manager": "/controller_manager", "controller": "nobody", "state": "active"},
-        "controller nobody must be active, is not loaded",
+        "controller nobody must be active, got not loaded",
     ),
     (
         "hardware",
         {"manager": "/controller_manager", "component": "arm_hardware", "state": "inactive"},
-        "hardware arm_hardware must be inactive, is active",
+        "hardware arm_hardware must be inactive, got active",
     ),
     ("topic", {"topic": "/x", "type": "std_msgs/msg/Bool"}, "no message on /x"),
     (
         "topic",
         {"topic": "/joint_states", "type": "std_msgs/msg/Bool"},
-        "/joint_states must be std_msgs/msg/Bool, is sensor_msgs/msg/JointState",
+        "/joint_states must be std_msgs/msg/Bool, got sensor_msgs/msg/JointState",
     ),
-    ("action", {"action": "/object_pose"}, "no server of /object_pose"),
+    ("action", {"action": "/object_pose"}, "no server for /object_pose"),
     ("transform", {"parent": "world", "child": "nobody"}, "no transform from world to nobody"),
     ("mock", {"node": "/nobody", "plugins": ["mock_components/GenericSystem"]}, "no node /nobody with a description"),
     (
         "mock",
         {"node": "/robot_state_publisher", "plugins": []},
-        "/robot_state_publisher must describe the mock alone, has mock_components/GenericSystem",
+        "/robot_state_publisher must describe only the mock, got mock_components/GenericSystem",
     ),
 ]
 
@@ -135,7 +135,7 @@ def test_steps_in_another_order_do_not_find_their_proof(folder: Path) -> None:
     plan["mock"].insert(0, plan["mock"].pop([one["name"] for one in plan["mock"]].index("activate_perception")))
     file.write_text(json.dumps(plan))
     told = problems(load(folder, edited=True).run("pick_and_place"))
-    assert told == "step `activate_perception`: /perception must be inactive, is unconfigured"
+    assert told == "step `activate_perception`: /perception must be inactive, got unconfigured"
 
 
 def test_a_deadline_that_is_too_short_for_its_effect_fails(folder: Path) -> None:

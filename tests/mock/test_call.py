@@ -61,13 +61,13 @@ def test_service_that_does_not_answer_is_given_up_when_its_timeout_is_over(
     folder: GeneratedFolder, hit: FaultEntry
 ) -> None:
     ended = _first(_run(_stating(folder, timeout_s=0.25), hit))
-    assert (ended.outcome, ended.fault_code) == ("timeout", f"no answer of {SERVICE} within 0.25 s")
+    assert (ended.outcome, ended.fault_code) == ("timeout", f"no answer from {SERVICE} within 0.25 s")
     assert ended.ended_ns - ended.started_ns < 300_000_000
 
 
 def test_service_without_a_timeout_is_given_up_after_a_second(folder: GeneratedFolder) -> None:
     ended = _first(_run(folder, _hit(FaultKind.UNRESPONSIVE, "arm_io")))
-    assert ended.fault_code == f"no answer of {SERVICE} within 1 s"
+    assert ended.fault_code == f"no answer from {SERVICE} within 1 s"
 
 
 def test_client_that_goes_on_without_an_answer_waits_for_it_first(folder: GeneratedFolder) -> None:
@@ -79,7 +79,7 @@ def test_client_that_goes_on_without_an_answer_waits_for_it_first(folder: Genera
 
 def test_task_that_is_no_client_is_the_wrong_owner(folder: GeneratedFolder) -> None:
     ended = _first(_run(_stating(folder, sinks=())))
-    assert (ended.outcome, ended.fault_code) == ("wrong_owner", f"task is no client of {SERVICE}")
+    assert (ended.outcome, ended.fault_code) == ("wrong_owner", f"task is not a client of {SERVICE}")
 
 
 def test_name_of_no_service_is_refused(folder: GeneratedFolder) -> None:

@@ -60,7 +60,7 @@ def test_mock_moves_and_names_once_what_nobody_sees_those_first_that_move(built:
     result = built.cell.run("wave")
     assert (result.outcome, result.unseen) == ("succeeded", ("arm_base", "arm_hand"))
     (note,) = built.cell.notes
-    assert note.endswith("1 that move, `arm_hand`; 1 that stand, `arm_base`")
+    assert note.endswith("1 that move, `arm_hand`; 1 that do not move, `arm_base`")
     out = run("mock", str(built.folder), "--rehearsal", "wave").out
     assert out.count("these links are not checked for collision") == 1
     assert json.loads(run("mock", str(built.folder), "--rehearsal", "wave", "--json").out)["notes"] == [note]
@@ -70,7 +70,7 @@ def test_no_gate_of_collisions_is_passed_where_a_link_was_not_seen(built: Built)
     run_of = judged_rehearsals(built.cell.entries, [built.cell.run("wave")])
     check = line(gate("G1", built.cell.folder, run_of), "planned free of collision")
     assert check.verdict is Verdict.FAILED
-    assert [text for text in check.evidence if text.startswith("arm_hand: its mesh is not there")]
+    assert [text for text in check.evidence if text.startswith("arm_hand: its mesh is missing")]
 
 
 def test_shapes_that_are_there_are_still_seen(built: Built, tmp_path: Path) -> None:

@@ -62,15 +62,15 @@ CASES: list[tuple[Fault, str]] = [
     (fault("freeze", "camera", 0.0), "the newest image of `camera` is 0.200 s old"),
     (
         fault("mismatch_qos", "/camera/color/image_raw", 0.0),
-        "no image of `camera` has reached `perception` for",
+        "no image from `camera` has reached `perception` for",
     ),
     (
         fault("jump_clock", "camera", 0.0, jump_s=-1.0),
         "`perception` rejected 2 of 7 images, oldest 1.033 s, queue of 1",
     ),
-    (fault("mismatch_qos", "/object_pose", 0.0), "no pose of `perception` has reached `task` for 0.180 s"),
+    (fault("mismatch_qos", "/object_pose", 0.0), "no pose from `perception` has reached `task` for 0.180 s"),
     (fault("jump_clock", "control_pc", 2.9, jump_s=1.0), "the clocks of `camera` and `task` are 1.000 s apart"),
-    (fault("delay", "arm", 1.0, delay_s=0.3), "`joint_states` publishes, nothing of the last 0.1"),
+    (fault("delay", "arm", 1.0, delay_s=0.3), "`joint_states` publishes, but nothing from the last 0.1"),
     (fault("reject", "joint_states", 1.0), "`joint_states` has published none for 0.1"),
     (fault("drop_frame", "object", 0.0), "the newest transform of `object` by `perception` is 0."),
     (fault("drop_frame", "arm_forearm_link", 0.02), "the newest transform of `arm_forearm_link` by `robot_state_pu"),

@@ -67,7 +67,7 @@ def test_grip_has_the_timeout_of_its_own_action(edit_contract: Callable[[Callabl
 
     failed = edit_contract(state_timeout).run("pick_and_place").attempts[-2]
     assert (failed.step, failed.outcome) == ("grip close gripper", "timeout")
-    assert failed.fault_code == "no result of gripper_action within 0.001 s"
+    assert failed.fault_code == "no result from gripper_action within 0.001 s"
 
 
 CASES: list[tuple[str, Fault, str, str]] = [
@@ -87,7 +87,7 @@ CASES: list[tuple[str, Fault, str, str]] = [
         "protective_stop",
         "arm_hardware reports protective_stop",
     ),
-    ("canceled grip", fault("cancel", "grip", 1.0), "canceled", "the grip was canceled as asked"),
+    ("canceled grip", fault("cancel", "grip", 1.0), "canceled", "the grip was canceled as requested"),
 ]
 
 

@@ -44,6 +44,9 @@ BANNED = {
     r"comes up|come up|coming up": "starts",
     r"thereof|therein|therewith": "of it, in it, with it",
     r"it is written down|is found out": "Record, Find",
+    r"without a word": "silently, without notice",
+    r"half way": "halfway",
+    r"other way round": "other way around, in the other direction",
     # British spelling.
     r"behaviours?": "behavior",
     r"(?:centi|milli|micro|kilo)?metres?": "meter",

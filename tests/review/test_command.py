@@ -109,7 +109,7 @@ def test_json_is_what_its_schema_says() -> None:
         (("main:nowhere.yaml", SMALL), "revision `main` has no `nowhere.yaml`"),
         (("main", SMALL, SMALL), "expected one or two of spec, folder and revision, got 3"),
         (("/dev/null", SMALL), "/dev/null"),
-        (("cells", SMALL), "has no `manifest.json`: it is no generated folder"),
+        (("cells", SMALL), "has no `manifest.json`: it is not a generated folder"),
     ],
 )
 @pytest.mark.usefixtures("_inside")

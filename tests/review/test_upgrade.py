@@ -206,7 +206,7 @@ def test_an_alias_stays_where_its_anchor_becomes_the_same(tmp_path: Path) -> Non
 
 
 def test_an_alias_of_what_is_no_pin_is_written_out(tmp_path: Path) -> None:
-    summary = ("summary: UR10e loads blanks", "summary: &driver ur_robot_driver 3.8.0 #")
+    summary = ("summary: A UR10e loads blanks", "summary: &driver ur_robot_driver 3.8.0 #")
     own = ("driver: &driver ur_robot_driver", "driver: ur_robot_driver")
     moved = _moved_to_kilted(tmp_path, summary, own)
     assert moved[4:6] == [_ANCHORS[0].replace("&driver ", ""), _ANCHORS[1]]

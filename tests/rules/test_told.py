@@ -173,7 +173,7 @@ _SHAPE = '<collision><geometry><mesh filename="package://nowhere/{}.stl"/></geom
     ("links", "told_of_them"),
     [
         # The base stands on the ground; the carriage slides, and the tool hangs on the arm, which turns.
-        (("base",), "contact of `stage_base`, which stand still, is not checked"),
+        (("base",), "contact of `stage_base`, which do not move, is not checked"),
         (("tool",), "contact of `stage_tool`, 1 of which move, is not checked"),
         (
             ("base", "carriage", "tool"),

@@ -82,7 +82,10 @@ def test_in_remote_mode_nobody_is_sent_to_a_pendant_that_starts_nothing(
 def test_the_tcp_stands_in_the_gate_as_the_pendant_shows_it() -> None:
     # By hand: the gripper is 11 mm beyond tool0 and turned by 90 deg about z, the TCP 162 mm beyond the gripper.
     gate = _gate(artifacts_of("ur5e_pick")["gates/promotion.md"], "G5")
-    assert "Check at arm that its TCP is frame tcp: 0.00 0.00 173.00 mm in arm_tool0" in gate.replace("\\", "")
+    assert (
+        "In the controller of arm, check that the TCP is frame tcp: 0.00 0.00 173.00 mm in arm_tool0"
+        in gate.replace("\\", "")
+    )
     assert "rotation vector 0.0000 0.0000 1.5708 rad, roll pitch yaw 0.00 0.00 90.00 deg" in gate
     assert "timeout 10 ros2 topic echo --once /arm_tcp/pose" in gate
 
@@ -100,10 +103,8 @@ def test_payload_has_its_inertia_its_frame_and_who_tells_it(tmp_path: Path) -> N
     stated = "center_of_mass: -5 5 46 mm"
     text = spec_text("fr3_hand").replace(stated, f"{stated}, inertia: 0.0011 0.0024 0.0017 0 0 0 kg m^2")
     gate = _gate(emitted(tmp_path, text)["gates/promotion.md"], "G3").replace("\\", "")
-    figures = "center of mass -5 5 46 mm, inertia 0.0011 0.0024 0.0017 0 0 0 kg m^2"
-    assert (
-        f"Payload of arm: 0.92 kg with tool, {figures} (ixx iyy izz ixy ixz iyz about it) in fr3_link8. Enter" in gate
-    )
+    figures = "center of mass -5 5 46 mm, inertia about that center 0.0011 0.0024 0.0017 0 0 0 kg m^2"
+    assert f"Payload of arm: 0.92 kg with tool, {figures} (ixx iyy izz ixy ixz iyz) in fr3_link8. Enter" in gate
 
 
 @pytest.mark.parametrize(("distro", "service"), [("humble", "/service_server"), ("jazzy", "/service_server")])

@@ -77,7 +77,7 @@ class ParameterFacts(CatalogModel):
     differs: dict[DistroName, ParameterVariant] = Field(default_factory=dict)
 
     def declared_in(self, distro: Distro) -> bool:
-        """Tell whether the distribution knows the parameter; an unknown one is ignored without a word."""
+        """Tell whether the distribution knows the parameter; an unknown one is ignored silently."""
         return not self.only or distro in self.only
 
     def as_in(self, distro: Distro) -> "ParameterFacts":

@@ -67,7 +67,7 @@ class SafetyStateFacts(CatalogModel):
         left_by: What ends the stop once its cause is gone.
         reported: How the driver reports the state, such as a value of a topic or an action that ends.
         seen: What people see at the device in a state that its driver does not report.
-        trip: How people bring about the state while the device moves, out of its reach; absent where no source says.
+        trip: How people trip the state while the device moves, from out of its reach; absent where no source says.
         gate: Gate of bring-up in which people look for the state; one that only an activation or an action shows cannot
             be seen earlier.
     """

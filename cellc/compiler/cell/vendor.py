@@ -20,7 +20,7 @@ class SafetyState:
         moment: the one whose effect says what the stop does.
         ends: what a claim needs and no longer has in this state, besides what that effect ends.
         left_by: what ends the stop once its cause is gone.
-        trip: how people bring it about while the device moves, out of its reach; None where no source says.
+        trip: how people trip it while the device moves, from out of its reach; None where no source says.
     """
 
     name: str

@@ -171,7 +171,8 @@ def _versions(cell: Cell) -> Iterator[OpenQuestion]:
             of, _, part = name.rpartition(".")
             device = of in {device.name for device in cell.devices}
             path = ("devices", of, part) if device else ("versions", *name.split("."))
-            yield OpenQuestion(f"{part} of {of}" if of else name, path)
+            subject = f"{part} of {of}" if device else " ".join(name.split("."))
+            yield OpenQuestion(subject, path)
     for item in cell.devices:
         if item.body.kinematics is not None and item.body.kinematics.calibration is None:
             yield OpenQuestion(f"kinematic calibration of {item.name}", (*item.path, "calibration"))

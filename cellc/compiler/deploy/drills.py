@@ -12,7 +12,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.stops import effect_of, stops_of
 from cellc.compiler.cell.vendor import SafetyState
-from cellc.compiler.deploy.gate_motion import Values
+from cellc.compiler.deploy.gate_motion import Values, sentences
 from cellc.compiler.deploy.processes import adapted_devices
 from cellc.compiler.deploy.releases import moved_by_activation, restart_of
 from cellc.compiler.deploy.watches import heard
@@ -22,15 +22,30 @@ from cellc.contract.bring_up import WATCH_WITHIN_S
 from cellc.contract.vocabulary import LeftBy, Moment, Motion, Need
 
 _MOVES: Mapping[Motion, str] = {
-    Motion.NONE: "It must not move.",
-    Motion.HOLDS: "It must hold its position.",
-    Motion.MOVES: "It moves by itself.",
-    Motion.JUMPS: "It goes to old set points in one step.",
-    Motion.FALLS: "It falls.",
-    Motion.UNKNOWN: "No source says whether it moves.",
+    Motion.NONE: "The arm must not move.",
+    Motion.HOLDS: "The arm must hold its position.",
+    Motion.MOVES: "The arm moves by itself.",
+    Motion.JUMPS: "The arm goes to old set points in one step.",
+    Motion.FALLS: "The arm falls.",
+    Motion.UNKNOWN: "No source says whether the arm moves.",
 }
+_ALL_MOVE: Mapping[Motion, str] = {
+    Motion.NONE: "No arm may move.",
+    Motion.HOLDS: "Each arm must hold its position.",
+    Motion.MOVES: "Each arm moves by itself.",
+    Motion.JUMPS: "Each arm goes to old set points in one step.",
+    Motion.FALLS: "Each arm falls.",
+    Motion.UNKNOWN: "No source says whether the arms move.",
+}
+"""The same of several arms that one act stops."""
+_ONCE_STOPPED: Mapping[Motion, str] = {
+    **_MOVES,
+    Motion.NONE: "Once it has stopped, the arm must not move.",
+    Motion.HOLDS: "Once it has stopped, the arm must hold its position.",
+}
+"""The same of an arm that moved when it was stopped."""
 _CALM = (Motion.NONE, Motion.HOLDS)
-_REPEATED = "Where it repeats gates, leave out the goals and drills before this line."
+_REPEATED = "Where it repeats gates, skip the goals and drills above this line."
 
 
 def early_drills(graph: CellGraph) -> Iterator[Values]:
@@ -54,7 +69,10 @@ def claimed_drills(graph: CellGraph) -> Iterator[Values]:
 def adapter_drills(graph: CellGraph) -> Iterator[Values]:
     """Yield what people try on arms behind an adapter without a claim: only its author knows what it does."""
     for device in _adapted(graph.cell):
-        yield device.name, "Unplug its communication cable for 10 s and plug it in again. Leave its power on."
+        yield (
+            device.name,
+            "Unplug the communication cable of the arm for 10 s and plug it in again. Leave the power on.",
+        )
         yield device.name, f"End the hardware launch with Ctrl-C. Start it again {restart_of(graph.cell)}."
 
 
@@ -63,8 +81,8 @@ def claimed_adapter_drills(graph: CellGraph) -> Iterator[Values]:
     for device in _adapted(graph.cell):
         stop = _tripped(device)
         if stop is not None and stop.trip is not None:
-            act = f"{stop.trip} while it moves on a small goal. Record the stopping distance."
-            yield device.name, f"{act} Then do Recovery of {stop.name} in `audit.md` to its last step."
+            act = f"{stop.trip} while the arm moves on a small goal. Record the stopping distance."
+            yield device.name, f"{act} Then follow Recovery of {stop.name} in `audit.md` to its last step."
 
 
 def open_drills(graph: CellGraph) -> Iterator[Values]:
@@ -83,7 +101,7 @@ def interlocks(graph: CellGraph) -> Iterator[Values]:
 
 def pulled(graph: CellGraph) -> Iterator[Values]:
     """Yield what moves as it is activated, and how: no joint state shows it before."""
-    return ((name, effect.does) for name, effect in moved_by_activation(graph.cell))
+    return ((name, sentences(effect.does)) for name, effect in moved_by_activation(graph.cell))
 
 
 def claimed(graph: CellGraph) -> Iterator[Values]:
@@ -91,7 +109,7 @@ def claimed(graph: CellGraph) -> Iterator[Values]:
     for device in _drilled(graph.cell):
         effect = _effects(device).get(Moment.CLAIM)
         if effect is not None:
-            yield device.name, effect.does
+            yield device.name, sentences(effect.does)
 
 
 def _drilled(cell: Cell) -> Iterator[Device]:
@@ -113,18 +131,21 @@ def _without_a_claim(cell: Cell, again: str) -> Iterator[Values]:
     """Yield the drills of the cables, then that of all launches: only a restart restores some drivers after a cable."""
     for device in _drilled(cell):
         yield from ((device.name, act, follows) for act, follows in _of_the_cable(cell, device))
-    follows = dict[str, str]()
-    falling = list[str]()
-    for device in _drilled(cell):
-        effect = _effects(device).get(Moment.DEACTIVATE)
-        if effect is not None:
-            follows[device.name] = _follows(cell, device, effect, ())
-            falling.extend([device.name] if effect.motion is Motion.FALLS else ())
-    if follows:
-        same = len(set(follows.values())) == 1
-        said = next(iter(follows.values())) if same else " ".join(f"{name}: {text}" for name, text in follows.items())
+    effects = [(device, _effects(device).get(Moment.DEACTIVATE)) for device in _drilled(cell)]
+    ended = [(device, effect) for device, effect in effects if effect is not None]
+    if ended:
+        falling = [device.name for device, effect in ended if effect.motion is Motion.FALLS]
         act = f"{_supported(falling)}End the hardware launch with Ctrl-C, if it still runs."
-        yield " and ".join(follows), act, f"{said} Start it again {again}."
+        follows = f"{_each_follows(cell, ended)} Start the launch again {again}."
+        yield " and ".join(device.name for device, _ in ended), act, follows
+
+
+def _each_follows(cell: Cell, ended: Sequence[tuple[Device, Effect]]) -> str:
+    """Return what follows for each arm, in one text where it is the same for all."""
+    texts = {device.name: _follows(cell, device, effect, ()) for device, effect in ended}
+    if len(set(texts.values())) > 1:
+        return " ".join(f"{name}: {text}" for name, text in texts.items())
+    return _follows(cell, *ended[0], (), _MOVES if len(texts) == 1 else _ALL_MOVE)
 
 
 def _of_the_cable(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
@@ -135,10 +156,12 @@ def _of_the_cable(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
         return
     if again.motion in _CALM and cut.motion in _CALM:
         ended = "" if cut.leaves == "active" else " Its controller manager may have ended instead."
-        yield "Unplug its communication cable for 10 s. Leave its power on.", _follows(cell, device, cut, ()) + ended
-        yield "Plug its communication cable in again.", _follows(cell, device, again, ()) + ended
+        act = "Unplug the communication cable of the arm for 10 s. Leave the power on."
+        yield act, _follows(cell, device, cut, ()) + ended
+        yield "Plug the communication cable in again.", _follows(cell, device, again, ()) + ended
     else:
-        yield "Do not unplug its communication cable while it is active.", f"On reconnection: {_MOVES[again.motion]}"
+        act = "Do not unplug the communication cable of the arm while its hardware component is active."
+        yield act, f"{_MOVES[again.motion].removesuffix('.')} on reconnection."
 
 
 def _with_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
@@ -147,32 +170,32 @@ def _with_a_claim(cell: Cell, device: Device) -> Iterator[tuple[str, str]]:
     if stop is None or effect is None or stop.trip is None:
         return
     falling = [other.name for other in _drilled(cell) if _falls(other)] if effect.motion is Motion.FALLS else []
-    act = f"{_supported(falling)}{stop.trip} while it moves on a small goal. Record the stopping distance."
+    act = f"{_supported(falling)}{stop.trip} while the arm moves on a small goal. Record the stopping distance."
     yield act, _stopped(cell, device, stop, effect)
     if effect.leaves == "active" and stop.left_by is not LeftBy.ACTIVATION:
         yield from _resumed(cell, device, stop, effect)
-    yield _recovered(device, stop, falling), "Its controllers must be active again."
+    yield _recovered(device, stop, falling), "The controllers of the arm must be active again."
 
 
 def _resumed(cell: Cell, device: Device, stop: SafetyState, effect: Effect) -> Iterator[tuple[str, str]]:
     """Yield what nothing may move by: the end of the stop, and a program that goes on after a jog."""
     hears = any(need in heard(cell, device) for need in (*effect.ends, *stop.ends))
     follows = "Nothing may move before the claim is acknowledged." if hears else _MOVES[Motion.JUMPS]
-    after = "Check that no controller of it is active. With a hand on the stop, end the cause and reset the stop."
-    yield f"In this drill alone, let it go on without its Recovery. {after} Do not jog it.", follows
+    after = "Check that no controller of the arm is active. With a hand on the stop, end the cause and reset the stop."
+    yield f"In this drill only, let the arm resume without its Recovery. {after} Do not jog the arm.", follows
     resumed = _effects(device).get(Moment.PROGRAM_RESUME)
     if resumed is not None and resumed.motion is Motion.JUMPS:
         jog = "Never jog it while its program is paused. Stop the program, jog one joint, and start the program."
-        yield f"With no controller of it active, jog it in this drill alone. {jog}", follows
+        yield f"In this drill only, jog the arm while none of its controllers is active. {jog}", follows
 
 
 def _recovered(device: Device, stop: SafetyState, falling: Sequence[str]) -> str:
     """Return how people come back to a claim, which every line after the drill needs."""
-    others = f" Do the same for each of {' and '.join(falling)} that lost its power." if len(falling) > 1 else ""
+    others = f" Do the same for each of {' and '.join(falling)} that lost power." if len(falling) > 1 else ""
     if any(way.state == stop.name for way in device.procedures.safety.recovery):
-        return f"Do Recovery of {stop.name} in `audit.md` to its last step.{others} {_REPEATED}"
-    unknown = f"UNKNOWN: how {stop.name} is recovered. Find it in the manual of its vendor.{others}"
-    return f"{unknown} Authorize its claim again."
+        return f"Follow Recovery of {stop.name} in `audit.md` to its last step.{others} {_REPEATED}"
+    unknown = f"UNKNOWN: how to recover from {stop.name}. Look it up in the vendor's manual.{others}"
+    return f"{unknown} Authorize the claim of the arm again."
 
 
 def _tripped(device: Device) -> SafetyState | None:
@@ -205,23 +228,25 @@ def _stopped(cell: Cell, device: Device, stop: SafetyState, effect: Effect) -> s
     if effect.leaves != "active":
         ends = "Its goal must end and its controllers must be inactive."
     elif any(need in heard(cell, device) for need in lost):
-        ends = f"Within {shortest(WATCH_WITHIN_S)} s its claim must be dropped and its goal must end."
+        ends = f"Within {shortest(WATCH_WITHIN_S)} s, its claim must be dropped and its goal must end."
     else:
-        ends = "Nothing ends its goal: cancel it."
-    return f"{_follows(cell, device, effect, lost)} {ends}"
+        ends = "Nothing ends its goal. Cancel it."
+    return f"{_follows(cell, device, effect, lost, _ONCE_STOPPED)} {ends}"
 
 
-def _follows(cell: Cell, device: Device, effect: Effect, lost: tuple[Need, ...]) -> str:
+def _follows(
+    cell: Cell, device: Device, effect: Effect, lost: tuple[Need, ...], moves: Mapping[Motion, str] = _MOVES
+) -> str:
     """Return what moves, the state of the component, and the topics that say so."""
-    said = [_MOVES[effect.motion]]
+    said = [moves[effect.motion]]
     if effect.drops_part:
         said.append("What it holds falls.")
     if effect.leaves is not None:
-        said.append(f"Its component must be {effect.leaves}.")
+        said.append(f"Its hardware component must be {effect.leaves}.")
         telling = heard(cell, device)
         topics = dict.fromkeys(telling[need].topic for need in lost if need in telling)
         if topics:
-            said.append(f"It must show on {' and '.join(topics)}.")
+            said.append(f"The stop must show on {' and '.join(topics)}.")
         elif effect.leaves == "active":
-            said.append("No topic reports it.")
+            said.append("No topic reports this.")
     return " ".join(said)

@@ -13,8 +13,8 @@ from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.numbers import positive_zero
 from cellc.compiler.graph.cell_graph import CellGraph
 
-_SAME = " Both commands must print the same pose, that of the robot and that of TF."
-_UNSAID = "Enter it as the manual of its vendor says, and record the values that it shows."
+_SAME = " Both commands must print the same pose, one from the robot and one from TF."
+_UNSAID = "Enter it as the vendor's manual says, and record the values that the robot shows."
 
 
 def loaded_devices(graph: CellGraph, *, powered: bool = False) -> Iterator[Values]:
@@ -24,7 +24,7 @@ def loaded_devices(graph: CellGraph, *, powered: bool = False) -> Iterator[Value
         if device.robot.payload is not None and answers_when_powered(device) is powered:
             payload = (*device.path, "payload")
             moments = text(*payload, "inertia")
-            said = f", inertia {moments} (ixx iyy izz ixy ixz iyz about it)" if moments else ""
+            said = f", inertia about that center {moments} (ixx iyy izz ixy ixz iyz)" if moments else ""
             stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), moments, said
             frame, gate = device.body.tool_frame or device.body.root_link, enabled_in(device)
             yield *stated, frame, device.robot.payload.set_by, device.procedures.payload_entry or _UNSAID, gate

@@ -22,6 +22,12 @@ from cellc.contract.vocabulary import BringUpPhase, Feature, InterfaceKind, feat
 Values = tuple[str, ...]
 
 
+def sentences(does: str) -> str:
+    """Return what a vendor's text separates by semicolons as sentences, without the last full stop."""
+    first, *others = does.split("; ")
+    return ". ".join((first, *(other[:1].upper() + other[1:] for other in others)))
+
+
 def first_motion(graph: CellGraph) -> Iterator[Values]:
     """Yield the first motions as the spec has them."""
     return (_first_motion(graph, first) for first in graph.cell.bringup.first_motions)
@@ -95,7 +101,7 @@ def _first_motion(graph: CellGraph, first: FirstMotion) -> Values:
 
 
 def small_goal(graph: CellGraph) -> Iterator[Values]:
-    """Yield the first motions with the commands that send them as goals, and as one that is canceled half way."""
+    """Yield the first motions with the commands that send them as goals, and as one that is canceled halfway."""
     goals = {goal.moves[0]: goal for goal in first_goals(graph.cell)}
     for first in graph.cell.bringup.first_motions:
         about = _first_motion(graph, first)
@@ -129,7 +135,7 @@ def authorized_motion(graph: CellGraph) -> Iterator[Values]:
 
 
 def gripper_goals(graph: CellGraph) -> Iterator[Values]:
-    """Yield goals that close each gripper half way and open it, with the least force where its action has one.
+    """Yield goals that close each gripper halfway and open it, with the least force where its action has one.
 
     Some activations leave the fingers open: a first goal to open them would move nothing.
     """
@@ -141,8 +147,8 @@ def gripper_goals(graph: CellGraph) -> Iterator[Values]:
                 continue
             least = gripper.grip_force if gripper.min_force is None else gripper.min_force
             carries = least is not None and "Parallel" not in served[1]
-            own = "no stated force, so its driver uses its own"
-            said = f"max_effort {shortest(least or 0.0)} N" if carries else own
+            own = "State no force. The driver then uses its own."
+            said = f"Set max_effort to {shortest(least or 0.0)} N." if carries else own
             unit = "m" if device.joint(gripper.joint).slides else "rad"
             stroke = gripper.closed - gripper.open
             half, wide = (round(gripper.open + share * stroke, 6) for share in (0.5, 0.1))
@@ -196,7 +202,7 @@ def _stages(graph: CellGraph) -> list[Values]:
     rows = list[Values]()
     controls = ((device.name, device.procedures.speed_control) for device in graph.cell.devices)
     named = [f"the {control.name} of {name}" for name, control in controls if control is not None and control.name]
-    full = f" Set {' and '.join(named)} to 100 %, because the cap alone limits the stage." if named else ""
+    full = f" Set {' and '.join(named)} to 100 %, so that only the cap limits the speed." if named else ""
     for percent, file in stage_files(graph.cell).items():
         joint, node = graph.cell.groups[0].joints[0], graph.cell.planners[0].full_name
         parameter = f"robot_description_planning.joint_limits.{joint}.max_velocity"
@@ -244,7 +250,7 @@ def real_actions(graph: CellGraph) -> Iterator[Values]:
 def unguarded(graph: CellGraph) -> Iterator[Values]:
     """Yield driver interfaces outside the cell that move a device past every controller, and what a call does."""
     for device, offer, does in past_controllers(graph.cell):
-        yield device.name, offer.name, offer.type, does, endpoint_command(graph.cell, offer.kind, offer.name)
+        yield device.name, offer.name, offer.type, sentences(does), endpoint_command(graph.cell, offer.kind, offer.name)
 
 
 def endpoint_command(cell: Cell, kind: InterfaceKind, name: str) -> str:

@@ -12,7 +12,9 @@ from cellc.compiler.formats.urdf.hardware import credentials
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.vocabulary import GateCode, LeftBy
 
-_RESTART = " Restart everything that this test stopped, the controller manager included, with the launch command of G4."
+_RESTART = (
+    " Restart everything that this test stopped, including the controller manager, with the launch command of G4."
+)
 
 
 def stop_tests(graph: CellGraph) -> Iterator[Values]:

@@ -128,7 +128,7 @@ def _success(graph: CellGraph) -> Iterator[Values]:
     """Yield the rehearsals that must succeed often enough, with least share and confidence."""
     for rehearsal in graph.cell.rehearsals:
         if rehearsal.success is not None:
-            yield rehearsal.name, f"{rehearsal.success:.6g}", f"{rehearsal.confidence:.6g}"
+            yield rehearsal.name, f"{100.0 * rehearsal.success:.6g} %", f"{rehearsal.confidence:.6g}"
 
 
 def _mock_statements(graph: CellGraph) -> Iterator[Values]:
@@ -216,7 +216,7 @@ def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
 
 
 def _cards(graph: CellGraph) -> Iterator[Values]:
-    return ((nic.full_name, nic.text, ", ".join(nic.carries) or "no declared traffic") for nic in graph.network.nics)
+    return ((nic.full_name, nic.text, ", ".join(nic.carries) or "none declared") for nic in graph.network.nics)
 
 
 def _reached_devices(graph: CellGraph) -> Iterator[Values]:

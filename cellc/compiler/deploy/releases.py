@@ -44,14 +44,14 @@ ACTIVATE = Release(
     "confirm_activation",
     "I_HAVE_PASSED_GATES_G0_TO_G4_AND_THE_AREA_IS_EMPTY",
     "Confirmation of the person who authorizes hardware that moves on activation. Gates G0 to G4 have their evidence. "
-    "No person is in reach. Nothing is held. No program of the robot is running.",
+    "No person is within reach. Nothing is held. No robot program is running.",
 )
 CLAIM = Release(
     "claim",
     "confirm_claim",
     "I_HAVE_PASSED_GATES_G0_TO_G6",
     "Confirmation of the person who authorizes claims on real hardware. Gates G0 to G6 have their evidence. "
-    "The robot accepts commands as its vendor says. Jogging has ended.",
+    "The robot accepts commands, as its vendor describes. Jogging has ended.",
 )
 MOVE = Release(
     "move",

@@ -4,7 +4,7 @@
 there is one file for each manager (``<manager>.controllers.yaml`` where there are several, ``controllers.mock.yaml``
 and ``controllers.real.yaml`` where a controller commands real hardware otherwise). ``nodes.yaml`` has a section for
 each other node, ``drivers.yaml`` for each that only real hardware starts. Overrides of QoS have the names of rclcpp's
-QosOverridingOptions; a node whose author passed no such options ignores them without a word: gate L4 looks at what the
+QosOverridingOptions; a node whose author passed no such options ignores them silently: gate L4 looks at what the
 endpoints really offer. ``recording_qos.yaml`` is the override file of rosbag2: what an attempt records, with the QoS
 that every publisher offers, below the command that records it; raw images on the control path are recorded only where
 the spec asks for them, since their volume belongs on another card. Left out: what is a matter of launching, such as

@@ -48,39 +48,39 @@ _OPEN = "Before real hardware"
 _ANCHOR = "before-real-hardware"
 _HEAD = ("gate", "what it shows", "first command", "signed by")
 _NO_PLANNER = (
-    "No node of this cell plans. The SRDF is therefore the only MoveIt configuration here. Add `move_group` to the "
-    "nodes of the spec to get the rest."
+    "No node of this cell plans, so the SRDF is the only MoveIt configuration here. Add `move_group` to the nodes of "
+    "the spec to get the rest."
 )
 _GOAL = "launch/goal.launch.xml"
 _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
-    ("config/", "parameters of controller managers and nodes, the frame tree with its calibrations"),
-    (RVIZ, "RViz configuration, display only: `rviz2 -d` with it"),
-    ("config/moveit/", "the SRDF and the other parameters of move_group, with `config/joint_limits.yaml`"),
-    (COMMISSIONING, "caps of planned motion, a file for each stage: `stage:=` of the launch chooses one"),
-    ("middleware/", "environment and profile of each host; source it before you start anything there"),
+    ("config/", "parameters of controller managers and nodes, and the frame tree with its calibrations"),
+    (RVIZ, "RViz configuration, display only; open it with `rviz2 -d`"),
+    ("config/moveit/", "the SRDF and the other parameters of move_group, together with `config/joint_limits.yaml`"),
+    (COMMISSIONING, "caps on planned motion, one file per stage; the launch argument `stage:=` selects one"),
+    ("middleware/", "environment and profile of each host; source them before you start anything there"),
     ("security/policy.xml", "who may publish, serve and call; everything else is denied"),
     ("launch/cell.launch.xml", "starts the cell; on real hardware it stops before claims and motion"),
-    ("launch/move.launch.xml", "starts the motion clients; on real hardware a person authorizes it"),
+    ("launch/move.launch.xml", "starts the motion clients; on real hardware, a person authorizes it"),
     ("launch/activate.launch.xml", "activates hardware that moves on activation; a person authorizes it"),
     ("launch/claim.launch.xml", "activates the controllers that claim joints on real hardware; a person authorizes it"),
-    (_GOAL, "sends one small goal to the controller on real hardware; a person authorizes it"),
+    (_GOAL, "sends small goals for one joint on real hardware; a person authorizes it"),
     ("config/bring_up.json", "steps of the bring-up, each with its proof, its request and its required effect"),
     ("scripts/bring_up", "the program that runs these steps"),
     (OBSERVE_PROGRAM, "compares the running graph with the package, read-only"),
-    (VERSIONS_PROGRAM, "the first of these steps: compares the version tuple with the installed packages"),
-    (FIRST_GOAL_PROGRAM, "sends that goal from the current position, and cancels one"),
-    (WATCH_PROGRAM, "ends goals and claims when a robot stops, pauses or is silent, until a person acknowledges"),
+    (VERSIONS_PROGRAM, "compares the version tuple with the installed packages, as the first of these steps"),
+    (FIRST_GOAL_PROGRAM, "sends these goals from the current position, or cancels one halfway"),
+    (WATCH_PROGRAM, "ends goals and claims when a robot stops, pauses or is silent, until a person acknowledges this"),
     (REQUIRED_PROGRAM, "ends the launch when a required program ends"),
-    (SOURCES, "repositories, pinned to commits, of packages that the distribution does not release"),
+    (SOURCES, "repositories of packages that the distribution does not release, pinned to commits"),
     ("contract.json", "contract of each interface: type, QoS, rate, age, owner, failure behavior"),
     ("rehearsals.json", "runs of the mock, each with its expected outcome"),
     ("graph/cell.svg", "the cell from two sides"),
-    ("graph/nodes.svg", "node graph: each node once, with a list of the interfaces"),
+    ("graph/nodes.svg", "node graph, with each node once and a list of the interfaces"),
     ("graph/responsibility.svg", "contract and owner of each arrow"),
     ("gates/promotion.md", "checklist of gates G0 to G7 for one attempt; `gates/network.md` has layers L1 to L6"),
     ("audit.md", "open questions, version tuple, command paths, expected nodes and interfaces, owners"),
-    ("config/recording_qos.yaml", "topics that an attempt records, with their QoS and the command"),
+    ("config/recording_qos.yaml", "topics that an attempt records, with their QoS and the recording command"),
     ("manifest.json", "version tuple, hash of every file, configuration ID"),
 )
 
@@ -102,8 +102,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         markdown_comment(plan.header.text),
         f"# {cell.name}",
         markdown(cell.summary),
-        f"A ROS 2 package for {cell.distro}, generated from the spec. Make changes in the spec. The configuration ID "
-        "is in `manifest.json`.",
+        f"This ROS 2 package for {cell.distro} is generated from the spec. Make changes in the spec. The configuration "
+        "ID is in `manifest.json`.",
         f"![{cell.name} from two sides, with its frames](graph/cell.svg)",
         *_gates(graph, plan),
         "## Set up each shell",
@@ -131,7 +131,7 @@ def _gates(graph: CellGraph, plan: Deployment) -> Iterator[str]:
     yield (
         "Pass the gates from top to bottom. Each needs its evidence and a signature. If a gate fails, repeat it from "
         f"its first line. Only people at the cell enable the drives ({enabled}) and authorize motion (G6, G7). "
-        "For power-off see Shutdown in `audit.md`. After a stop see Recovery there."
+        "To power off, follow Shutdown in `audit.md`. After a stop, follow Recovery there."
     )
     yield _table(PROMOTION_CHECKLIST, plan.promotion)
     yield "Pass G3 layer by layer, from the cable to the command path:"
@@ -190,8 +190,8 @@ def _enforced(cell: Cell) -> Iterator[str]:
         return
     yield (
         "To enforce access control, create the keys in a shell set up as above. They are valid for its ROS domain and "
-        "middleware. Create new keys after a change of either. A process then starts only in its enclave of "
-        "`security/policy.xml`, which the launch files set. Copy only its own enclaves to each host. Keep `private/` "
+        "middleware. Create new keys when either changes. A process then starts only in its enclave of "
+        "`security/policy.xml`, which the launch files set. Copy to each host only its own enclaves. Keep `private/` "
         "off the computers of the cell. For manual commands, set the enclave in a shell that launches nothing. Use the "
         "enclave below for commands that only read, and "
         f"{code(commissioning_enclave(cell))} for other commands of a gate or a recovery:"
@@ -214,7 +214,7 @@ def _fenced(lines: Iterable[str]) -> str:
 def _questions(questions: tuple[OpenQuestion, ...]) -> Iterator[str]:
     if questions:
         yield f"## {_OPEN}"
-        yield "Answer these questions in the spec, at the path in brackets. `audit.md` says whom to ask:"
+        yield "Answer these questions in the spec, at the path in parentheses. `audit.md` says whom to ask:"
         yield "\n".join(
             f"- {markdown(f'{question.subject} ({code(spec_path(question.path))})')}" for question in questions
         )
@@ -252,18 +252,20 @@ def _written(cell: Cell, kind: InterfaceKind) -> Iterator[Interface]:
 def _streams(cell: Cell) -> Iterator[str]:
     for topic in _written(cell, InterfaceKind.TOPIC):
         frame = f" in {topic.frame}" if topic.frame else ""
-        yield f"{_names(topic, 'sources')} publishes {code(topic.name)}{frame} to {_names(topic, 'sinks')}"
+        publish = "publish" if len(topic.sources) > 1 else "publishes"
+        yield f"{_names(topic, 'sources')} {publish} {code(topic.name)}{frame} to {_names(topic, 'sinks')}"
 
 
 def _dynamic_frames(cell: Cell) -> Iterator[str]:
     for frame in cell.frames:
         if frame.kind is FrameKind.DYNAMIC:
-            yield f"{frame.authority} publishes frame {frame.name} in {frame.parent}, stamped at its observation"
+            yield f"{frame.authority} publishes frame {frame.name} in {frame.parent}, stamped when it is observed"
 
 
 def _actions(cell: Cell) -> Iterator[str]:
     for action in _written(cell, InterfaceKind.ACTION):
-        yield f"{_names(action, 'sinks')} sends goals to {_names(action, 'sources')} through {code(action.name)}"
+        send = "send" if len(action.sinks) > 1 else "sends"
+        yield f"{_names(action, 'sinks')} {send} goals to {_names(action, 'sources')} through {code(action.name)}"
     for controller in cell.controllers:
         if controller.action is not None:
             client = controller.client or "a client that the spec does not name"
@@ -273,7 +275,7 @@ def _actions(cell: Cell) -> Iterator[str]:
 def _instead(controller: Controller) -> str:
     """Return the destination of goals on real hardware, for a controller that runs only on the mock."""
     other = controller.stand_in
-    return "" if other is None else f", on real hardware to {other.node} through {code(other.action)}"
+    return "" if other is None else f"; on real hardware, to {other.node} through {code(other.action)}"
 
 
 def _managers(cell: Cell) -> Iterator[str]:
@@ -299,4 +301,5 @@ def _stop(cell: Cell) -> str:
 
 def _names(interface: Interface, side: str) -> str:
     ends = interface.sources if side == "sources" else interface.sinks
-    return " and ".join(end.node for end in ends) or "no node"
+    names = [end.node for end in ends]
+    return " and ".join(part for part in (", ".join(names[:-1]), *names[-1:]) if part) or "no node"

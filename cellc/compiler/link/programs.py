@@ -1,4 +1,4 @@
-"""What nodes have at the ROS graph without a word of the cell: by what they are, and by the program that runs them."""
+"""What nodes have at the ROS graph without mention in the cell: by what they are, and by the program that runs them."""
 
 from __future__ import annotations
 

@@ -148,5 +148,5 @@ def _mm(length_m: float) -> str:
 
 
 def _apart(message: str, document: SourceDocument, path: YamlPath) -> Diagnostic:
-    advice = "touch them again, leave out what is no part of the surface, or state a larger `within`"
+    advice = "touch them again, leave out what is not part of the surface, or state a larger `within`"
     return Diagnostic("touched-points-apart", Severity.ERROR, message, document.locate(path), path, advice)

@@ -116,7 +116,7 @@ class ProgramStart(_Program):
     def begin(self, ports: FaultPorts) -> None:
         """Start."""
         if self.device not in ports.effects.silenced:
-            raise FaultMissedError(f"the program of {self.device} runs already")
+            raise FaultMissedError(f"the program of {self.device} is already running")
         ports.effects.met(self.device, self.need)
 
     def end(self, ports: FaultPorts) -> None:
@@ -149,7 +149,7 @@ class Jog:
     def begin(self, ports: FaultPorts) -> None:
         """Jog."""
         if self.device not in ports.effects.silenced:
-            raise FaultMissedError(f"the program of {self.device} runs, so that its pendant moves nothing")
+            raise FaultMissedError(f"the program of {self.device} is running, so its pendant moves nothing")
         ports.effects.jog(self.device, self.joint, self.distance)
 
     def end(self, ports: FaultPorts) -> None:

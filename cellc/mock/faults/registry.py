@@ -121,7 +121,7 @@ FAULTS: Mapping[FaultKind, FaultType] = {
 def build_fault(entry: FaultEntry, contract: Contract) -> Fault:
     """Return the fault of an entry; raise MockError where it has no moment or names what it cannot hit."""
     if [entry.at_s, entry.event, entry.phase].count(None) != 2:
-        reason = f"fault `{entry.kind}` needs either a time or an event that begins it"
+        reason = f"fault `{entry.kind}` needs either a time or an event that starts it"
         raise MockError(contract.files.rehearsals, reason)
     fault = FAULTS[entry.kind].of(entry, contract)
     if fault is None:

@@ -55,7 +55,7 @@ def _one_tree(description: Description) -> GateCheck:
     unreached = description.unreached(roots[0])
     if unreached:
         return failed(text, [f"link {link} cannot be reached from {roots[0]}" for link in unreached])
-    return passed(text, [f"{len(description.links)} links hang from {roots[0]}"])
+    return passed(text, [f"{len(description.links)} links below {roots[0]}"])
 
 
 def _axes(description: Description) -> GateCheck:
@@ -116,7 +116,7 @@ def _collision(evidence: GateEvidence) -> GateCheck:
                 good.append(f"{run.name}: {attempt.step}")
             elif attempt.plan_result is not None:
                 bad.append(f"{run.name}: {attempt.step}: {attempt.plan_result}")
-    bad += [f"{link}: its mesh is not there, and it was planned for as nothing" for link in _unseen(evidence)]
+    bad += [f"{link}: its mesh is missing, so planning ignored the link" for link in _unseen(evidence)]
     text = "Every motion of the rehearsals is planned free of collision"
     return judged(text, good, bad, "a rehearsal without faults that moves")
 

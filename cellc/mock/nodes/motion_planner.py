@@ -169,7 +169,7 @@ def _link_of(frame: str, contract: Contract, robot: RobotModel) -> tuple[str, Po
     link, pose = climb(frame, edge, robot.links)
     if link in robot.links:
         return link, pose
-    raise ModelError(f"frame `{link}` is no link of the robot description and not fixed to one")
+    raise ModelError(f"frame `{link}` is neither a link of the robot description nor fixed to one")
 
 
 @dataclass(frozen=True, slots=True)

@@ -258,7 +258,7 @@ def to_report(content: ReportContent) -> str:
 
 def _colophon() -> Element:
     words = (
-        "Times are simulated, counted from the start of the cell; no clock of the host enters this page, so that the "
+        "Times are simulated, counted from the start of the cell; no clock of the host enters this page, so the "
         "same folder and seed give the same bytes. Curves are drawn from the least and the greatest value in each "
         "column of the drawing, of all samples at the full rate: no extreme value is left out."
     )

@@ -100,7 +100,7 @@ class Journal:
                 raise self._refused(f"must have at most {limits().sweep_runs} runs")
             if not line.endswith(b"\n"):  # it was cut off as it was written
                 if number == 1 and not _line(self._head).startswith(line):
-                    raise self._refused(f"is no journal; {_AWAY}")
+                    raise self._refused(f"is not a journal; {_AWAY}")
                 return
             self._kept += len(line)
             if number > 1:
@@ -116,12 +116,12 @@ class Journal:
             head = None
         name = head.get("journal") if isinstance(head, dict) else None
         if not isinstance(name, str) or not name.startswith(_OF_ANY_VERSION):
-            return "is no journal"
+            return "is not a journal"
         if name != _FORMAT:
             return "was written by another version of cellc"
         there = head.get("versions")
         if head != self._head | {"versions": there}:
-            return "is of another sweep"
+            return "belongs to another sweep"
         other = difference(there if isinstance(there, dict) else {})
         return f"has runs that were made with {other}" if other else ""
 
@@ -130,10 +130,10 @@ class Journal:
             try:
                 run = _Run.model_validate_json(line).run()
             except ValidationError as invalid:
-                raise self._refused(f"line {number} is no run: {_first(invalid)}") from None
+                raise self._refused(f"line {number} is not a run: {_first(invalid)}") from None
             unknown = next((name for name in run.goals if name not in self._goals), None)
             if unknown is not None:
-                raise self._refused(f"line {number} is no run of this cell: there is no goal `{unknown}`")
+                raise self._refused(f"line {number} is not a run of this cell: there is no goal `{unknown}`")
             if self.runs.setdefault(run.number, run) != run:
                 raise self._refused(f"line {number} contradicts another line of run {run.number}")
 

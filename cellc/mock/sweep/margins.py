@@ -54,7 +54,7 @@ def _at(goal: str, rooms: list[GoalRoom], sweep: Sweep, contract: Contract) -> I
         f"distance at {goal}", "m", (room.distance_m for room in rooms), sweep.uncertainty.tolerances.get(goal)
     )
     yield from _margin(f"clearance at {goal}", "m", (room.clearance_m for room in rooms), 0.0, falling=True)
-    yield from _margin(f"way to a joint's end at {goal}", "1", used, 1.0)
+    yield from _margin(f"joint range used at {goal}", "1", used, 1.0)
     yield from _margin(
         f"least singular value at {goal}", "", (room.singular_value for room in rooms), MIN_SINGULAR_VALUE, falling=True
     )

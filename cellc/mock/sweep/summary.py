@@ -72,13 +72,13 @@ def count_lines(sweep: Sweep) -> Iterator[str]:
 def _unexplained(sweep: Sweep) -> str:
     """Say why nothing explains the failures, and what would."""
     if not sweep.uncertainty.quantities:
-        return "nothing is drawn that could explain the failures"
+        return "no quantity is drawn that could explain the failures"
     if len(sweep.failed) == len(sweep.runs):
-        return "every run failed, so that no successful run is left for a comparison"
+        return "every run failed, so no successful run is left for a comparison"
     nothing = "no drawn quantity explains the failures"
     if len(sweep.runs) < sweep.asked:
         return f"{nothing}; the verdict ended the sweep early; without `success` it makes all {sweep.asked} runs"
-    return f"{nothing}; more runs may tell more"
+    return f"{nothing}; more runs may show more"
 
 
 Table = Sequence[tuple[str, ...]]
@@ -89,7 +89,7 @@ def verdict_line(sweep: Sweep) -> str:
     """Return the line that says whether enough runs succeed."""
     expected, runs = sweep.expected, len(sweep.runs)
     if expected is None:
-        return f"no verdict: the cell expects no rate of success of `{sweep.rehearsal}`"
+        return f"no verdict: the cell states no expected success rate for `{sweep.rehearsal}`"
     wanted = f"{100.0 * expected.success:.6g}% of the runs must succeed, with confidence {expected.confidence:.4g}"
     if sweep.verdict is None:
         return f"UNKNOWN: {wanted}; {runs} runs do not decide it"

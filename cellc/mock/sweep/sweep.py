@@ -113,7 +113,7 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
         if name not in names:
             raise MockError(UNCERTAINTY_FILE, f"names {kind} `{name}`, which the folder does not have")
     if len({quantity.name for quantity in uncertainty.quantities}) < len(uncertainty.quantities):
-        raise MockError(UNCERTAINTY_FILE, "names two quantities alike")
+        raise MockError(UNCERTAINTY_FILE, "has two quantities with the same name")
     return uncertainty
 
 

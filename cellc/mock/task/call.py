@@ -21,9 +21,9 @@ def call(context: TaskContext, name: str) -> Waiting[None]:
     """
     interface = context.contract.interfaces.get(name)
     if interface is None or interface.kind != "service":
-        raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"nothing offers a service {name}")
+        raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no node offers the service {name}")
     if context.node.name not in {sink.node for sink in interface.sinks}:
-        raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{context.node.name} is no client of {name}")
+        raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{context.node.name} is not a client of {name}")
     yield from context.let_take_effect()
     context.check_cell()
     if any(_answering(context, name, interface)):
@@ -31,7 +31,7 @@ def call(context: TaskContext, name: str) -> Waiting[None]:
     bound_s = RESPONSE_S if interface.timeout_s is None else interface.timeout_s
     yield from context.rest(bound_s)
     if interface.on_timeout != "continue":
-        raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer of {name} within {bound_s:g} s")
+        raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer from {name} within {bound_s:g} s")
 
 
 def _answering(context: TaskContext, name: str, interface: ContractInterface) -> Iterator[ContractEndpoint]:

@@ -278,13 +278,13 @@ class TaskContext:
                 if newest is not None:
                     position = float(feed.history.positions[newest, feed.history.names.index(band.joint)])
                     if not band.lower <= position <= band.upper:
-                        text = f"lost: joint {band.joint} of {device} is at {position:.4g}, with a part it is from"
+                        text = f"lost: joint {band.joint} of {device} is at {position:.4g}, with a part expected from"
                         text += f" {band.lower:.4g} to {band.upper:.4g}"
                         raise AttemptError(AttemptOutcome.GRIP_FAILURE, text)
 
     def _check_time(self) -> None:
         if self.now_ns >= self.deadline_ns:
-            raise AttemptError(AttemptOutcome.TIMEOUT, "the rehearsal's own timeout passed")
+            raise AttemptError(AttemptOutcome.TIMEOUT, "the timeout of the rehearsal expired")
 
     def _observed_until_ns(self) -> int:
         """Return when the observation that is acted on turns stale; the deadline where none is."""

@@ -36,7 +36,7 @@ def await_response(context: TaskContext, server: str) -> Waiting[None]:
     if context.plant.network.answers(server):
         return
     yield from context.rest(RESPONSE_S)
-    raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer of {server} within {RESPONSE_S:g} s")
+    raise AttemptError(AttemptOutcome.TIMEOUT, f"no answer from {server} within {RESPONSE_S:g} s")
 
 
 def cancel_and_hold(context: TaskContext, attempt: Attempt, goals: Sequence[SentGoal]) -> Waiting[bool]:
@@ -165,7 +165,9 @@ def execute_together(
     except AttemptError as failure:
         held = not sent or (yield from cancel_and_hold(context, attempt, sent))
         if failure.outcome is AttemptOutcome.CANCELED and not held:
-            raise AttemptError(AttemptOutcome.TIMEOUT, "canceled, and the joints did not stand still in time") from None
+            raise AttemptError(
+                AttemptOutcome.TIMEOUT, "canceled, but the joints did not come to standstill in time"
+            ) from None
         raise
     finally:
         for item in sent:
@@ -214,16 +216,16 @@ def _results(context: TaskContext, kind: str, sent: Sequence[SentGoal], timeout_
         for ended in (context.ended[goal.key] for goal in sent if goal not in waiting):
             require_success(ended, context)
         if context.node.requests.is_cancel_asked(kind):
-            raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as asked")
+            raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as requested")
         names = " and ".join(goal.controller for goal in waiting)
         if context.now_ns >= until_ns:
-            raise AttemptError(AttemptOutcome.TIMEOUT, f"no result of {names} within {timeout_s:g} s")
+            raise AttemptError(AttemptOutcome.TIMEOUT, f"no result from {names} within {timeout_s:g} s")
         lost = [
             context.deactivated_ns[goal.controller] for goal in waiting if goal.controller in context.deactivated_ns
         ]
         given_up_ns = min((lost_ns + RESULT_GRACE_NS for lost_ns in lost), default=until_ns)
         if context.now_ns >= given_up_ns:
-            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{names} was deactivated while its goal executed")
+            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{names} was deactivated while its goal was executing")
         look_ns = min(_look_for_motion(context, goal) for goal in waiting)
         signals = (context.node.requests.changed, context.node.actions.changed)
         yield from context.pause(min(until_ns, given_up_ns, look_ns), *signals)
@@ -274,7 +276,7 @@ def _joints(plant: Plant, controller: str) -> tuple[str, ...]:
     for manager in plant.contract.managers.values():
         if controller in manager.controllers:
             return manager.controllers[controller].joints
-    raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no action server of a controller {controller}")
+    raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no action server of controller {controller}")
 
 
 def _speed_scaling(plant: Plant, controller: str) -> float | None:

@@ -60,7 +60,7 @@ def _require_part(state: CurrentState, facts: ContractGripper, band: ContractBan
     position = state.positions.get(band.joint, math.nan)
     if band.lower <= position <= band.upper:
         return
-    found = f"joint {band.joint} is at {position:.4g}, with a part it is from {band.lower:.4g} to {band.upper:.4g}"
+    found = f"joint {band.joint} is at {position:.4g}, with a part expected from {band.lower:.4g} to {band.upper:.4g}"
     within = max(facts.goal_tolerance, _ROUNDING)
     if not abs(position - facts.open) > within:  # an unknown position is no arrival either
         raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, f"not closed: {found}")
@@ -139,7 +139,7 @@ def release(context: TaskContext, device: str) -> None:
     grasp, slipped_m = plant.parts.grasp(name), plant.parts.slipped_m.get(name, 0.0)
     if not plant.parts.lies(name, tip_link(context, device), plant.now_ns):
         plant.parts.fall(name, plant.now_ns)
-        raise AttemptError(AttemptOutcome.GRIP_FAILURE, f"dropped: {name} was let go of where no goal puts it")
+        raise AttemptError(AttemptOutcome.GRIP_FAILURE, f"dropped: {name} was released where no goal puts it")
     if grasp is not None and abs(slipped_m) > (grasp.tolerance_m or 0.0):
-        text = f"slipped: {name} lies {abs(slipped_m) * 1e3:.3g} mm from where {device} took it between its fingers"
+        text = f"slipped: {name} lies {abs(slipped_m) * 1e3:.3g} mm from where {device} gripped it"
         raise AttemptError(AttemptOutcome.GRIP_FAILURE, text)

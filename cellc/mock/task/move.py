@@ -294,7 +294,7 @@ def _require_arrival(state: CurrentState, trajectory: TimedTrajectory) -> None:
     actual = state.positions
     for joint, goal in zip(trajectory.joints, trajectory.points[-1].positions, strict=True):
         if abs(actual[joint] - goal) > ARRIVAL_TOLERANCE:
-            text = f"joint {joint} is at {actual[joint]:.4g} after a reported success, its goal is {goal:.4g}"
+            text = f"joint {joint} is at {actual[joint]:.4g} after a reported success, but its goal is {goal:.4g}"
             raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, text)
 
 

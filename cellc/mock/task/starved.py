@@ -33,10 +33,10 @@ def _broken_links(plant: Plant, frame: str, max_age_ns: int) -> Iterator[str]:
     yield from _of_detector(perception, authority, camera, facts, now_ns, max_age_ns)
     arrived_ns = plant.task.observations[frame].arrived_ns
     if arrived_ns is None:
-        yield f"no pose of `{authority}` has reached `{plant.task.name}`"
+        yield f"no pose from `{authority}` has reached `{plant.task.name}`"
     elif now_ns - arrived_ns > round(1e9 / (plant.contract.frames[frame].rate_hz or DEFAULT_RATE_HZ)):
-        yield f"no pose of `{authority}` has reached `{plant.task.name}` for {_s(now_ns - arrived_ns)}"
-    yield _apart(plant, camera.device) or f"poses of `{authority}` reach `{plant.task.name}` late"
+        yield f"no pose from `{authority}` has reached `{plant.task.name}` for {_s(now_ns - arrived_ns)}"
+    yield _apart(plant, camera.device) or f"poses from `{authority}` reach `{plant.task.name}` late"
 
 
 def _camera(plant: Plant, detector: str) -> tuple[Camera, ContractCamera] | None:
@@ -55,14 +55,14 @@ def _of_detector(
     look = perception.last
     queue = f"queue of {perception.depth or 'any length'} at {facts.rate_hz:g} Hz"
     if look is None:
-        yield f"no image of `{camera.device}` has reached `{name}`"
+        yield f"no image from `{camera.device}` has reached `{name}`"
     elif look.rejected:
         message = f"`{name}` rejected {perception.rejected} of {perception.taken} images"
         yield f"{message}, oldest {_s(perception.oldest_ns)}, {queue}"
     elif look.taken_ns - look.image.taken_ns > max_age_ns:
         yield f"images are {_s(look.taken_ns - look.image.taken_ns)} old when `{name}` takes them, {queue}"
     elif now_ns - look.image.taken_ns > max_age_ns:
-        yield f"no image of `{camera.device}` has reached `{name}` for {_s(now_ns - look.taken_ns)}"
+        yield f"no image from `{camera.device}` has reached `{name}` for {_s(now_ns - look.taken_ns)}"
 
 
 def starved_states(plant: Plant, feed: JointStateFeed, max_age_s: float) -> str:
@@ -76,11 +76,11 @@ def starved_states(plant: Plant, feed: JointStateFeed, max_age_s: float) -> str:
     if silent_ns > max_age_ns:
         return f"`{history.broadcaster}` has published none for {_s(silent_ns)}"
     if newest is None:
-        return f"none of `{history.broadcaster}` has reached `{task}`"
+        return f"none from `{history.broadcaster}` has reached `{task}`"
     behind_ns = now_ns - int(history.stamps[newest])
     if behind_ns > max_age_ns:
-        return f"`{history.broadcaster}` publishes, nothing of the last {_s(behind_ns)} has reached `{task}`"
-    return _apart(plant, history.broadcaster) or f"those of `{history.broadcaster}` reach `{task}` late"
+        return f"`{history.broadcaster}` publishes, but nothing from the last {_s(behind_ns)} has reached `{task}`"
+    return _apart(plant, history.broadcaster) or f"those from `{history.broadcaster}` reach `{task}` late"
 
 
 def starved_transform(plant: Plant, target: str, source: str) -> str:

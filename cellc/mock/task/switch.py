@@ -55,7 +55,7 @@ def sense(context: TaskContext, device: str, state: str) -> Waiting[None]:
     while (read := switches.read(device, context.now_ns)) != facts.states[state]:
         if context.now_ns >= until_ns:
             text = ", ".join(f"{name} reads {str(value).lower()}" for name, value in read.items())
-            reason = f"{device} does not tell `{state}` within {facts.within_s:g} s: {text}"
+            reason = f"{device} does not report `{state}` within {facts.within_s:g} s: {text}"
             raise AttemptError(AttemptOutcome.TIMEOUT, reason)
         yield from context.pause(min(until_ns, context.now_ns + _LOOK_NS))
 

@@ -87,7 +87,7 @@ def _require_role(plant: Plant, role: str) -> None:
     if role != authorized:
         stopped = plant.stops.present()
         outcome = OUTCOME_OF_STOP[stopped[0].state] if stopped else AttemptOutcome.CLAIM_FAILURE
-        raise AttemptError(outcome, f"{role} may not acknowledge, {authorized} must")
+        raise AttemptError(outcome, f"{role} must not acknowledge, only {authorized} may")
 
 
 def _until_over(context: TaskContext) -> Waiting[None]:
@@ -97,12 +97,10 @@ def _until_over(context: TaskContext) -> Waiting[None]:
     plant = context.plant
     while (lasting := plant.stops.lasting()) or plant.effects.unrecoverable:
         if context.now_ns >= until_ns and lasting:
-            text = f"{lasting[0].component} is still in {lasting[0].state} {bound_s:g} s after it was to be recovered"
+            text = f"{lasting[0].component} is still in {lasting[0].state} {bound_s:g} s after it should have recovered"
             raise AttemptError(OUTCOME_OF_STOP[lasting[0].state], text)
         if context.now_ns >= until_ns:
-            text = (
-                f"{plant.effects.unrecoverable[0]} still follows no set points {bound_s:g} s after a claim was wanted"
-            )
+            text = f"{plant.effects.unrecoverable[0]} still follows no set points {bound_s:g} s after a claim request"
             raise AttemptError(AttemptOutcome.CLAIM_FAILURE, text)
         yield Wait(min(until_ns, context.now_ns + _LOOK_NS), (context.control.changed,))
 

@@ -57,7 +57,7 @@ def init(name: str, devices: tuple[str, ...], ros: str, output: Path | None, for
     cellc init bench arm=./my_robot gripper=MODEL
     """
     if not re.fullmatch(r"[a-z][a-z0-9_]+", name) or "__" in name:
-        raise click.UsageError(f"`{name}` is no package name: use lower case letters, digits and single underscores")
+        raise click.UsageError(f"`{name}` is not a package name: use lower case letters, digits and single underscores")
     if not devices:
         raise click.UsageError(f"name at least one model of the catalog: {', '.join(device_names())}")
     folders = [Path(text.rpartition("=")[2]) for text in devices if _is_folder(text.rpartition("=")[2])]
@@ -90,7 +90,7 @@ def _named(devices: tuple[str, ...], beside: Path) -> dict[str, NamedDevice]:
         device = _of_folder(Path(model), beside) if _is_folder(model) else _of_catalog(model)
         name = given or _free_name(device.model.kind, entries)
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
-            raise click.UsageError(f"`{name}` is no device name: use letters, digits and underscores")
+            raise click.UsageError(f"`{name}` is not a device name: use letters, digits and underscores")
         if name in entries:
             raise click.UsageError(f"two devices have the name `{name}`: name them apart, such as `{name}_2={model}`")
         entries[name] = device

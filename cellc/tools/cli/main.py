@@ -16,7 +16,7 @@ from cellc.version import __version__
 # Command → module; the function in it has the command's name. In the order in which a cell comes to need them.
 _COMMANDS = {
     "init": "Write a new cell from names of devices.",
-    "import": "Create a device folder from a robot description of its vendor.",
+    "import": "Create a device folder from a vendor's robot description.",
     "catalog": "List, find or show devices of the catalog.",
     "check": "Check cells, devices and robot descriptions.",
     "explain": "Explain a diagnostic code.",

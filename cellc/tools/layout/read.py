@@ -166,7 +166,7 @@ class _Reader:
         (line, column), (end, end_column) = _start(event), _end(event)
         before = self._lines[line][:column].rstrip()
         if not isinstance(event, yaml.ScalarEvent) or end != line or before.endswith("?") or event.anchor:
-            raise UnusualError("a key is no plain text")
+            raise UnusualError("a key is not plain text")
         return self._lines[line][column:end_column]
 
     def _flow(self, start: yaml.CollectionStartEvent, anchor: str) -> Collection:

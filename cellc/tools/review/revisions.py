@@ -95,7 +95,7 @@ class Repository:
             parts = PurePosixPath(entry.name).parts
             if PurePosixPath(entry.name).is_absolute() or not {"..", ".git"}.isdisjoint(parts) or "\\" in entry.name:
                 place = f"{revision}:{folder}"
-                raise RevisionError(f"`{place}` holds the name {entry.name!a}, which is no path inside a folder")
+                raise RevisionError(f"`{place}` holds the name {entry.name!a}, which is not a path inside a folder")
         return entries
 
     def _files(self, entries: Sequence[Entry]) -> dict[str, bytes]:

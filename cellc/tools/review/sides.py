@@ -221,7 +221,7 @@ def package_of(name: str, checked: Checked) -> Package:
 def _of_folder(name: str, folder: Path) -> Package:
     if not (folder / MANIFEST).exists():
         raise SideError(
-            f"{name} has no `{MANIFEST}`: it is no generated folder; name the spec or the folder of one cell"
+            f"{name} has no `{MANIFEST}`: it is not a generated folder; name the spec or the folder of one cell"
         )
     try:
         manifest = read_json(read_text(folder, MANIFEST), Manifest)

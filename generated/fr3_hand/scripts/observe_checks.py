@@ -242,7 +242,7 @@ def joints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     later = package.plan["late_joints"] if gate < CLAIMED_FROM else ()  # a person activates their hardware first
     wanted = {joint for each in controllers for joint in each["joints"] if due and joint not in later}
     problems = [f"{joint} is missing" for joint in sorted(wanted - found.keys())]
-    problems += ["a position is no number"] if any(stream.not_finite for stream in seen.streams.values()) else []
+    problems += ["a position is not a number"] if any(stream.not_finite for stream in seen.streams.values()) else []
     for joint, limits in package.contract["joint_limits"].items():
         low, high = found.get(joint, (0.0, 0.0))
         if joint in found and (low < limits.get("lower", -math.inf) or high > limits.get("upper", math.inf)):

@@ -72,7 +72,7 @@ def test_bring_up_connects_before_it_observes_and_activates_last(cell: MockCell)
     result, _ = run(cell)
     facts = {stage.stage: stage.facts for stage in result.bringup}
     assert "the adapter of `arm` is connected and inactive" in facts["configure"]
-    assert "the adapter of `arm` is active, for `move_group` alone" in facts["claim"]
+    assert "the adapter of `arm` is active, for only `move_group`" in facts["claim"]
 
 
 def test_no_command_is_faster_than_the_limits_of_the_cell(cell: MockCell) -> None:

@@ -60,7 +60,7 @@ def test_finger_that_is_slow_is_given_up_at_the_bound_of_the_grip(run: Rehearse)
 
 def test_speed_scaled_to_zero_neither_progresses_nor_aborts_and_the_client_bounds_it(run: Rehearse) -> None:
     done = run(during(3, FaultKind.SCALE_SPEED, "arm", factor=0.0))
-    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result of arm_trajectory within 90 s")
+    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result from arm_trajectory within 90 s")
     paused_ns = done.failed.started_ns + 2_000_000_000
     assert done.travel(paused_ns, done.failed.ended_ns) < 1e-9
     assert done.failed.result is not None

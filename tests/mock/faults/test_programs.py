@@ -62,7 +62,7 @@ def unwatched(cell: MockCell, plain: RehearsalEntry) -> Unwatched:
 def test_claim_goes_when_the_program_stops_in_motion_and_the_arm_stands(run: Rehearse) -> None:
     done = run(during(3, FaultKind.PROGRAM_STOP, "arm"))
     assert done.failed.outcome == "claim_failure"
-    assert done.failed.fault_code == "arm_trajectory gave up its claim: the program of arm does not run"
+    assert done.failed.fault_code == "arm_trajectory gave up its claim: the program of arm is not running"
     assert done.failed.operator_intervention == "required: program start, then a claim, by operator"
     assert done.travel(done.plant.now_ns - 10_000_000, done.plant.now_ns) == 0.0
 
@@ -103,7 +103,7 @@ def test_set_point_beyond_what_the_robot_follows_in_a_step_is_ignored_and_that_f
     done = unwatched(*jogged_and_started(0.05), steps=STOPPED)
     assert done.failed.outcome == "claim_failure"
     assert done.failed.fault_code.startswith(
-        "arm ignores a set point 0.0500 rad beside arm_wrist_3_joint, it follows 0.04"
+        "arm ignores a set point 0.0500 rad away from arm_wrist_3_joint, it follows at most 0.04"
     )
     assert done.plant.effects.motions == []
 
@@ -133,7 +133,7 @@ def test_a_response_is_counted_from_what_began_before_the_attempt_ended(run: Reh
 def test_jog_while_the_program_runs_moves_nothing_and_the_rehearsal_shows_nothing(run: Rehearse) -> None:
     done = run(moment(FaultKind.JOG, WRIST, 0.5, displacement=0.02), steps=(HOME, wait(1.0)))
     assert done.result.findings[-1] == (
-        f"fault `jog {WRIST}` never began: the program of arm runs, so that its pendant moves nothing"
+        f"fault `jog {WRIST}` never began: the program of arm is running, so its pendant moves nothing"
     )
     assert not done.result.passed
 
@@ -141,7 +141,7 @@ def test_jog_while_the_program_runs_moves_nothing_and_the_rehearsal_shows_nothin
 def test_program_that_is_stopped_stands_for_ever_and_nobody_can_claim_it(run: Rehearse) -> None:
     done = run(moment(FaultKind.PROGRAM_STOP, "arm", 0.5), steps=CLAIMED_AGAIN)
     assert done.result.outcome == "claim_failure"
-    assert done.attempt(3).fault_code == "arm still follows no set points 120 s after a claim was wanted"
+    assert done.attempt(3).fault_code == "arm still follows no set points 120 s after a claim request"
 
 
 def test_brakes_of_a_robot_with_a_program_stop_that_program_too(run: Rehearse) -> None:

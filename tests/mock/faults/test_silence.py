@@ -12,20 +12,20 @@ from tests.mock.faults.conftest import DETECT, HOME, PICK, Rehearse, during, wai
 
 def test_server_that_answers_no_goal_request_is_given_up_after_a_second(run: Rehearse) -> None:
     done = run(during(3, FaultKind.UNRESPONSIVE, "arm_trajectory", when="started", after_s=0.0))
-    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no answer of arm_trajectory within 1 s")
+    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no answer from arm_trajectory within 1 s")
     assert done.failed.action_goal_id is not None
     assert "ACCEPTED" not in {point.step.name for point in done.failed.trace}
 
 
 def test_planner_that_answers_nothing_is_given_up_after_a_second(run: Rehearse) -> None:
     failed = run(during(3, FaultKind.UNRESPONSIVE, "move_group", when="started", after_s=0.0)).failed
-    assert (failed.outcome, failed.fault_code) == ("timeout", "no answer of move_group within 1 s")
+    assert (failed.outcome, failed.fault_code) == ("timeout", "no answer from move_group within 1 s")
 
 
 def test_result_that_never_comes_is_given_up_when_the_action_times_out(run: Rehearse) -> None:
     # /move_action has a timeout of 90 s; the hold after it is bounded by 200 ms.
     done = run(during(3, FaultKind.UNRESPONSIVE, "arm_trajectory"))
-    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result of arm_trajectory within 90 s")
+    assert (done.failed.outcome, done.failed.fault_code) == ("timeout", "no result from arm_trajectory within 90 s")
     assert done.failed.cancel is not None
     assert done.failed.cancel.return_code is None
     assert (done.failed.ended_ns - done.failed.started_ns) / 1e9 < 90.5
@@ -75,7 +75,7 @@ def test_endpoint_that_no_longer_matches_is_told_by_the_middleware(run: Rehearse
 
 def test_action_whose_endpoints_do_not_match_is_answered_by_nobody(run: Rehearse) -> None:
     fault = during(4, FaultKind.MISMATCH_QOS, "/gripper_action/gripper_cmd", when="started", after_s=0.0)
-    assert run(fault).failed.fault_code == "no answer of gripper_action within 1 s"
+    assert run(fault).failed.fault_code == "no answer from gripper_action within 1 s"
 
 
 def test_transforms_that_are_no_longer_received_end_in_tf_failure(run: Rehearse) -> None:

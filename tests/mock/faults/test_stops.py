@@ -115,7 +115,7 @@ def test_other_role_than_the_declared_one_cannot_acknowledge(run: Rehearse) -> N
         steps=(HOME, DETECT, PICK, wait(1.0), stranger, HOME),
     )
     assert done.result.outcome == "protective_stop"
-    assert done.attempt(5).fault_code == "task may not acknowledge, operator must"
+    assert done.attempt(5).fault_code == "task must not acknowledge, only operator may"
     assert len(done.result.attempts) == 6  # the last sums up
 
 

@@ -185,7 +185,9 @@ def test_an_openarm_that_loses_its_supply_reports_nothing_and_its_goal_gets_nowh
     done = of("openarm_bimanual", during(2, FaultKind.EMERGENCY_STOP, "left"))
     assert (done.failed.outcome, done.failed.safety_state) == ("tolerance_violation", "normal")
     assert component(done, "openarm_left_hardware_interface") == "active"
-    assert "dangerous: `left` fell as it stopped; old joint states continue and show nothing" in done.result.findings
+    assert (
+        "dangerous: `left` fell when it stopped; old joint states continue and do not show it" in done.result.findings
+    )
 
 
 def test_an_openarm_that_loses_its_supply_at_rest_shows_nothing_at_all() -> None:
@@ -218,7 +220,7 @@ def test_a_ur_that_was_cut_off_at_rest_says_so_as_it_is_connected_again_and_give
     cut = FaultEntry(kind=FaultKind.CUT_NETWORK, target="arm", event=second_step(0.5), lasting_s=2.0)
     done = run(cut, steps=(HOME, wait(5.0)))
     assert done.failed.outcome == "claim_failure"
-    assert done.failed.fault_code.endswith("the program of arm does not run")
+    assert done.failed.fault_code.endswith("the program of arm is not running")
     assert (done.failed.ended_ns - done.failed.started_ns) / 1e9 == pytest.approx(2.6, abs=0.05)  # not before 2.5 s
 
 

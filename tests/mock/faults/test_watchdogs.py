@@ -108,7 +108,7 @@ def test_run_fails_without_its_watchdog(
 def test_goal_of_a_paused_robot_is_bounded_by_the_action_alone(run: Rehearse, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(move, "goal_timeout_s", lambda *_: 1e6)
     done = run(during(3, FaultKind.SCALE_SPEED, "arm", factor=0.0), timeout_s=60.0)
-    assert done.failed.fault_code == "the rehearsal's own timeout passed"
+    assert done.failed.fault_code == "the timeout of the rehearsal expired"
 
 
 def test_stop_without_a_latch_is_over_without_an_acknowledgment(run: Rehearse, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -31,7 +31,9 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     assert again.code == 1
     assert f"FAILED  {failed}: missed put" in again.out
     assert f"digest: {told['sweeps'][0]['runs'][number]['digest']}" in again.out
-    assert_refused(run("replay", str(nest_folder), failed, "--journal", journal, "--seed", "1"), "is of another sweep")
+    assert_refused(
+        run("replay", str(nest_folder), failed, "--journal", journal, "--seed", "1"), "belongs to another sweep"
+    )
     assert told["sweeps"][0]["verdict"] is None
     kept = tmp_path / "kept"
     run("sweep", str(nest_folder), "--runs", "6", "--jobs", "1", "--journal", journal, "--evidence", str(kept))

@@ -50,7 +50,7 @@ def test_a_file_that_is_no_journal_is_left_as_it_is(notes: bytes, nest_folder: P
     mine.write_bytes(notes)
     for command, *asked in (["sweep", "--runs", "3", "--jobs", "1"], ["replay", "sweep:1"]):
         ran = run(command, str(nest_folder), *asked, "--journal", str(mine))
-        assert (ran.code, "is no journal" in ran.err) == (2, True), ran
+        assert (ran.code, "is not a journal" in ran.err) == (2, True), ran
         assert mine.read_bytes() == notes
 
 
@@ -80,18 +80,21 @@ def test_runs_that_another_program_made_are_not_mixed_with_those_of_this_one(
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"passed": "no"}, "line 3 is no run: `passed`: input should be a valid boolean"),
-        ({"number": True}, "line 3 is no run: `number`: input should be a valid integer"),
-        ({"number": -1}, "line 3 is no run: `number`: input should be greater than or equal to 0"),
-        ({"number": 10**18}, "line 3 is no run: `number`: input should be less than"),
-        ({"digest": None}, "line 3 is no run: `digest`: input should be a valid string"),
+        ({"passed": "no"}, "line 3 is not a run: `passed`: input should be a valid boolean"),
+        ({"number": True}, "line 3 is not a run: `number`: input should be a valid integer"),
+        ({"number": -1}, "line 3 is not a run: `number`: input should be greater than or equal to 0"),
+        ({"number": 10**18}, "line 3 is not a run: `number`: input should be less than"),
+        ({"digest": None}, "line 3 is not a run: `digest`: input should be a valid string"),
         (
             {"goals": {"put": {"distance_m": "z"}}},
-            "line 3 is no run: `goals.put.distance_m`: input should be a valid n",
+            "line 3 is not a run: `goals.put.distance_m`: input should be a valid n",
         ),
-        ({"goals": {"pot": asdict(RUN)["goals"]["put"]}}, "line 3 is no run of this cell: there is no goal `pot`"),
-        ({"joint_state_age_s": float("nan")}, "line 3 is no run: `joint_state_age_s`: input should be a finite number"),
-        ({"more": 1}, "line 3 is no run: `more`: extra inputs are not permitted"),
+        ({"goals": {"pot": asdict(RUN)["goals"]["put"]}}, "line 3 is not a run of this cell: there is no goal `pot`"),
+        (
+            {"joint_state_age_s": float("nan")},
+            "line 3 is not a run: `joint_state_age_s`: input should be a finite number",
+        ),
+        ({"more": 1}, "line 3 is not a run: `more`: extra inputs are not permitted"),
         ({"number": 0, "passed": False}, "line 3 contradicts another line of run 0"),
     ],
 )
@@ -109,7 +112,7 @@ def test_a_line_that_is_no_run_is_told_with_its_number(
 def test_a_line_that_is_no_object_is_told_too(line: str, nest: MockCell, file: Path) -> None:
     with file.open("a", encoding="utf-8") as damaged:
         damaged.write(line + "\n")
-    with pytest.raises(MockError, match="line 3 is no run: "):
+    with pytest.raises(MockError, match="line 3 is not a run: "):
         Journal(file, nest.contract, "put", 0)
 
 

@@ -94,7 +94,7 @@ def test_margins_go_from_the_best_run_to_the_worst_up_to_their_bounds(nest: Mock
     # Nothing stands around this arm, so that it has no clearance.
     assert {name: one.bound for name, one in found.items() if one.bound is not None} == {
         "distance at put": TOLERANCE_M,
-        "way to a joint's end at put": 1.0,
+        "joint range used at put": 1.0,
         "least singular value at put": 0.005,  # docs/mock.md, Sweeps
         "age of joint states": 0.1,
     }
@@ -225,7 +225,7 @@ def test_a_sweep_goes_on_where_its_journal_ends_and_ends_as_it_would_have(
         assert swept(nest, 12, known=again.runs) == twelve
         again.keep(twelve.runs[11])
     assert set(Journal(file, nest.contract, "put", 0).runs) == {*range(2, 10), 11}
-    with pytest.raises(MockError, match="is of another sweep"):
+    with pytest.raises(MockError, match="belongs to another sweep"):
         Journal(file, nest.contract, "put", 1)
 
 
@@ -250,12 +250,12 @@ def test_more_runs_are_advised_only_where_they_would_be_made_and_would_tell(nest
         return last.removesuffix(" (Monte Carlo filtering, Kolmogorov-Smirnov)")
 
     nothing = "no drawn quantity explains the failures; "
-    assert told(passed=(1, 2, 3)) == nothing + "more runs may tell more"
+    assert told(passed=(1, 2, 3)) == nothing + "more runs may show more"
     assert told(passed=(1, 2, 3), asked=99) == nothing + (
         "the verdict ended the sweep early; without `success` it makes all 99 runs"
     )
-    assert told() == "every run failed, so that no successful run is left for a comparison"
-    assert told(passed=(1,), drawn=False) == "nothing is drawn that could explain the failures"
+    assert told() == "every run failed, so no successful run is left for a comparison"
+    assert told(passed=(1,), drawn=False) == "no quantity is drawn that could explain the failures"
 
 
 def test_a_folder_that_names_what_it_does_not_have_is_refused(nest: MockCell) -> None:

@@ -161,7 +161,7 @@ def let_go_by_an_end(cell: Cell) -> Iterator[str]:
     ended = {name: each[Moment.DEACTIVATE] for name, each in effects.items() if Moment.DEACTIVATE in each}
     falling = [name for name, effect in ended.items() if effect.motion is Motion.FALLS]
     if dropping := [name for name, effect in ended.items() if effect.drops_part]:
-        yield f"Make sure that nothing which {' and '.join(dropping)} may hold can fall on a person"
+        yield f"Make sure that nothing that {' and '.join(dropping)} may hold can fall on a person"
     if falling:
         yield f"From out of reach, place a stand just below each of {' and '.join(falling)}. They fall together."
 
@@ -177,7 +177,7 @@ def recovery(cell: Cell) -> Iterator[str]:
     yield markdown(f"Acknowledged by: {recovery.acknowledge}. Owner: {recovery.owner}.")
     yield markdown(f"After a reconnect: {recovery.on_reconnect}.")
     if let_go := tuple(let_go_by_an_end(cell)):
-        yield from ("", "Before any launch of the cell is stopped:", "", _numbered(let_go))
+        yield from ("", "Before you stop any launch of the cell:", "", _numbered(let_go))
     for device in cell.devices:
         if device.procedures.safety.stop_authority is not None:
             yield from ("", markdown(f"{device.name} is stopped by: {device.procedures.safety.stop_authority}."))
@@ -195,13 +195,13 @@ def _not_provable(cell: Cell) -> Iterator[str]:
         of = f"{device.name} ({device.vendor} {device.model})"
         yield from (f"- {markdown(f'{of}: {text}')}" for text in device.mock.mock_cannot_prove)
     if cell.groups and not cell.scene and cell.octomap is None:
-        yield "- collisions with the surroundings: `scene` is empty, so planned paths may pass through table and fence"
+        yield "- collisions with the surroundings: `scene` is empty, so planned paths may pass through a table or fence"
     if cell.octomap is not None:
         yield f"- the occupancy map of {code(cell.octomap.source)}: the mock plans without it"
     if cell.servo is not None:
         yield f"- {code(cell.servo.node)} (MoveIt Servo): the mock does not execute it and sends it no command"
     for device, name, said in cell.signed_for_mock():
-        signed = f"that {code(name)} touches no hardware: stated by {said.by} alone, {said.date}"
+        signed = f"that {code(name)} touches no hardware: stated only by {said.by}, {said.date}"
         yield f"- {markdown(f'{device.name}: {signed}')}"
 
 

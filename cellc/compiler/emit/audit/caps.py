@@ -40,10 +40,10 @@ def _bounds(cell: Cell) -> Iterator[str]:
     yield "move_group plans within these limits. A request can only scale them down."
     if cell.servo is not None:
         by = "its scales are capped too" if cell.servo.commands == "unitless" else "its scales do not apply to units"
-        yield f"{cell.servo.node} (MoveIt Servo) slows down to the limits of the joints; {by}."
+        yield f"{cell.servo.node} (MoveIt Servo) slows down to the joint limits; {by}."
     if caps is not None and caps.reach is not None:
         reach = shortest(caps.reach)
-        yield f"Reach {reach} m: poses and goals are checked. No parameter of MoveIt keeps a path within it."
+        yield f"Reach {reach} m: poses and goals are checked. No MoveIt parameter keeps a path within it."
     if caps is not None and caps.force is not None:
         yield f"Grip force {shortest(caps.force)} N: the contract has it as the largest effort that the task asks for."
 
@@ -52,12 +52,12 @@ def _past(cell: Cell) -> Iterator[str]:
     """Yield what no stage caps, each with what is left to stop it."""
     for controller in cell.trajectory_controllers:
         yield (
-            f"Not capped: a goal that a client sends to {controller.action} itself, with its own times. "
+            f"Not capped: a goal that a client sends directly to {controller.action}, with its own times. "
             f"{_enforced(cell)}{_scaled(cell, controller.device)}"
         )
-    yield "Not capped: a trajectory that a client has move_group execute without having planned it."
+    yield "Not capped: a trajectory that a client has move_group execute without planning it."
     for node in cell.movers:
-        yield f"{node.name} asks for motion: what it sends past move_group is as fast as its own code."
+        yield f"{node.name} is a motion client: what it sends past move_group is as fast as its own code makes it."
 
 
 def _enforced(cell: Cell) -> str:

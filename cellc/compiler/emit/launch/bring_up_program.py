@@ -97,7 +97,7 @@ class Graph:
         while not future.done():
             if time.monotonic() > until:
                 client.remove_pending_request(future)
-                raise UnansweredError(f"{name} does not answer within {answer_s:g} s")
+                raise UnansweredError(f"{name} did not answer within {answer_s:g} s")
             self._executor.spin_once(timeout_sec=0.05)
         return future.result()
 
@@ -178,18 +178,18 @@ class Unmet:
 
     def _lifecycle(self, proof: SimpleNamespace) -> str:
         state = self._graph.ask("lifecycle_msgs/srv/GetState", f"{proof.node}/get_state").current_state.label
-        return "" if state in FROM[proof.state] else f"{proof.node} must be {proof.state}, is {state}"
+        return "" if state in FROM[proof.state] else f"{proof.node} must be {proof.state}, got {state}"
 
     def _controller(self, proof: SimpleNamespace) -> str:
         listed = listed_controllers(self._graph, proof.manager)
         state = next((entry.state for entry in listed if entry.name == proof.controller), "not loaded")
-        return "" if state in FROM[proof.state] else f"controller {proof.controller} must be {proof.state}, is {state}"
+        return "" if state in FROM[proof.state] else f"controller {proof.controller} must be {proof.state}, got {state}"
 
     def _hardware(self, proof: SimpleNamespace) -> str:
         kind, name = "controller_manager_msgs/srv/ListHardwareComponents", "list_hardware_components"
         listed = self._graph.ask(kind, f"{proof.manager}/{name}").component
         state = next((entry.state.label for entry in listed if entry.name == proof.component), "missing")
-        return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, is {state}"
+        return "" if state == proof.state else f"hardware {proof.component} must be {proof.state}, got {state}"
 
     def _topic(self, proof: SimpleNamespace) -> str:
         message = self._graph.heard(proof.topic, proof.type)
@@ -199,7 +199,7 @@ class Unmet:
         return "" if unsaid else f"no message on {proof.topic}"
 
     def _action(self, proof: SimpleNamespace) -> str:
-        return "" if self._graph.serves(f"{proof.action}/_action/send_goal") else f"no server of {proof.action}"
+        return "" if self._graph.serves(f"{proof.action}/_action/send_goal") else f"no server for {proof.action}"
 
     def _transform(self, proof: SimpleNamespace) -> str:
         there = self._graph.connects(proof.parent, proof.child)
@@ -215,7 +215,7 @@ class Unmet:
         text = answer.values[0].string_value if answer.values else ""
         used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
         foreign = ", ".join(sorted(used - set(proof.plugins))) if used else "no hardware"
-        return f"{proof.node} must describe only the mock, has {foreign}" if foreign else ""
+        return f"{proof.node} must describe only the mock, got {foreign}" if foreign else ""
 
 
 def contradiction(proof: SimpleNamespace, message: Any) -> str:
@@ -224,7 +224,7 @@ def contradiction(proof: SimpleNamespace, message: Any) -> str:
     if value is None or (value > above if above is not None else value in proof.values):
         return ""
     wanted = f"above {above:g}" if above is not None else " or ".join(map(str, proof.values))
-    return f"{proof.topic} must be {wanted}, is {value}"
+    return f"{proof.topic} must be {wanted}, got {value}"
 
 
 def unmet_reason(graph: Graph, proofs: Sequence[SimpleNamespace]) -> str:

@@ -4,10 +4,10 @@
     claim_watch --plan FILE [--host HOST]
 
 Each entry of `watches` in config/bring_up.json has the topics that prove that its robot follows set points. The message
-that proves otherwise is acted upon in its callback and remembered: a robot that stops and goes on between two messages
-of another topic has stopped. Goals are canceled, controllers and managed motion clients deactivated. From then on, and
-from the start of this program on, each claim is taken away again, until claim.launch.xml acknowledges for the person
-who authorizes it. That is refused while a proof is missing. It is no safety function.
+that proves otherwise is acted upon in its callback and remembered: a robot that stops and resumes between two messages
+of another topic has stopped. Goals are canceled; controllers and managed motion clients are deactivated. From then on,
+and from the start of this program on, each claim is removed again until claim.launch.xml acknowledges on behalf of the
+person who authorizes it. That is refused while a proof is missing. This program is not a safety function.
 """
 
 from __future__ import annotations

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Moves one joint a little by a trajectory controller, to both sides of where it is; all others keep their position.
+"""Moves one joint slightly to both sides with a trajectory controller, while all others keep their position.
 
     first_goal --action NAME --states TOPIC --joint NAME --by RAD --seconds S --timeout S [--absent NODE]... \
         [--then end|cancel] [--evidence DIR] [--package DIR] JOINT:LOWER:UPPER...
 
 It starts only when the states of all joints are fresh and all joints are at standstill, with no motion client running.
-`end` moves the joint by BY, back, to the other side and back: four goals, within twice BY in all. A side beyond a limit
-is left out. `cancel` moves it by BY, cancels half way, prints the time from the request to standstill, and moves it
-back. A joint that leaves its way, or states that stop arriving, cancel the goal; so does Ctrl-C. It ends with 0 when
-every goal ended as requested. With --evidence it writes how it ended as JSON, command, state and error of each joint as
-CSV, and of the joint that moves as SVG. goal.launch.xml starts it, by a person's authorization, while the claims hold.
+`end` moves the joint by BY, back, to the other side and back, and skips a side beyond a limit. `cancel` moves it by BY,
+cancels halfway, prints the time from the request to standstill, and moves it back. A joint that leaves its path, or
+states that stop arriving, cancel the goal; so does Ctrl-C. The exit status is 0 when every goal ended as requested.
+With --evidence it writes the result as JSON, command, state and error of each joint as CSV, and the plot of the moving
+joint as SVG. goal.launch.xml starts it, with a person's authorization, while the claims hold.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ class Robot:
 
 
 class Trial:
-    """One joint from its start: out and back to both sides, or out, canceled half way and back."""
+    """One joint from its start: out and back to both sides, or out, canceled halfway and back."""
 
     def __init__(self, robot: Any, arguments: argparse.Namespace) -> None:
         self._robot, self._arguments = robot, arguments
@@ -159,11 +159,11 @@ class Trial:
         lower, upper = self._limits[joint]
         position = self._start[joint]
         sides = [side for side in (by, -by) if lower <= position + side <= upper]
-        near = f"{joint} at {position:.4f} is closer than {abs(by):.4f} to its limits {lower:g} {upper:g}"
+        near = f"{joint} at {position:.4f} is closer than {abs(by):.4f} to one of its limits {lower:g} and {upper:g}"
         if not sides:
             raise MotionError(near)
         if len(sides) == 1:
-            print(f"{near}: only the side of {'+' if sides[0] > 0.0 else '-'} is open", flush=True)
+            print(f"{near}: moving only to the {'+' if sides[0] > 0.0 else '-'} side", flush=True)
         return sides
 
     def _check(self) -> None:
@@ -174,14 +174,14 @@ class Trial:
         """
         robot, arguments = self._robot, self._arguments
         if arguments.joint not in self._limits:
-            raise MotionError(f"{arguments.joint} is no joint of {arguments.action}")
+            raise MotionError(f"{arguments.joint} is not a joint of {arguments.action}")
         if not self._wait(robot.serves, WAIT_S):
-            raise MotionError(f"no server of {arguments.action}")
+            raise MotionError(f"no server for {arguments.action}")
         if not self._wait(lambda: set(self._joints) <= set(robot.positions), WAIT_S):
             missing = ", ".join(sorted(set(self._joints) - set(robot.positions)))
             raise MotionError(f"no state of {missing} on {arguments.states}")
         if running := ", ".join(name for name in arguments.absent if name in robot.nodes()):
-            raise MotionError(f"end {running} first: a motion client may not run")
+            raise MotionError(f"stop {running} first: no motion client may run")
         if not self._wait(lambda: not self._stale() and not self._moving(STILL_S), WAIT_S):
             raise MotionError(
                 self._stale() or f"{', '.join(self._moving(STILL_S))} not at standstill for {STILL_S:g} s"
@@ -233,8 +233,8 @@ class Trial:
                 raise MotionError(f"{arguments.action} did not accept the goal")
             ended = sent.result().get_result_async()
             if cancels:
-                if not self._watch(lambda: self._is_half_way(before, target), arguments.timeout, before, target):
-                    raise MotionError(f"{arguments.joint} was not half way within {arguments.timeout:g} s")
+                if not self._watch(lambda: self._is_halfway(before, target), arguments.timeout, before, target):
+                    raise MotionError(f"{arguments.joint} was not halfway within {arguments.timeout:g} s")
                 self._cancel(sent.result())
             if not self._watch(ended.done, arguments.timeout, before, target):
                 raise MotionError(f"the goal did not end within {arguments.timeout:g} s and was canceled")
@@ -245,7 +245,7 @@ class Trial:
         wanted, moved = (place[arguments.joint] - before[arguments.joint] for place in (target, self._places()))
         if not cancels and moved * math.copysign(1.0, wanted) < abs(wanted) / 2.0:
             raise MotionError(
-                f"{name}: {arguments.joint} moved {moved:+.4f} of {wanted:+.4f}: a wide tolerance hides it"
+                f"{name}: {arguments.joint} moved {moved:+.4f} of {wanted:+.4f}, which a wide tolerance hides"
             )
 
     def _watch(
@@ -259,14 +259,14 @@ class Trial:
                 first, last = sorted((before[name], target[name]))
                 position = self._near(name)
                 if not first - slack <= position <= last + slack:
-                    raise MotionError(f"{name} at {position:.4f} left its way from {first:.4f} to {last:.4f}")
+                    raise MotionError(f"{name} at {position:.4f} left its path from {first:.4f} to {last:.4f}")
             if stale := self._stale():
                 raise MotionError(stale)
             return holds()
 
         return self._wait(ends, seconds)
 
-    def _is_half_way(self, before: dict[str, float], target: dict[str, float]) -> bool:
+    def _is_halfway(self, before: dict[str, float], target: dict[str, float]) -> bool:
         joint = self._arguments.joint
         return bool(abs(self._near(joint) - before[joint]) >= abs(target[joint] - before[joint]) / 2.0)
 
@@ -365,11 +365,11 @@ def arguments_of(words: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--action", required=True)
     parser.add_argument("--states", required=True)
-    parser.add_argument("--joint", required=True, help="joint that moves")
-    parser.add_argument("--by", type=float, required=True, help="rad or m to either side; its sign is the first one")
+    parser.add_argument("--joint", required=True, help="joint to move")
+    parser.add_argument("--by", type=float, required=True, help="rad or m to either side; signed for the first side")
     parser.add_argument("--seconds", type=float, required=True, help="duration of one motion")
     parser.add_argument("--timeout", type=float, required=True, help="seconds until a goal must end")
-    parser.add_argument("--absent", action="append", default=[], help="node that may not run")
+    parser.add_argument("--absent", action="append", default=[], help="node that must not run")
     parser.add_argument("--then", choices=("end", "cancel"), default="end")
     parser.add_argument("--evidence", type=Path, help="folder of the attempt")
     parser.add_argument("--package", type=Path, help="share folder of this package, whose ID is recorded")

@@ -93,7 +93,7 @@ def compared(part: str, pinned: str, where: str) -> tuple[str, bool]:
         installed = commit_of(package)
         if not installed:
             unseen = f"no source of {package} is beside its installation"
-            return f"{part} must be {pinned}: cannot be checked, {unseen}", False
+            return f"{part} must be {pinned}, but this cannot be checked, because {unseen}", False
         same = installed.startswith(version)
     elif part == "rmw" and chosen != package:
         installed, same = f"{chosen} in RMW_IMPLEMENTATION", False
@@ -101,7 +101,7 @@ def compared(part: str, pinned: str, where: str) -> tuple[str, bool]:
         read = {"package": version_of, "debian": debian_version_of}.get(kind)
         installed = found_of_system(part) if read is None else read(package)
         same = installed in (pinned, version)
-    return ("", False) if same else (f"{part} must be {pinned}, is {installed}", True)
+    return ("", False) if same else (f"{part} must be {pinned}, got {installed}", True)
 
 
 def accepting() -> dict[str, str]:
@@ -118,7 +118,7 @@ def accepted(differing: Mapping[str, str]) -> str:
         return f'to go on in spite of this, a person adds to CELL_ACCEPT_VERSIONS: "{wanted}"'
     folder = os.environ.get("E", "")
     if not folder or not Path(folder).is_dir():
-        return "set E to the folder of the attempt: it records what was accepted"
+        return "set E to the folder of the attempt, which records what was accepted"
     begin = f"{time.strftime('%Y-%m-%dT%H:%M:%SZ', time.gmtime())} {platform.node()}"
     with (Path(folder) / "versions.txt").open("a", encoding="utf-8") as record:
         record.writelines(f"{begin} accepted by {people[part]}: {text}\n" for part, text in differing.items())

@@ -70,7 +70,7 @@ def _released(cell: Cell, release: Release, phase: BringUpPhase, devices: tuple[
     """Yield what a person releases: all of a phase, or of several devices the one that the word names."""
     yield _argument(release.argument, None, release.about, *(release.word_for(name) for name in devices or ("",)))
     yield comment(
-        "proves preconditions, sends the request once, checks the effect and ends; run on one computer for all"
+        "proves preconditions, sends the request once, checks the effect and ends; run it on one computer only"
     )
     if not devices:
         yield bring_up(cell, "real", [phase], when={})
@@ -133,7 +133,9 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
     if plan.hosts:
         yield _host_argument(plan.hosts)
     yield from _gate(MOVE)
-    yield comment("motion clients: each waits for claims, actions and states; on the mock also for the mock")
+    yield comment(
+        "motion clients: each waits for claims, actions and states; on the mock, each also waits for the mock"
+    )
     for node in plan.motion_clients:
         if started_by_a_person(cell, node):
             yield comment(spec_path(node.path))
@@ -143,8 +145,8 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
 def _sending(cell: Cell, goals: tuple[FirstGoal, ...]) -> Iterator[Element]:
     """Yield the first goals of the real target, behind the proof of everything that may ask for motion."""
     yield _argument(GOAL.argument, None, GOAL.about, *dict.fromkeys(GOAL.word_for(goal.release) for goal in goals))
-    yield _argument("joint", None, "Joint that moves.", *dict.fromkeys(name for goal in goals for name in goal.moves))
-    about = "Move to both sides and back, or move to one side, cancel half way and move back."
+    yield _argument("joint", None, "Joint to move.", *dict.fromkeys(name for goal in goals for name in goal.moves))
+    about = "end: move to both sides and back. cancel: move to one side, cancel halfway and move back."
     yield _argument("then", "end", about, "end", "cancel")
     yield _argument("evidence", ".", "Folder for the result, the samples and the plot of command, state and error.")
     yield comment("small motions of one joint from its current position; no motion client may run")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the running graph with this package, and only looks: it publishes, sets, commands and starts nothing.
+"""Compares the running graph with this package, read-only: it publishes, sets, commands and starts nothing.
 
     observe --package FOLDER [--gate L3|L4|L5|G3|G4|G7] [--target real|mock] [--for SECONDS] [--evidence FOLDER]
             [--host NAME]

@@ -3,9 +3,9 @@
 
     required -- PROGRAM ARGUMENT...
 
-Put before a node of a launch file as its prefix, where launch itself has no word for this: a launch whose controller
-manager is gone goes on with everything else, and all that asks the manager then waits for ever. The launch gets SIGINT,
-as by Ctrl-C. A program that was asked to end ends nothing but itself.
+It is the launch prefix of a node where launch itself has no option for this: a launch whose controller manager has
+ended keeps everything else running, and every process that calls the manager waits forever. The launch gets SIGINT, as
+from Ctrl-C. A program that was asked to end ends nothing but itself.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def main(arguments: Sequence[str]) -> int:
         child.send_signal(early)
     status = child.wait()
     if not asked and os.getppid() == launch:
-        print(f"{command[0]} ended with {status}: the launch that needs it is ended", file=sys.stderr, flush=True)
+        print(f"{command[0]} ended with {status}; ending the launch that requires it", file=sys.stderr, flush=True)
         os.kill(launch, signal.SIGINT)
     return status if status >= 0 else 128 - status
 

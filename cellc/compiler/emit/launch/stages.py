@@ -61,7 +61,7 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
     if BringUpPhase.START in phases(plan.bring_up, "real", host):
         yield bring_up(cell, "real", [BringUpPhase.START], host)
     if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
-        yield comment("end goals and claims when a robot stops, pauses or is silent; only a person brings them back")
+        yield comment("end goals and claims when a robot stops, pauses or is silent; only a person restores them")
         yield _claim_watch(cell, host)
     yield comment("a person authorizes the rest: gates/promotion.md, G5 to G7")
 

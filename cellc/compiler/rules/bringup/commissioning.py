@@ -82,9 +82,8 @@ def caps_above_risk_assessment(graph: CellGraph) -> Findings:
     ):
         if allowed is not None and cap is not None and cap > allowed * _ROUNDING:
             what = "any" if math.isinf(cap) else f"up to {cap:.3g} {unit} of"
-            message = (
-                f"{graph.cell.text(*_ASSESSED, name)} of `{name}` is assessed, and the caps leave {of} {what} {name}"
-            )
+            figure = graph.cell.text(*_ASSESSED, name)
+            message = f"the caps must allow at most the assessed {figure} of `{name}`, but leave {of} {what} {name}"
             related = (Related(f"{assessed.document} allows this", graph.cell.locate(*_ASSESSED, name)),)
             yield found(graph, (*_CAPS, name), message, related=related)
 
@@ -106,7 +105,7 @@ def first_motion_above_stage(graph: CellGraph) -> Findings:
                 most = left[slowest] if motion.velocity.linear else math.degrees(left[slowest])
                 unit, got = ("m/s" if motion.velocity.linear else "deg/s"), graph.cell.text(*motion.path, "velocity")
                 message = (
-                    f"the first motion must be at most {most:.3g} {unit}, which the first stage leaves `{slowest}`"
+                    f"the first motion must be at most {most:.3g} {unit}, which the first stage allows `{slowest}`"
                 )
                 yield found(graph, (*motion.path, "velocity"), f"{message}, got {got}")
 

@@ -87,7 +87,7 @@ def moving_camera_stamped_on_arrival(graph: CellGraph) -> Findings:
             continue
         moved = next((frame for frame in graph.frames.chain(mount.name) if frame.moving), None)
         if moved is not None:
-            message = f"the stamp of `{device.name}` must be that of the exposure, as `{moved.device}` moves it,"
+            message = f"the stamp of `{device.name}` must be that of the exposure, because `{moved.device}` moves it,"
             message += " got `arrival`"
             related = (Related(f"it is mounted on `{mount.parent}`", mount.span),)
             yield found(graph, (*device.path, "stamp", "source"), message, related=related)
@@ -99,7 +99,7 @@ def simulated_time_on_hardware(graph: CellGraph) -> Findings:
     for name, target in graph.cell.targets.items():
         if target.hardware == "real" and target.clock == "sim":
             path = ("targets", name, "clock")
-            message = f"the clock of target `{name}` must be wall, as its hardware is real, got sim"
+            message = f"the clock of target `{name}` must be wall, because its hardware is real, got sim"
             yield found(graph, path, message)
 
 

@@ -57,7 +57,7 @@ def host_offset_beyond_age(graph: CellGraph) -> Findings:
             continue
         reported.add(crossing.worse.name)
         age = f"{crossing.max_age_s * 1e3:g} ms, the `max_age` of `{crossing.interface.name}`"
-        message = f"the clocks of `{crossing.worse.name}` and `{crossing.better.name}` must be nearer than {age},"
+        message = f"the clocks of `{crossing.worse.name}` and `{crossing.better.name}` must differ by less than {age},"
         message += f" got {crossing.offset_s * 1e3:g} ms"
         related = (Related("the age is limited here", graph.cell.locate(*crossing.interface.path, "max_age")),)
         yield found(graph, (*crossing.worse.path, "clock", "max_offset"), message, related=related)

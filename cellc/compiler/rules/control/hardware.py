@@ -20,8 +20,8 @@ def command_against_vendor(graph: CellGraph) -> Findings:
         if not set(vendor.interfaces) <= set(claimed):
             theirs = " + ".join(vendor.interfaces)
             message = (
-                f"`{controller.name}` commands {' + '.join(claimed)} of `{controller.device}`, its vendor {theirs}: "
-                f"{vendor.because}"
+                f"`{controller.name}` commands {' + '.join(claimed)} of `{controller.device}`, but its vendor "
+                f"commands {theirs}: {vendor.because}"
             )
             yield found(graph, (*controller.path, "command_interfaces"), message)
 
@@ -68,7 +68,9 @@ def _exported(device: Device) -> Iterator[str]:
 def missing_real_plugin(graph: CellGraph) -> Findings:
     """Yield devices with joints that a controller names, and neither a plugin nor a driver on the real target."""
     for device, joint in unmoved_on_real(graph.cell):
-        message = f"nothing moves `{joint.name}` of `{device.name}` on the real target: its model has no plugin there"
+        message = (
+            f"nothing moves `{joint.name}` of `{device.name}` on the real target, because its model has no plugin there"
+        )
         yield found(graph, device.path, message)
 
 
@@ -95,7 +97,9 @@ def renamed_joints(graph: CellGraph) -> Findings:
         hardware, prefix = device.control.hardware, device.body.prefix
         if hardware is not None and hardware.fixed_joint_names and prefix:
             joint = device.actuated_joints[0].local_name
-            message = f"the driver of `{device.name}` calls its joints `{joint}` and so on, got the prefix `{prefix}`"
+            message = (
+                f"the driver of `{device.name}` fixes its joint names, such as `{joint}`, got the prefix `{prefix}`"
+            )
             yield found(graph, (*device.path, "prefix"), message)
 
 

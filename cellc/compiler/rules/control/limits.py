@@ -114,7 +114,7 @@ def speed_of_some_positions(graph: CellGraph) -> Findings:
             joint = shares[most]
             path = (*device.path, "limits", "velocity")
             message = (
-                f"`{joint.name}` must have at most {joint.velocity_everywhere:g} rad/s, which it has in every position,"
+                f"`{joint.name}` must have at most {joint.velocity_everywhere:g} rad/s, which holds in every position,"
             )
             message += f" got {joint.velocity:.3g} rad/s"
             share = device.limits.limit_shares.velocity
@@ -130,7 +130,7 @@ def unscaled_trajectory(graph: CellGraph) -> Findings:
         if controller.behavior is not Behavior.JOINT_TRAJECTORY or controller.device not in scaling:
             continue
         if not controller.parameters.get("speed_scaling.state_interface"):
-            message = f"`{controller.device}` scales its speed, `{controller.name}` does not follow"
+            message = f"`{controller.device}` scales its speed, but `{controller.name}` does not follow"
             kinds = [kind for kind in scaling[controller.device].control.controller_kinds if "trajectory" in kind]
             advice = f"use `type: {kinds[0]}`" if kinds else "use a controller that reads the scaling factor"
             yield found(graph, (*controller.path, "type"), message, advice)

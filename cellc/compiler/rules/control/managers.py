@@ -141,5 +141,5 @@ def unwatched_claim(graph: CellGraph) -> Findings:
             )
             lost = " or ".join(_LOST.get(need, f"`{need}` ends") for need in unheard)
             for _, controller in sorted(owners.items(), key=itemgetter(0)):
-                message = f"`{name}` keeps the set points of `{controller.name}` when {lost}, unreported"
+                message = f"`{name}` keeps the set points of `{controller.name}` when {lost}, and nothing reports this"
                 yield found(graph, controller.path, message, advice)

@@ -44,7 +44,7 @@ def missing_controller_parameter(graph: CellGraph) -> Findings:
                 continue  # where there is no joint to write, another rule says so
             # One for each name of a list, as in `gains.<joint>.p`, has a default in every kind.
             if facts.required and facts.default is None and "<" not in name and name not in controller.parameters:
-                message = f"`{controller.kind}` demands `{name}`, and `{controller.name}` does not state it"
+                message = f"`{controller.kind}` requires `{name}`, but `{controller.name}` does not state it"
                 yield found(graph, controller.path, message, f"write `parameters: {{{name}: ...}}`")
 
 
@@ -155,8 +155,9 @@ def trajectory_without_gains(graph: CellGraph) -> Findings:
         without = [joint for joint in controller.joints if not controller.parameters_on(target).get(f"gains.{joint}.p")]
         if without:
             more = f" and {len(without) - 1} more" if len(without) > 1 else ""
-            message = f"`{controller.name}` commands {kinds.pop()} alone and must have gains, `gains.{without[0]}.p`"
-            yield found(graph, (*controller.path, "command_interfaces"), f"{message}{more} is zero")
+            message = f"`{controller.name}` commands only {kinds.pop()} and must have gains, but `gains.{without[0]}.p`"
+            zero = f"{more} are zero" if more else " is zero"
+            yield found(graph, (*controller.path, "command_interfaces"), f"{message}{zero}")
 
 
 @rule(Severity.ERROR)

@@ -60,7 +60,7 @@ def load_beyond_payload(graph: CellGraph) -> Findings:
             continue
         path = (*device.path, "payload", "load")
         if not device.robot.accepts.load_service:
-            yield found(graph, path, f"no service tells `{device.name}` a load beside its tool")
+            yield found(graph, path, f"no service sets a load of `{device.name}` beside its tool")
             continue
         tools = (graph.cell.device(name) for name in device.mount.carries)
         links = (link for tool in tools for link in tool.body.description.links)
@@ -114,7 +114,7 @@ def payload_set_too_late(graph: CellGraph) -> Findings:
             continue
         path = (*device.path, "payload", "set_by")
         if not device.robot.accepts.payload_service:
-            yield found(graph, path, f"no service tells `{device.name}` its payload")
+            yield found(graph, path, f"no service sets the payload of `{device.name}`")
         elif device.robot.accepts.start_modes and (
             device.robot.program is None or device.robot.program.mode == "local"
         ):

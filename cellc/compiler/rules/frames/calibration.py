@@ -74,7 +74,7 @@ def calibration_of_two_frames(graph: CellGraph) -> Findings:
             continue
         earlier = first.setdefault(frame.calibration, frame)
         if (earlier.parent, earlier.transform_to_parent) != (frame.parent, frame.transform_to_parent):
-            message = f"calibration `{frame.calibration}` gives `{frame.name}` another pose than `{earlier.name}`"
+            message = f"calibration `{frame.calibration}` gives `{frame.name}` a different pose than `{earlier.name}`"
             related = (Related(f"first used for `{earlier.name}` here", earlier.span),)
             path = (*frame.path, "calibration")
             yield found(graph, path, message, related=related)

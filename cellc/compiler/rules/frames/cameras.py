@@ -52,7 +52,7 @@ def camera_sees_nothing(graph: CellGraph) -> Findings:
             continue
         nearest = min(things, key=lambda thing: _aside(known[0][1], thing))
         aside_deg = math.degrees(_aside(known[0][1], nearest))
-        message = f"`{device.name}` must look at something of the cell, and the nearest lies {aside_deg:.0f} deg"
+        message = f"`{device.name}` must look at something of the cell, but the nearest lies {aside_deg:.0f} deg"
         yield found(graph, (*device.path, "mount"), f"{message} beside its axis")
 
 
@@ -154,7 +154,7 @@ def object_under_another_camera(graph: CellGraph) -> Findings:
         if heard and camera not in heard:
             other, interface = next(iter(heard.items()))
             message = (
-                f"`{frame.name}` is attached to `{camera}`, but its publisher `{frame.authority}` reads `{other}` alone"
+                f"`{frame.name}` is attached to `{camera}`, but its publisher `{frame.authority}` reads only `{other}`"
             )
             missed = (
                 interface

@@ -79,7 +79,7 @@ _BEYOND_M = 0.3
 
 @rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "tip-off-the-tool-chain"))
 def tip_within_tool(graph: CellGraph) -> Findings:
-    """Yield tips less than half way to the fingers of the carried gripper, or far beyond them.
+    """Yield tips less than halfway to the fingers of the carried gripper, or far beyond them.
 
     A link of the arm may well be a tip, where its goals keep the distance themselves.
     """

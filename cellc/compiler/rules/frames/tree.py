@@ -51,7 +51,7 @@ def unheard_joint_states(graph: CellGraph) -> Findings:
         topic = topics[adapted.state_topic]
         readers = {sink.node for sink in topic.sinks}
         if topic.name != JOINT_STATES or ROBOT_STATE_PUBLISHER not in readers:
-            message = f"robot_state_publisher must hear the joints of `{adapted.device}` on `{JOINT_STATES}`"
+            message = f"robot_state_publisher must receive the joints of `{adapted.device}` on `{JOINT_STATES}`"
             yield found(graph, (*topic.path, "from"), f"{message}, got `{topic.name}`")
 
 

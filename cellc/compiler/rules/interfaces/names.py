@@ -62,7 +62,9 @@ def reserved_file_name(graph: CellGraph) -> Findings:
     """Yield names that files are named after and that are devices of Windows."""
     for name, path in _file_names(graph):
         if opens_a_device(name):
-            yield found(graph, path, f"`{name}` must not be the name of a file: Windows keeps it for a device")
+            yield found(
+                graph, path, f"`{name}` must not be the name of a file, because Windows reserves it for a device"
+            )
 
 
 def _file_names(graph: CellGraph) -> Iterator[tuple[str, YamlPath]]:

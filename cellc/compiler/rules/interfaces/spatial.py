@@ -99,7 +99,9 @@ def pose_apart_from_its_frame(graph: CellGraph) -> Findings:
         frames = [item for item in dynamic if item.authority in names]
         published = set[str | None]().union(*(published_by[name] for name in names))
         if frames and published.isdisjoint({name for frame in frames for name in (frame.name, frame.parent)}):
-            message = f"`{interface.name}` must be in `{frames[0].parent}`, in which its node has `{frames[0].name}`,"
+            message = (
+                f"`{interface.name}` must be in `{frames[0].parent}`, where its node publishes `{frames[0].name}`,"
+            )
             related = (Related("the frame of the object", frames[0].span),)
             yield found(graph, (*interface.path, "frame"), f"{message} got `{interface.frame}`", related=related)
 

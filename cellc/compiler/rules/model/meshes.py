@@ -40,7 +40,7 @@ def _unseen(graph: CellGraph, faults: Sequence[MeshFault]) -> str:
         if part.path == faults[0].path and any(mesh.filename in missing for mesh in part.link.collision_meshes())
     ]
     moving = [link for link in links if any(frame.moving for frame in graph.frames.chain(link))]
-    of_these = f", {len(moving)} of which move" if moving else ", which stand still"
+    of_these = f", {len(moving)} of which move" if moving else ", which do not move"
     return f"; contact of {', '.join(f'`{link}`' for link in links)}{of_these}, is not checked"
 
 

@@ -47,12 +47,12 @@ def nominal_kinematics(graph: CellGraph) -> Findings:
 
 
 def _nominal(device: Device, kinematics: Kinematics) -> Iterator[tuple[tuple[str, ...], str]]:
-    yield (), f"`{device.name}` has the kinematics of its type; `{kinematics.tool}` reads its own"
+    yield (), f"`{device.name}` uses nominal kinematics; read those of this robot with `{kinematics.tool}`"
 
 
 def _unvouched(one: KinematicCalibration, kinematics: Kinematics) -> Iterator[tuple[tuple[str, ...], str]]:
     if one.hash == kinematics.nominal_hash:
-        yield ("file",), f"`{one.name}` holds the kinematics of the type, by its hash `{one.hash}`"
+        yield ("file",), f"`{one.name}` holds nominal kinematics, by its hash `{one.hash}`"
     if one.owner == UNKNOWN:
         yield ("owner",), f"`{one.name}` has no owner"
     if day_of(one.measured) is None:
@@ -128,7 +128,7 @@ def _of_joints(device: Device) -> Faulty:
             if joint is None:
                 yield f"`{component.name}` has the joint `{part.name}`, which the description does not have", part.span
             elif joint.mimic is not None and part.command_interfaces and part.mimic != "false":
-                yield f"`{part.name}` follows another joint, and has command interfaces", part.span
+                yield f"`{part.name}` follows another joint, but has command interfaces", part.span
             if part.command_interfaces and part.name in commanded:
                 yield f"`{part.name}` is commanded by `{commanded[part.name]}` and `{component.name}`", part.span
             elif part.command_interfaces:
@@ -191,7 +191,7 @@ def _placed(device: Device, vendor: Description) -> Iterator[str]:
         base = theirs.get(device.body.root_link)
         shared = [name for name in ours if name in theirs]
         if base is None or len(shared) < 2:
-            yield f"it has no link `{device.body.root_link}`" if base is None else "no link is named alike"
+            yield f"it has no link `{device.body.root_link}`" if base is None else "no link has the same name"
             return
         apart = {name: ours[name].inverse() @ base.inverse() @ theirs[name] for name in shared}
         far = max(shared, key=lambda name: math.dist(apart[name].position, (0, 0, 0)))
@@ -214,9 +214,9 @@ def _limited(ours: Description, vendor: Description) -> Iterator[str]:
 def _limit_figures(joint: Joint, theirs: Joint) -> Iterator[str]:
     if joint.limit is None or theirs.limit is None or joint.type != theirs.type:
         if joint.type != theirs.type:
-            yield f"`{joint.name}` is {joint.type}, and {theirs.type} there"
+            yield f"`{joint.name}` is {joint.type} here and {theirs.type} there"
         return
     for figure in ("lower", "upper", "velocity", "effort"):
         here, there = getattr(joint.limit, figure), getattr(theirs.limit, figure)
         if here is not None and there is not None and not math.isclose(here, there, rel_tol=_SHARE, abs_tol=_SHARE):
-            yield f"{figure} of `{joint.name}` is {here:.6g}, and {there:.6g} there"
+            yield f"{figure} of `{joint.name}` is {here:.6g} here and {there:.6g} there"

@@ -66,7 +66,7 @@ def link_inside_scene(graph: CellGraph) -> Findings:
         ]
         if contacts:
             links = ", ".join(f"`{_other(contact, box.name)}`" for contact in contacts)
-            message = f"`{box.name}` touches {links} in every posture, so that this contact is not checked"
+            message = f"`{box.name}` touches {links} in every posture, so this contact is not checked"
             yield found(graph, box.path, message, related=mounts(graph, contacts))
 
 

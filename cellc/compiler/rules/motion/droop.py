@@ -61,7 +61,7 @@ def droop_beyond_tolerance(graph: CellGraph) -> Findings:
         again = ", and each canceled or aborted goal adds as much" if law.held is Held.MEASURED else ""
         written = graph.cell.text(*bound.path) or f"{bound.joints[worst.joint]:g} {unit}"
         message = f"`{bound.path[-1]}` of `{bound.owner}` must be above the droop of its joints, {figure}, {by}{again};"
-        related = (Related("its law is that of this device", graph.cell.locate(*device.path)),)
+        related = (Related("the control law of this device applies", graph.cell.locate(*device.path)),)
         yield found(graph, bound.path, f"{message} got {written}", related=related)
 
 
@@ -81,7 +81,7 @@ def droop_beyond_limits(graph: CellGraph) -> Findings:
         unit = "m" if device.joint(droop.joint).slides else "rad"
         where = _where(droop) if droop.posture else "where the cell begins"
         how_far = f"`{droop.joint}` droops by {abs(droop.droop):.3g} {unit} {where}"
-        message = f"{how_far}, out of its limits: MoveIt plans no motion that begins there"
+        message = f"{how_far}, beyond its limits, so MoveIt plans no motion that begins there"
         yield found(graph, paths.get(droop.posture, (*device.path, "model")), message)
 
 
@@ -99,7 +99,7 @@ def tip_droop_beyond_tolerance(graph: CellGraph) -> Findings:
             side = "below" if worst.below_m > 0.0 else "above"
             loaded = "with a part" if worst.holding else "empty"
             message = f"the tip comes to rest {worst.distance_m * 1e3:.3g} mm from goal `{name}`, "
-            message += f"{abs(worst.below_m) * 1e3:.3g} mm {side} it, {loaded}, and must be within"
+            message += f"{abs(worst.below_m) * 1e3:.3g} mm {side} it, {loaded}, but must be within"
             yield found(graph, path, f"{message} {graph.cell.text(*path)}", related=in_the_chain(graph, name))
 
 
@@ -115,9 +115,9 @@ def droop_into_contact(graph: CellGraph) -> Findings:
         if tip.contacts and tip.contacts not in seen:
             seen.add(tip.contacts)
             loaded = " with a part" if tip.holding else ""
-            message = f"in `{tip.posture}`{loaded} the arm droops until {named(tip.contacts)}:"
+            message = f"in `{tip.posture}`{loaded} the arm droops until {named(tip.contacts)},"
             yield found(
-                graph, paths[tip.posture], f"{message} its tip is {tip.distance_m * 1e3:.3g} mm off its command"
+                graph, paths[tip.posture], f"{message} with its tip {tip.distance_m * 1e3:.3g} mm off its command"
             )
 
 
@@ -132,7 +132,7 @@ def unknown_control_law(graph: CellGraph) -> Findings:
         device = graph.cell.device(owner)
         names = dict.fromkeys(name for joint in device.joints for name in resting.get(joint.name, ()))
         message = f"it is not known how far a load moves the joints of `{owner}`: {law.because}"
-        rests = f"; on it rest {', '.join(names)}" if names else ""
+        rests = f"; it affects {', '.join(names)}" if names else ""
         yield found(graph, (*device.path, "adapter" if owner in adapted else "model"), message + rests)
 
 
@@ -162,7 +162,7 @@ def load_of_nothing(graph: CellGraph) -> Findings:
             elif key == "part" and law.part is None:
                 why = "a device whose `payload` states more than its tool weighs"
             elif key == "compensation" and law.gravity is not Gravity.COMPENSATED:
-                why = "a device whose controller compensates gravity"
+                why = "a device whose controller compensates for gravity"
             else:
                 continue
-            yield found(graph, ("uncertainty", "loads", name, key), f"`{name}` must be {why}; nothing is drawn of it")
+            yield found(graph, ("uncertainty", "loads", name, key), f"`{name}` must be {why}; nothing is drawn for it")

@@ -42,7 +42,7 @@ def unknown_grasp(graph: CellGraph) -> Findings:
             reported.add(frame.name)
             listed = ", ".join(f"`{key}`" for key in missing)
             message = (
-                f"`{name}` closes on `{frame.name}`, of which no {listed} {'is' if len(missing) == 1 else 'are'} stated"
+                f"`{name}` closes on `{frame.name}`, whose {listed} {'is' if len(missing) == 1 else 'are'} not stated"
             )
             path = (*frame.path, "grasp") if grasp is not None else frame.path
             yield found(graph, path, message, related=(Related("it closes here", span),))
@@ -59,7 +59,7 @@ def part_beyond_stroke(graph: CellGraph) -> Findings:
                 "" if grasp.tolerance_m is None else f" and a tolerance of {graph.cell.text(*path[:-1], 'tolerance')}"
             )
             message = f"the part at `{frame.name}` must be narrower than the {gripper.stroke_m * 1e3:.4g} mm that the"
-            message = f"{message} fingers of `{name}` open, got {graph.cell.text(*path)}{more}"
+            message = f"{message} fingers of `{name}` open to, got {graph.cell.text(*path)}{more}"
             yield found(graph, path, message, related=(Related("it closes here", span),))
 
 

@@ -56,7 +56,7 @@ def planner_of_joint_goals(graph: CellGraph) -> Findings:
     """Yield the default pipeline of a cell with Cartesian goals that it cannot plan to."""
     pipelines = graph.cell.pipelines
     if pipelines and pipelines[0].joint_goals and graph.cell.goals:
-        message = f"`{pipelines[0].name}` takes goals of joints alone, and `{graph.cell.goals[0].name}` is a pose"
+        message = f"`{pipelines[0].name}` takes only joint goals, but `{graph.cell.goals[0].name}` is a pose"
         yield found(graph, ("motion", "pipelines", 0), message)
 
 

@@ -47,7 +47,7 @@ def joint_too_weak(graph: CellGraph) -> Findings:
         unit = "N" if joint.type == "prismatic" else "Nm"
         where = f"in `{held.posture}`" if held.posture else "at the start of the cell"
         where = f"on the way from {where.removeprefix('in ')} to `{held.towards}`" if held.towards else where
-        message = f"`{held.joint}` can give {joint.effort:g} {unit} and must hold {held.effort:.3g} {unit} {where}"
+        message = f"`{held.joint}` can give {joint.effort:g} {unit} but must hold {held.effort:.3g} {unit} {where}"
         related = tuple(Related("the worst place", graph.cell.locate(*place)) for place in _places(graph, held))
         yield found(graph, path, message, related=related)
 

@@ -92,7 +92,7 @@ def part_never_released(graph: CellGraph) -> Findings:
         left = next((move for move in moves[:-1] if move.name in goals and [move.name] != before[-1:]), None)
         if not opened and left is not None and step.path not in reported:
             reported.add(step.path)
-            message = f"`{step.name}` must open at `{left.name}` or after it, and stays closed to the end"
+            message = f"`{step.name}` must open at `{left.name}` or after it, but stays closed to the end"
             yield found(graph, step.path, message, related=(Related("the arm leaves this goal", left.span),))
 
 
@@ -135,7 +135,7 @@ def _taken(graph: CellGraph, area: SharedArea, inside: _Inside, arms: Mapping[st
 
 def _message(area: SharedArea, standing: frozenset[str], do: str) -> str:
     names = " and ".join(f"`{name}`" for name in sorted(standing))
-    return f"area `{area.name}` must be held by one arm at a time, {names} {do}"
+    return f"area `{area.name}` must be held by one arm at a time, but {names} {do}"
 
 
 def _standing(
@@ -196,7 +196,7 @@ def _other_camera(graph: CellGraph, rehearsal: Rehearsal) -> Findings:
     fault = rehearsal.faults[0]
     alone = len(rehearsal.faults) == 1 and fault.kind == "freeze" and fault.name in frames
     if alone and used and fault.name not in used:
-        message = f"`{rehearsal.name}` must freeze `{'` or `'.join(sorted(used))}`, by which it detects, got"
+        message = f"`{rehearsal.name}` must freeze `{'` or `'.join(sorted(used))}`, which it detects with, got"
         yield found(graph, fault.path, f"{message} `{fault.name}`")
 
 
@@ -223,7 +223,7 @@ def unread_sensor(graph: CellGraph) -> Findings:
                         reported.add((step.path, name))
                         after = f"`{name}` was set to `{state}`" if state else "the cell started"
                         wanted = state or "…"
-                        message = f"`{step.name}` is approached after {after} without a look at the sensor of `{name}`"
+                        message = f"`{step.name}` is approached after {after} without checking the sensor of `{name}`"
                         help_ = f"add the step `{{sense: {name}, state: {wanted}}}` before it"
                         yield found(graph, step.path, message, help_)
                 unread.clear()

@@ -12,7 +12,7 @@ from cellc.contract.stated import DiscoveryServer
 def discovery_off(graph: CellGraph) -> Findings:
     """Yield discovery that is off in a cell of one host or none."""
     if graph.cell.network.discovery == "off" and len(graph.cell.hosts) < 2:
-        message = "discovery is off, so no two processes of the cell find each other"
+        message = "discovery is off, so no two processes of the cell discover each other"
         yield found(graph, ("network", "discovery"), message)
 
 
@@ -100,7 +100,9 @@ def missing_discovery_server(graph: CellGraph) -> Findings:
     """Yield discovery by a server in a cell that has none."""
     network = graph.cell.network
     if network.discovery == "server" and not network.servers:
-        yield found(graph, ("network", "discovery"), "`servers` must name a host, as the nodes ask a server, got none")
+        yield found(
+            graph, ("network", "discovery"), "`servers` must name a host, because the nodes use a server, got none"
+        )
 
 
 @rule(Severity.ERROR)
@@ -206,7 +208,7 @@ def unreachable_discovery_server(graph: CellGraph) -> Findings:
         place = (*path, "host" if server.nic is None else "nic")
         if card is None and (server.nic is not None or len(hosts) > 1):
             wanted = f"`{server.host}/{server.nic}`" if server.nic else f"a card of `{server.host}`"
-            message = f"{wanted} must have an address and carry no control, as a discovery server listens on it"
+            message = f"{wanted} must have an address and carry no control, because a discovery server listens on it"
             yield found(graph, place, message)
             continue
         far = _out_of_reach(graph, server)

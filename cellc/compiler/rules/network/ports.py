@@ -35,7 +35,9 @@ def indistinguishable_devices(graph: CellGraph) -> Findings:
             if device.software.versions.serial != UNKNOWN:
                 continue
             others = [other for other in devices if other is not device]
-            message = f"`{device.name}` must state its `serial`, as `{others[0].name}` on `{host}` is a `{model}` too"
+            message = (
+                f"`{device.name}` must state its `serial`, because `{others[0].name}` on `{host}` is also a `{model}`"
+            )
             related = tuple(Related("of the same model", other.span) for other in others)
             yield found(graph, (*device.path, "serial"), message, related=related)
 

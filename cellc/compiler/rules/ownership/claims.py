@@ -17,7 +17,7 @@ def double_claim(graph: CellGraph) -> Findings:
     for conflict in graph.claims.conflicts():
         if not conflict.state.switches:
             first, second = conflict.first, conflict.second
-            message = f"`{second.name}` claims `{conflict.interface}`, which `{first.name}` claims too, from the start"
+            message = f"`{second.name}` and `{first.name}` both claim `{conflict.interface}` from the start"
             related = (Related("first claimed here", first.span),)
             yield found(graph, second.path, message, related=related)
 
@@ -139,7 +139,7 @@ def two_interfaces_of_one_joint(graph: CellGraph) -> Findings:
                     continue
                 seen.add(pair)
                 when = f" after `{'`, `'.join(state.switches)}`" if state.switches else " from the start"
-                message = f"`{controller.name}` commands the {kind} of `{joint}`, of which `{owner.name}` commands the"
+                message = f"`{controller.name}` commands the {kind} of `{joint}` while `{owner.name}` commands its"
                 related = (Related("commanded here too", owner.span),)
                 yield found(graph, controller.path, f"{message} {other_kind},{when}", related=related)
 

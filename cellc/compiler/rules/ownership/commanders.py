@@ -196,9 +196,9 @@ def _refused_servo(cell: Cell, servo: Servo, controller: Controller) -> Iterator
     """Yield why a controller must not be commanded by Servo."""
     streamed = controller.behavior is Behavior.FORWARD_COMMAND
     if not streamed and controller.behavior not in TRAJECTORIES:
-        yield f"`{controller.name}` must take positions or velocities of joints by a topic, got {controller.kind}"
+        yield f"`{controller.name}` must take joint positions or velocities from a topic, got {controller.kind}"
     if streamed and servo.positions == servo.velocities:
-        yield f"`{controller.name}` must command position or velocity, and one of them alone"
+        yield f"`{controller.name}` must command either position or velocity, not both"
     if controller.client != servo.node:
         client = controller.client or "no node"
         yield f"`{servo.node}` must be the client of `{controller.name}`, which is commanded by {client}"

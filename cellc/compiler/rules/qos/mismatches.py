@@ -34,7 +34,7 @@ MISMATCHES = rules(
 
 @rule(Severity.WARNING)
 def qos_ignored_by_rmw(graph: CellGraph) -> Findings:
-    """Yield endpoints that set a policy which Zenoh does not watch."""
+    """Yield endpoints that set a policy which Zenoh does not monitor."""
     if not graph.cell.versions.rmw.startswith("rmw_zenoh"):
         return
     for topic in graph.cell.interfaces:
@@ -42,5 +42,5 @@ def qos_ignored_by_rmw(graph: CellGraph) -> Findings:
             watched = (("deadline", end.qos.deadline_s), ("lease_duration", end.qos.lease_duration_s))
             field = next((field for field, value in watched if value is not None), None)
             if field is not None and not topic.derived:
-                message = f"`{end.node}` sets `{field}` on `{topic.name}`, which Zenoh does not watch"
+                message = f"`{end.node}` sets `{field}` on `{topic.name}`, which Zenoh does not monitor"
                 yield found(graph, (*end.path, field), message)

@@ -131,5 +131,5 @@ def shallow_queue_for_every_sample(graph: CellGraph) -> Findings:
             continue
         for end in topic.sinks:
             if end.qos.history == "keep_last" and end.qos.depth == 1:
-                message = f"every sample of `{topic.name}` counts, but `{end.node}` keeps one"
+                message = f"every sample of `{topic.name}` counts, but `{end.node}` keeps only one"
                 yield found(graph, end.path, message)

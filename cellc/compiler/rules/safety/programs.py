@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.hardware import HardwareComponent
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
@@ -82,7 +84,9 @@ def refused_initial_state(graph: CellGraph) -> Findings:
             continue
         path = (*device.path, "initial_state")
         if device.control.hardware is None:
-            yield found(graph, path, f"no controller manager brings up `{device.name}`: it has no hardware component")
+            yield found(
+                graph, path, f"no controller manager starts `{device.name}`, because it has no hardware component"
+            )
         elif refused := _refused_state(device, device.control.hardware):
             yield found(graph, path, refused)
 
@@ -94,7 +98,7 @@ def _refused_state(device: Device, hardware: HardwareComponent) -> str:
         if not hardware.is_activation_known:
             return f"{said} the effect of its activation is not stated"
         if hardware.moves_as_it_is_activated:
-            return f"{said} its activation {hardware.effects[Moment.ACTIVATE].does.split('; ')[0]}"
+            return f"{said} its activation {re.split('[;.] ', hardware.effects[Moment.ACTIVATE].does)[0]}"
     if hardware.direct_activation and device.control.initial_state != hardware.initial_state:
         return f"{said} it must become active in one call from `{hardware.initial_state}`"
     return ""

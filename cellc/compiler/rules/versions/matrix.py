@@ -86,9 +86,8 @@ def version_outside_matrix(graph: CellGraph) -> Findings:
             others = {row.distro for row in foreign_lines(device, part, distro)}
             if others:
                 names = " and ".join(sorted(name for name in others if name is not None))
-                message = (
-                    f"`{device.software.versions.part(part)}` of `{device.name}` is of {names}, the cell runs {distro}"
-                )
+                pinned = f"`{device.software.versions.part(part)}` of `{device.name}`"
+                message = f"{pinned} is for {names}, but the cell runs {distro}"
                 yield found(graph, (*device.path, part), message, f"pin the line of {distro}")
 
 

@@ -110,7 +110,7 @@ COMMAND_CASES = (
         "a command that leaves out a joint is refused", partial(_refused, _too_short, RefusalReason.WRONG_SIZE)
     ),
     ConformanceCase(
-        "a command that is no number is refused", partial(_refused, _not_a_number, RefusalReason.NOT_FINITE)
+        "a command that is not a number is refused", partial(_refused, _not_a_number, RefusalReason.NOT_FINITE)
     ),
     ConformanceCase("a command beyond a limit is refused", _range),
     ConformanceCase(
