@@ -38,7 +38,7 @@ FOLDERS = {
     "emit": "emit consumers",
     "emit/launch/bring_up_program.py": _PROGRAMS,
     "emit/launch/first_goal_program.py": _PROGRAMS,
-    "emit/launch/installed_versions_program.py": _PROGRAMS,
+    "emit/launch/installed_versions.py": _PROGRAMS,
     "frozen": "cell",
     "importing": "foreign cli",
     "limits.py": "description source",

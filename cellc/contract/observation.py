@@ -10,6 +10,7 @@ from pydantic import Field
 from cellc.contract.base import ContractModel
 from cellc.contract.bring_up import ManagedState
 from cellc.contract.entities import HardwareState
+from cellc.contract.vocabulary import UNKNOWN
 
 
 class ObservedEnds(ContractModel):
@@ -41,9 +42,37 @@ class ObservedTarget(ContractModel):
     late_joints: tuple[str, ...] = Field(description="Joints without states until a person activates their hardware.")
 
 
+class ObservedCard(ContractModel):
+    """A network card."""
+
+    address: str = Field(description="IPv4 address with prefix length.")
+    interface: str | None = Field(None, description="Its name in the operating system, if stated.")
+    speed_bps: float | None = Field(None, description="Least speed of its link, bit/s, if stated.")
+
+
+class ObservedRoute(ContractModel):
+    """How a device is reached."""
+
+    address: str = Field(description="IPv4 address of the device.")
+    card: str = Field(description="Network card that leads to it.")
+
+
+class ObservedComputer(ContractModel):
+    """What a computer must show before anything runs on it."""
+
+    versions: tuple[str, ...] = Field(description="Parts of the version tuple, as `installed_versions.py` takes them.")
+    cards: dict[str, ObservedCard] = Field(default_factory=dict, description="Network cards, by name.")
+    routes: dict[str, ObservedRoute] = Field(default_factory=dict, description="By device.")
+    environment: dict[str, str] = Field(description="Variables by which nodes find each other.")
+    scheduling: str = Field(UNKNOWN, description="Preemption model of the kernel.")
+    controls: bool = Field(description="Whether a controller manager runs on it.")
+    max_offset_s: float | None = Field(None, description="Bound of the offset of its clock, as chrony knows it, s.")
+
+
 class Observation(ContractModel):
     """The file."""
 
     enclave: str = Field(description="SROS2 enclave of the program.")
+    computers: dict[str, ObservedComputer] = Field(description="By host; an empty name where the spec states none.")
     mock: ObservedTarget = Field(description="On the mock.")
     real: ObservedTarget = Field(description="On the real target.")

@@ -114,6 +114,12 @@ class Played:
                 each for each, facts in self.contract["interfaces"].items() if facts["type"].endswith("JointState")
             )
             self.nodes["/robot_state_publisher"].create_publisher(loaded("sensor_msgs/msg/JointState"), name, 10)
+        if self.wrong in ("second_server", "commander"):
+            action = next(
+                each for each, facts in self.contract["interfaces"].items() if facts["type"].endswith("Trajectory")
+            )
+            side = {"second_server": "sources", "commander": "sinks"}[self.wrong]
+            self.end(action, {"kind": "action"}, None, side, "/robot_state_publisher", None)
 
     def end(self, name: str, interface: Any, kind: Any, side: str, node: str, qos: Any) -> None:
         """Open one end."""
@@ -122,6 +128,8 @@ class Played:
             stated = profile(qos or {"depth": 10, "reliability": "reliable", "durability": "volatile"})
             if self.wrong == f"qos:{name}" and side == "sources":
                 stated.reliability = ReliabilityPolicy.BEST_EFFORT
+            if self.wrong == f"volatile:{name}" and side == "sources":
+                stated.durability = DurabilityPolicy.VOLATILE
             if side == "sources":
                 self.publish(name, interface, kind, owner.create_publisher(kind, name, stated))
             else:
@@ -196,15 +204,24 @@ class Played:
             )
             each.transform.translation.x = xyz[0] + (0.01 if self.wrong == f"moved:{child.get('link')}" else 0.0)
             each.transform.translation.y, each.transform.translation.z = xyz[1:]
+            rpy[2] += 0.01 if self.wrong == f"turned:{child.get('link')}" else 0.0
             turn(each.transform.rotation, rpy)
             if self.wrong != f"frame:{child.get('link')}":
                 messages[joint.get("type") == "fixed"].transforms.append(each)
         topics[True].publish(messages[True])
+        self.twice(kind, stamped, latched)
         self.says.append((0.05, partial(topics[False].publish, messages[False])))
         described = node.create_publisher(loaded("std_msgs/msg/String"), "/robot_description", latched)
         heavier = self.description.replace('<mass value="', '<mass value="1', 1)
         text = {"mass": heavier, "no XML": "<robot"}.get(self.wrong, self.description)
         described.publish(loaded("std_msgs/msg/String")(data=text))
+
+    def twice(self, kind: Any, stamped: Any, latched: QoSProfile) -> None:
+        """Have a second authority of a fixed frame say another transform."""
+        if self.wrong.startswith("twice:"):
+            other = stamped(child_frame_id=self.wrong.partition(":")[2])
+            other.header.frame_id, other.transform.rotation.w = "world", 1.0
+            self.nodes["/task"].create_publisher(kind, "/tf_static", latched).publish(kind(transforms=[other]))
 
     def managers(self) -> None:
         """Answer for controller managers and managed nodes."""

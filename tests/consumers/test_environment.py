@@ -139,10 +139,10 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
     started = {process.executable for process in processes if process.package == cell}
     # The program before another one, and what the bring-up starts itself.
     started |= {process.prefix[0].rpartition("/")[2] for process in processes if process.prefix} | {
-        "installed_versions"
+        "installed_versions.py"
     }
     # What a person runs to compare the graph with the package, and what that imports.
-    started |= {"observe", "observe_checks.py"}
+    started |= {"observe", "observe_checks.py", "observe_host.py"}
     assert started == {path.rpartition("/")[2] for path in programs.split()}
     assert kinds["DIRECTORY"] | {"scripts"} >= folders - {"evidence"}
     assert kinds["FILES"] >= {"contract.json", "manifest.json", "rehearsals.json"}

@@ -48,7 +48,7 @@ def _compare(
 ) -> tuple[int, str]:
     manifest = tmp_path / "manifest.json"
     manifest.write_text(json.dumps({"version_tuple": pinned}), encoding="utf-8")
-    program = str(_program(tmp_path, "installed_versions"))
+    program = str(_program(tmp_path, "installed_versions.py"))
     where = {"ros": "system", "rmw": "package:rmw_fastrtps_cpp", **(shown or {})}
     asked = (f"{part}={where.get(part, 'package:robotiq_driver')}" for part in pinned)
     command = [sys.executable, program, "--manifest", str(manifest), *asked]

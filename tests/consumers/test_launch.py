@@ -228,6 +228,8 @@ def test_every_parameter_file_is_read_by_a_process(cell: str, distro: str) -> No
         assert target == "mock" or read | stages == {path for path in parameters if f".{other}.yaml" not in path}
 
 
+_BESIDE = {"installed_versions", "observe_checks", "observe_host"}
+"""Modules of the package itself, beside its programs."""
 _KEYS = {"yaml": "python3-yaml"}
 """Keys of rosdep of what is no package of ROS."""
 
@@ -244,7 +246,7 @@ def test_what_is_launched_or_found_is_a_dependency_and_is_installed(cell: str, d
     programs = [text for text in texts.values() if text.startswith("#!/usr/bin/env python3")]
     imports = r"^ *(?:from (\w+)[\w.]* import|import (\w+)$)"
     imported = {"".join(names) for text in programs for names in re.findall(imports, text, re.MULTILINE)}
-    imported = {_KEYS.get(name, name) for name in imported - sys.stdlib_module_names - {"observe_checks"}}
+    imported = {_KEYS.get(name, name) for name in imported - sys.stdlib_module_names - _BESIDE}
     assert launch | found | imported <= depends
     installed = set(re.findall(r"^  ([a-z_.]+)$", texts["CMakeLists.txt"], re.MULTILINE))
     assert {path.split("/")[0] for path in texts if path.startswith(("launch", "config", "urdf"))} <= installed

@@ -71,12 +71,13 @@ def right(package: Package, gate: str) -> Seen:
 
 def emitted_program(texts: Mapping[str, str]) -> tuple[Any, Any]:
     """Return the program and its comparisons as modules, made of the texts of a package."""
-    modules = [ModuleType(name) for name in ("observe_checks", "observe_of_a_test")]
+    files = ("observe_checks.py", "installed_versions.py", "observe_host.py", "observe")
+    modules = [ModuleType(file.partition(".")[0]) for file in files]
     with pytest.MonkeyPatch.context() as patch:
-        for module, path in zip(modules, ("scripts/observe_checks.py", "scripts/observe"), strict=True):
+        for module, file in zip(modules, files, strict=True):
             patch.setitem(sys.modules, module.__name__, module)
-            exec(compile(texts[path], path, "exec"), module.__dict__)
-    return modules[1], modules[0]
+            exec(compile(texts[f"scripts/{file}"], file, "exec"), module.__dict__)
+    return modules[-1], modules[0]
 
 
 def test_the_emitted_program_passes_its_package_and_names_a_second_commander(tmp_path: Path) -> None:

@@ -193,7 +193,7 @@ def test_no_line_says_run_this_without_a_command(cell: str) -> None:
 def test_each_computer_is_read_by_its_name_where_there_are_several(cell: str) -> None:
     hosts = [node.host for node in built(cell).graph.cell.nodes]
     for host in set(hosts) if len(set(hosts)) > 1 else ():
-        assert f"On {host}: Read the installed versions" in _gates(cell)["G0"]
+        assert f"On {host}: Compare the installed versions" in _gates(cell)["G0"]
 
 
 def test_words_that_are_no_figure_are_gone() -> None:

@@ -34,7 +34,7 @@ def numbers(source: str) -> Iterator[float]:
 def modules() -> Iterator[tuple[str, Path]]:
     """Yield the emitters; the programs that they copy run on the computers of the cell, and are no emitters."""
     for file in sorted(EMIT.rglob("*.py")):
-        if file.name not in DRAWN and not file.name.endswith(("_program.py", "observe_checks.py")):
+        if file.name not in DRAWN and not file.read_text(encoding="utf-8").startswith("#!"):
             yield file.relative_to(EMIT).as_posix(), file
 
 

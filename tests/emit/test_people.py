@@ -20,12 +20,10 @@ _ALLOWED = (
     "cellc build ",
     "cellc gates ",
     "cellc mock ",
-    "chronyc tracking",
     "git -C src/ros2_robotiq_gripper rev-parse HEAD",
     "grep ",
     "id -nG",
     "ip ",
-    "lsb_release -ds",
     "ping -c ",
     "printenv ",
     "ros2 action info ",
@@ -36,7 +34,6 @@ _ALLOWED = (
     "ros2 lifecycle get ",
     "ros2 node list",
     "ros2 param get ",
-    "ros2 pkg xml -t version ",
     "ros2 run minimal observe ",  # tests/consumers/test_observe.py: it makes nothing that could change a graph
     "ros2 run tf2_ros tf2_",
     "ros2 run ur5e_pick observe ",
@@ -86,7 +83,6 @@ def test_gates_stand_in_order_with_evidence_and_stop(page: str, letter: str, num
 
 def test_inventory_asks_for_a_commit_where_the_source_lies_that_the_workspace_imports() -> None:
     page = artifacts_of("ur5e_pick")["gates/promotion.md"]
-    assert "Check in the build workspace that gripper.driver is `robotiq_driver 3b6cf8f`" in page
     assert "git -C src/ros2_robotiq_gripper rev-parse HEAD" in page
     assert "  ros2_robotiq_gripper:\n" in artifacts_of("ur5e_pick")["sources.repos"]
     # Its number never moved: no package could agree with the pin.

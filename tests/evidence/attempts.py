@@ -12,14 +12,14 @@ from typing import Any
 import pytest
 
 from cellc.compiler.emit.launch import observe_program
-from cellc.compiler.emit.launch.observe_checks import Seen
+from cellc.compiler.emit.launch.observe_checks import PASSED, Line, Seen
 from tests.attempt.hand_made import arrived
 from tests.cells import generated
 from tests.cli.run import run
 from tests.consumers.test_observe import right
 
-SECONDS = {"L3": 5, "L4": 60, "L5": 30, "G3": 600, "G4": 10}
-"""As the checklists ask for."""
+SECONDS = {"G0": 0, "L1": 0, "L3": 5, "L4": 60, "L5": 30, "G3": 600, "G4": 10}
+"""As the checklists ask for; at G0 and L1 the computer alone is read."""
 JOINTS = ("wrist_3", "wrist_2", "wrist_1", "elbow", "shoulder_lift", "shoulder_pan")
 METADATA = """\
 rosbag2_bagfile_information:
@@ -66,11 +66,17 @@ def observe(
     words = ["--package", str(package), "--gate", gate, "--for", str(for_s), "--evidence", str(folder)]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(observe_program, "Graph", lambda _enclave: SimpleNamespace(close=lambda: None))
+        patch.setattr(observe_program, "comparisons_of_host", lambda _stated, _tuple, part: [computer(part)])
         patch.setattr(observe_program, "look", lambda _graph, _package, _for: seen)
         clock = SimpleNamespace(strftime=lambda *_: at, gmtime=lambda: None)
         patch.setattr(observe_program, "time", clock)
         observe_program.main([*words, "--target", target, *(["--host", host] if host else [])])
     return folder / f"observe-{gate}-{at}.json"
+
+
+def computer(part: str) -> Line:
+    """Return the line of a computer that is as the package states it."""
+    return Line(part, "computer", PASSED, "as stated", "as stated")
 
 
 def first_goal(folder: Path, joint: str, then: str, verdict: str = "PASSED", **other: str) -> Path:

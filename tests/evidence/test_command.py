@@ -44,7 +44,7 @@ def test_a_folder_is_read_from_end_to_end_where_people_call_it(tmp_path: Path) -
     assert "  signed by: network" in lines
     assert "  FAILED     node names: /task runs 2 times (expected: each once)" in lines
     assert "  missing    observe-G4-*.json" in lines
-    assert lines[-1] == "14 gates: 7 complete, 1 FAILED, 6 UNKNOWN. cellc signs nothing and promotes nothing."
+    assert lines[-1] == "14 gates: 5 complete, 1 FAILED, 8 UNKNOWN. cellc signs nothing and promotes nothing."
     passed = _cellc("evidence", "evidence/attempt-001", "--gate", "G2", "-o", "out", folder=tmp_path)
     assert passed.returncode == 0
     assert sorted(each.name for each in (tmp_path / "out").iterdir()) == [

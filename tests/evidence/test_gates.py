@@ -264,9 +264,12 @@ def test_a_filled_in_checklist_says_what_is_ticked_and_signed(folder: Path) -> N
     assert gates["L2"]["status"] == "complete"
     assert gates["L2"]["page"] == "network.md: 6 of 6 lines ticked; result: passed, Ann, 2026-11-28 09:00"
     assert gates["L3"]["status"] == "UNKNOWN"
-    assert gates["L3"]["page"] == "network.md: 0 of 3 lines ticked; result: blank"
+    assert gates["L3"]["page"] == "network.md: 0 of 2 lines ticked; result: blank"
     (finding,) = gates["L3"]["findings"]
-    assert finding["text"] == "network.md: 3 lines not ticked: Check that every shell and node uses ROS domain 42"
+    keys = (
+        "If access control is enforced, check that each enclave in use has its keys (enclaves: `security/policy.xml`)"
+    )
+    assert finding["text"] == f"network.md: 2 lines not ticked: If access control is enforced, {keys}"
     assert gates["G0"]["page"] == ""
     assert ran.code == 1
 

@@ -164,7 +164,7 @@ def test_findings_of_one_kind_are_counted_after_twenty(tmp_path: Path) -> None:
 
 
 def test_a_bound_is_raised_by_its_option(tmp_path: Path) -> None:
-    (tmp_path / "L1-links.txt").write_text("x\n" * (3 * MIB), encoding="utf-8")
-    words = ("evidence", tmp_path.as_posix(), *PACKAGE, "--gate", "L1")
+    (tmp_path / "L2-identity.md").write_text("x\n" * (3 * MIB), encoding="utf-8")
+    words = ("evidence", tmp_path.as_posix(), *PACKAGE, "--gate", "L2")
     assert run(*words).code == 1
     assert run(*words, "--limit", f"folder-bytes={8 * MIB}").code == 0

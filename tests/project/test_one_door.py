@@ -16,7 +16,7 @@ _PAST_IT = {
     "cellc/compiler/emit/launch/bring_up_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/claim_watch_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/first_goal_program.py": "it runs on the robot's host, without cellc",
-    "cellc/compiler/emit/launch/installed_versions_program.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/emit/launch/installed_versions.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/observe_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/required_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/verify/parsers.py": "it takes the loggers of foreign parsers off the terminal",

@@ -18,7 +18,7 @@ BRING_UP = "config/bring_up.json"
 BRING_UP_PROGRAM = "scripts/bring_up"
 """What takes them; installed as a program of the package."""
 
-VERSIONS_PROGRAM = "scripts/installed_versions"
+VERSIONS_PROGRAM = "scripts/installed_versions.py"
 """What compares the version tuple with what is installed."""
 
 REQUIRED_PROGRAM = "scripts/required"
@@ -30,8 +30,9 @@ WATCH_PROGRAM = "scripts/claim_watch"
 OBSERVATION = "config/observe.json"
 """What runs on each target: the ends of interfaces, states and nodes."""
 
-OBSERVE_PROGRAM, OBSERVE_CHECKS = "scripts/observe", "scripts/observe_checks.py"
-"""What compares that with the running graph, and its comparisons."""
+OBSERVE_PROGRAM = "scripts/observe"
+OBSERVE_CHECKS, OBSERVE_HOST = "scripts/observe_checks.py", "scripts/observe_host.py"
+"""What compares that with the running graph and computer, and its comparisons."""
 
 RECORDING = "config/recording_qos.yaml"
 """QoS with which an attempt is recorded."""

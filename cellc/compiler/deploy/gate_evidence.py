@@ -31,7 +31,7 @@ def _written(command: str) -> Iterator[GateFile]:
     options = {name: value for name, value in pairwise(words) if name.startswith("-")}
     if words[:2] == ["ros2", "run"] and words[3:4] == ["observe"]:
         gate, host = options["--gate"], options.get("--host")
-        yield GateFile(name=f"observe-{gate}-*.json", kind="observe", host=host, least_s=float(options["--for"]))
+        yield GateFile(name=f"observe-{gate}-*.json", kind="observe", host=host, least_s=_seconds(options))
     elif words[:3] == ["ros2", "bag", "record"]:
         yield GateFile(name=_inside(options["--output"]), kind="bag")
     elif words[:2] == ["ros2", "launch"] and words[3:4] == ["goal.launch.xml"]:
@@ -39,6 +39,11 @@ def _written(command: str) -> Iterator[GateFile]:
         yield GateFile(name=f"G7-first-goal-{given['joint']}-{given.get('then', 'end')}-*.json", kind="first_goal")
     elif words[:2] == ["cellc", "attempt"]:
         yield GateFile(name=f"{_inside(words[2])}.attempt.json", kind="attempt")
+
+
+def _seconds(options: Mapping[str, str]) -> float | None:
+    """Return how long a command listens; None where it reads the computer alone."""
+    return float(options["--for"]) if "--for" in options else None
 
 
 def _inside(path: str) -> str:

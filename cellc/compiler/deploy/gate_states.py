@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from cellc.compiler.deploy.computers import computers
 from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in, has_drives
 from cellc.compiler.deploy.gate_motion import Values, speed_of
 from cellc.compiler.deploy.processes import adapted_devices
@@ -158,7 +159,9 @@ def identities(graph: CellGraph) -> Iterator[Values]:
 
 
 def bounded_clocks(graph: CellGraph) -> Iterator[Values]:
-    """Yield the computers whose clock must be within a bound."""
+    """Yield the computers whose clock must be within a bound, where no program of the cell reads the offset."""
+    read = {name for name, computer in computers(graph).items() if computer.max_offset_s is not None}
     for host in graph.cell.hosts.values():
-        if host.clock.max_offset_s is not None:
-            yield host.name, graph.cell.text(*host.path, "clock", "max_offset")
+        if host.clock.max_offset_s is not None and host.name not in read:
+            by = host.clock.synchronized_by or "not stated"
+            yield host.name, graph.cell.text(*host.path, "clock", "max_offset"), by

@@ -72,14 +72,14 @@ from cellc.compiler.deploy.gate_states import (
 )
 from cellc.compiler.deploy.gate_versions import (
     built,
-    installed,
+    elsewhere,
     shown_with_power,
     unknown,
     unknown_with_power,
     visible,
 )
 from cellc.compiler.deploy.labels import said_around
-from cellc.compiler.deploy.processes import description_nodes, launch_hosts
+from cellc.compiler.deploy.processes import description_nodes, launch_hosts, used_hosts
 from cellc.compiler.deploy.readiness import is_shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, restart_of, start_mock, start_real
@@ -216,7 +216,11 @@ def _calibrated_devices(graph: CellGraph) -> Iterator[Values]:
 
 
 def _cards(graph: CellGraph) -> Iterator[Values]:
-    return ((nic.full_name, nic.text, ", ".join(nic.carries) or "none declared") for nic in graph.network.nics)
+    """Yield the cards of computers on which no program of the cell compares them."""
+    compared = used_hosts(graph.cell)
+    for nic in graph.network.nics:
+        if nic.host not in compared:
+            yield nic.full_name, nic.text, ", ".join(nic.carries) or "none declared"
 
 
 def _reached_devices(graph: CellGraph) -> Iterator[Values]:
@@ -274,12 +278,12 @@ _CENTER = ("device", "tcp", "frame", "xyz", "rotation_vector", "rpy", "rotation"
 _STREAM = ("topic", "rate", "age")
 _FIRST_MOTION = ("joint", "direction", "max_delta", "velocity", "timeout", "name", "si")
 _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] = {
-    "installed_part": (("part", "version", "command", "where"), installed),
-    "built_part": (("part", "version", "command", "where"), built),
+    "built_part": (("command",), built),
+    "elsewhere_part": (("part", "version"), elsewhere),
     "fetched_part": (("part", "version", "driver"), lambda graph: fetched_parts(graph.cell)),
     "visible_part": (("part", "version"), visible),
     "powered_part": (("part", "version", "gate"), shown_with_power),
-    "unknown_part": (("part",), unknown),
+    "unknown_part": (("holder", "parts"), unknown),
     "unknown_powered_part": (("part", "gate"), unknown_with_power),
     "nominal_device": (("device", "state", "file", "command"), _nominal_devices),
     "calibrated_device": (("device", "file", "hash", "measured", "owner", "sha256", "path"), _calibrated_devices),
@@ -362,7 +366,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "reached_device": (("host", "device", "card", "address"), _reached_devices),
     "device": (("device", "serial", "firmware", "safety", "gate"), identities),
     "late_stream": (_STREAM, _late_streams),
-    "bounded_clock": (("host", "offset"), bounded_clocks),
+    "bounded_clock": (("host", "offset", "by"), bounded_clocks),
     "late_group": (("tip", "base"), _late_groups),
     "described_node": (("node",), lambda graph: _each(description_nodes(graph.cell))),
 }

@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping
 
 from cellc.compiler.deploy.configuration import version_tuple
 from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in
 from cellc.compiler.deploy.gate_motion import Values
-from cellc.compiler.deploy.versions import Installed, compared_on, fetched_parts, installed_parts
+from cellc.compiler.deploy.versions import compared_on, fetched_parts, installed_parts
 from cellc.compiler.graph.cell_graph import CellGraph
-from cellc.contract.pins import is_commit, last_word
 from cellc.contract.vocabulary import UNKNOWN, GateCode
 
 
-def installed(graph: CellGraph) -> Iterator[Values]:
-    yield from ((part.name, part.text, part.command, on) for on, part in _read(graph, commits=False))
-
-
 def built(graph: CellGraph) -> Iterator[Values]:
-    """Yield what is pinned to a commit, which the source that was built shows and no version of a package."""
-    yield from ((part.name, part.text, part.command, on) for on, part in _read(graph, commits=True))
+    """Yield what shows the commits to which parts are pinned: the source that was built, and no installed package."""
+    commands = dict.fromkeys(part.source_command for part in installed_parts(graph.cell))
+    return ((command,) for command in commands if command)
 
 
-def _read(graph: CellGraph, *, commits: bool) -> Iterator[tuple[str, Installed]]:
-    """Yield what a computer shows, after the computer; a cell that runs in one place names none."""
-    places = tuple(compared_on(graph.cell))
-    placed = {part for _, parts in places for part in parts}
-    elsewhere = tuple(part for part in installed_parts(graph.cell) if part not in placed)
-    for host, parts in (*places, ("", elsewhere)):
-        where = f"On {host}: " if host else ""
-        yield from ((where, part) for part in parts if is_commit(last_word(part.text)) is commits)
+def elsewhere(graph: CellGraph) -> Iterator[Values]:
+    """Yield what no computer of the cell compares, because none runs what it belongs to."""
+    compared = {part for _, parts in compared_on(graph.cell) for part in parts}
+    return ((part.name, part.text) for part in installed_parts(graph.cell) if part not in compared)
 
 
 def visible(graph: CellGraph) -> Iterator[Values]:
@@ -48,8 +41,15 @@ def shown_with_power(graph: CellGraph) -> Iterator[Values]:
 
 
 def unknown(graph: CellGraph) -> Iterator[Values]:
-    late = {name for name, _ in unknown_with_power(graph)}
-    return ((name,) for name, value in version_tuple(graph.cell).items() if value == UNKNOWN and name not in late)
+    """Yield what is UNKNOWN of the cell, and of each device."""
+    devices = {device.name for device in graph.cell.devices}
+    late, parts = {name for name, _ in unknown_with_power(graph)}, defaultdict[str, list[str]](list)
+    for name, value in version_tuple(graph.cell).items():
+        if value == UNKNOWN and name not in late:
+            holder, _, part = name.rpartition(".")
+            of_device = holder in devices
+            parts[holder if of_device else graph.cell.name].append(part if of_device else name)
+    return ((holder, ", ".join(names)) for holder, names in parts.items())
 
 
 def unknown_with_power(graph: CellGraph) -> Iterator[Values]:

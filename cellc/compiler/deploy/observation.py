@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
+from cellc.compiler.deploy.computers import computers
 from cellc.compiler.deploy.ends import ends_on
 from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.deploy.readiness import components_of
@@ -20,7 +21,7 @@ from cellc.contract.vocabulary import BringUpPhase, Feature, features
 def observation(graph: CellGraph, plan: BringUp) -> Observation:
     """Return what runs on both targets."""
     targets = {target: _on(graph, plan, target) for target in ("mock", "real")}
-    return Observation(enclave=observe_enclave(graph.cell), **targets)
+    return Observation(enclave=observe_enclave(graph.cell), computers=computers(graph), **targets)
 
 
 def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:

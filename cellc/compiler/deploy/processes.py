@@ -18,9 +18,14 @@ from cellc.contract.vocabulary import BringUpPhase, Feature, Motion, features
 
 def launch_hosts(cell: Cell) -> tuple[str, ...]:
     """Return the hosts on which something is started, in the order of the spec; empty where all runs in one place."""
-    used = {node.host for node in cell.nodes} | {manager.host for manager in cell.managers}
-    hosts = tuple(host for host in cell.hosts if host in used)
+    hosts = used_hosts(cell)
     return hosts if len(hosts) > 1 else ()
+
+
+def used_hosts(cell: Cell) -> tuple[str, ...]:
+    """Return the hosts on which something is started, in the order of the spec; empty where the spec states none."""
+    used = {node.host for node in cell.nodes} | {manager.host for manager in cell.managers}
+    return tuple(host for host in cell.hosts if host in used)
 
 
 def description_nodes(cell: Cell) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """The parts of the version tuple that a computer can show: where each is read, and on which computer it is compared.
 
-Gate G0 has a person look at them; the bring-up of the real target compares them once more before it observes anything.
+`observe` compares them at gate G0; the bring-up of the real target compares them again before it observes anything.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.pins import is_commit, last_word, pinned_package
 from cellc.contract.vocabulary import UNKNOWN
 
-_OF_SYSTEM = {"os": "lsb_release -ds", "kernel": "uname -r", "ros": "printenv ROS_DISTRO"}
+_OF_SYSTEM = ("os", "kernel", "ros")
 _PACKAGES = {"ros2_control": "controller_manager", "moveit": "moveit_ros_move_group"}
 # Pinned as a package and its version; the rest is read on the device or its panel.
 _INSTALLED = ("rmw", "driver", "sdk", "description")
@@ -43,14 +43,10 @@ class Installed:
     debian: str = ""
 
     @property
-    def command(self) -> str:
-        """What shows it to a person; empty for a commit whose source no page names."""
-        if is_commit(last_word(self.text)):
-            return f"git -C {shell_word(self.source)} rev-parse HEAD" if self.source else ""
-        if self.debian:
-            return f"dpkg-query -W {shell_word(self.debian)}"
-        part = self.name.rpartition(".")[2]
-        return _OF_SYSTEM.get(part) or f"ros2 pkg xml -t version {shell_word(self.package)}"
+    def source_command(self) -> str:
+        """What shows its commit to a person; empty for a version, and for a source that no page names."""
+        commit = is_commit(last_word(self.text)) and self.source
+        return f"git -C {shell_word(self.source)} rev-parse HEAD" if commit else ""
 
     @property
     def shown(self) -> str:

@@ -186,9 +186,10 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     "scripts/bring_up": (python,),
     "scripts/claim_watch": (python,),
     "scripts/first_goal": (python,),
-    "scripts/installed_versions": (python,),
+    "scripts/installed_versions.py": (python,),
     "scripts/observe": (python,),
     "scripts/observe_checks.py": (python,),
+    "scripts/observe_host.py": (python,),
     "scripts/required": (python,),
 }
 

@@ -243,10 +243,10 @@ def request(graph: Graph, wanted: SimpleNamespace, answer_s: float) -> str:
         answer = graph.ask(service, name, answer_s, transition=transition)
         return "" if answer.success else f"{wanted.node} refused to {wanted.transition}"
     if wanted.kind == "versions":
-        line = [sys.executable, Path(__file__).with_name("installed_versions"), "--manifest", MANIFEST, *wanted.parts]
-        ended = subprocess.run(line, stdout=subprocess.PIPE, text=True)
+        cmd = [sys.executable, Path(__file__).with_name("installed_versions.py"), "--manifest", MANIFEST, *wanted.parts]
+        ended = subprocess.run(cmd, stdout=subprocess.PIPE, text=True)
         print(said := " ".join(ended.stdout.split()), flush=True)
-        return (said or f"{line[1]} failed") if ended.returncode else ""
+        return (said or f"{cmd[1]} failed") if ended.returncode else ""
     if wanted.kind == "acknowledge":
         answer = graph.ask("std_srvs/srv/Trigger", wanted.service)
         return "" if answer.success else f"{wanted.service} refused: {answer.message}"

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Compares the running graph with this package, read-only: it publishes, sets, commands and starts nothing.
+"""Compares computer and running graph with this package, read-only: it publishes, sets, commands and starts nothing.
 
-    observe --package FOLDER [--gate L3|L4|L5|G3|G4|G7] [--target real|mock] [--for SECONDS] [--evidence FOLDER]
+    observe --package FOLDER [--gate G0|L1|L3|L4|L5|G3|G4|G7] [--target real|mock] [--for SECONDS] [--evidence FOLDER]
             [--host NAME]
 
 It reads the ends of every interface, listens to every topic with a rate and to the transforms, and asks controller
 managers, managed nodes and parameters, by four services that change nothing. Each line is PASSED, FAILED or UNKNOWN,
 with what is expected and what is seen. On a cell of several computers each runs it: `cellc evidence` joins the
-reports. Nodes that a later gate starts need not run. Layers L3 to L5 have one part each: graph, flow, tf. Ctrl-C ends
-the listening; what was seen until then is compared. Exit status: 0 all passed, 1 a line failed or is unknown, 2 usage.
+reports. Nodes that a later gate starts need not run. Layers L3 to L5 have one part each: graph, flow, tf. At G0 and L1
+it needs no graph, and compares versions, network cards, routes, environment and kernel of this computer; at L5 its
+clock. Ctrl-C ends the listening; what was seen until then is compared. Exit status: 0 all passed, 1 a line failed or is
+unknown, 2 usage.
 """
 
 from __future__ import annotations
@@ -38,6 +40,7 @@ from cellc.compiler.emit.launch.observe_checks import (
     Stream,
     comparisons,
 )
+from cellc.compiler.emit.launch.observe_host import comparisons_of_host
 
 # The only services that are asked: none changes anything.
 READS = {
@@ -49,7 +52,8 @@ READS = {
 DISCOVERY_S, ANSWER_S = 3.0, 3.0
 POLL_S = 0.01  # at 1 kHz a tenth of the queue fills in it
 TRANSFORMS, DESCRIPTION = "tf2_msgs/msg/TFMessage", "std_msgs/msg/String"
-PARTS = {"L3": "graph", "L4": "flow", "L5": "tf"}  # what a layer asks for; gates ask for all
+PARTS = {"G0": "", "L1": "", "L3": "graph", "L4": "flow", "L5": "tf"}  # of the graph; other gates ask for all
+HOST_PARTS = {"G0": "versions", "L1": "host", "L3": "environment", "L5": "clock"}  # of this computer
 DAY_S = 86400.0
 # Of joint states one in so many is read whole, of the others the stamp; a prime, or publishers that alternate hide one.
 EACH = 11
@@ -265,7 +269,8 @@ def read_package(folder: Path, target: str) -> Package:
         other = {"real": ".mock", "mock": ".real"}[target]
         for node, values in read_parameters(file) if not file.stem.endswith(other) else ():
             written.setdefault(node, {}).update(values)
-    return Package(contract, {"enclave": plan["enclave"], **plan[target]}, description, written)
+    shared = {"enclave": plan["enclave"], "computers": plan["computers"]}
+    return Package(contract, {**shared, **plan[target]}, description, written)
 
 
 def read_parameters(file: Path) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -332,6 +337,23 @@ def host_of(hosts: Mapping[str, Any], named: str | None, refuse: Callable[[str],
     return named or own
 
 
+def of_computer(package: Package, host: str, gate: str) -> Iterator[Line]:
+    """Yield what is compared at a gate of the computer on which this runs."""
+    computers = package.plan["computers"]
+    stated = computers[host] if len(computers) > 1 else next(iter(computers.values()))
+    if gate in HOST_PARTS:
+        yield from comparisons_of_host(stated, package.contract["version_tuple"], HOST_PARTS[gate])
+
+
+def looked(package: Package, for_s: float) -> Seen:
+    """Return what one node saw of the graph."""
+    graph = Graph(package.plan["enclave"])
+    try:
+        return look(graph, package, for_s)
+    finally:
+        graph.close()
+
+
 def main(arguments: Sequence[str]) -> int:
     """Look, compare, print and write; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -347,20 +369,19 @@ def main(arguments: Sequence[str]) -> int:
     except (OSError, ValueError, KeyError, ElementTree.ParseError) as error:
         parser.error(f"--package must be the share folder of this package: {escaped(str(error))}")
     host = host_of(package.plan.get("hosts", {}), read.host, parser.error)
-    graph = Graph(package.plan["enclave"])
-    try:
-        seen = look(graph, package, read.for_s)
-    finally:
-        graph.close()
-    lines = list(comparisons(package, seen, read.gate if read.gate not in PARTS else "G3"))
-    lines = [line for line in lines if line.part == PARTS.get(read.gate, line.part)]
+    lines, listened_s = list(of_computer(package, host, read.gate)), 0.0
+    if PARTS.get(read.gate, read.gate):
+        seen = looked(package, read.for_s)
+        whole = comparisons(package, seen, "G3" if read.gate in PARTS else read.gate)
+        lines += [line for line in whole if line.part == PARTS.get(read.gate, line.part)]
+        listened_s = seen.listened_s
     for line in lines:
         text = f"{line.verdict:8}{line.part:11}{line.subject}: {line.seen}"
         print(text if line.verdict == PASSED else f"{text} (expected: {line.expected})".replace("\n", " "), flush=True)
     if read.evidence is not None:
         contract, begun = package.contract, time.strftime("%Y%m%dT%H%M%SZ", time.gmtime())
         attempt = {"attempt_id": begun, "cell": contract["cell"], "configuration_id": contract["configuration_id"]}
-        asked = {"gate": read.gate, "target": read.target, "host": host, "seconds": seen.listened_s}
+        asked = {"gate": read.gate, "target": read.target, "host": host, "seconds": listened_s}
         write(lines, read.evidence, {**attempt, **asked})
     failed = sum(line.verdict == FAILED for line in lines)
     unknown = sum(line.verdict not in (FAILED, PASSED) for line in lines)

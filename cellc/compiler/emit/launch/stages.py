@@ -17,7 +17,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.interface import Node, NodeSource
 from cellc.compiler.deploy.bringup import phases
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.files import BRING_UP, OBSERVATION, OBSERVE_CHECKS
+from cellc.compiler.deploy.files import BRING_UP, OBSERVATION
 from cellc.compiler.deploy.first_goal import programs
 from cellc.compiler.deploy.observation import observation
 from cellc.compiler.deploy.processes import started_by_a_person
@@ -160,12 +160,12 @@ def programs_and_plan(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     yield Artifact(OBSERVATION, render(observation(graph, plan.bring_up)))
     for path in programs(graph.cell):
         source = own_text(_source_of(path))
-        first, _, rest = source.replace(_CHECKS, Path(OBSERVE_CHECKS).stem).partition("\n")
+        first, _, rest = source.replace(_BESIDE, "from ").partition("\n")
         yield Artifact(path, f"{first}\n{plan.header.commented('#')}{rest}", executable=True)
 
 
-_CHECKS = "cellc.compiler.emit.launch.observe_checks"
-"""In the package it is beside the program that imports it."""
+_BESIDE = f"from {__name__.rpartition('.')[0]}."
+"""In the package a module is beside the program that imports it."""
 
 
 def _source_of(path: str) -> Path:
