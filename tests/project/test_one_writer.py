@@ -16,6 +16,7 @@ _ELSEWHERE = {
     "cellc/compiler/emit/launch/claim_watch_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/first_goal_program.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/installed_versions.py": "it runs on the robot's host, without cellc",
+    "cellc/compiler/emit/launch/observe_host.py": "it runs on the robot's host, without cellc",
     "cellc/compiler/emit/launch/observe_program.py": "it runs on the robot's host, without cellc",
     "cellc/contract/printing.py": "it opens the null device in the place of a closed stream",
     "cellc/contract/signals.py": "it opens the null device, as the process ends",

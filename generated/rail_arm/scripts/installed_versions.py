@@ -88,22 +88,27 @@ def head_of(tree: Path) -> str:
     return next((line.split()[0] for line in lines if line.endswith(f" {name}")), "")
 
 
-def compared(part: str, pinned: str, where: str) -> tuple[str, bool]:
-    """Return the message about one part, empty where it is as pinned, and whether it is a difference."""
+def is_as_pinned(part: str, pinned: str, where: str) -> tuple[str, bool | None]:
+    """Return what is installed, or why it cannot be checked, and whether it is as pinned; None where it cannot be."""
     version, (kind, _, package) = pinned.split()[-1], where.partition(":")
     chosen = os.environ.get("RMW_IMPLEMENTATION", NOTHING)
     if kind == "package" and COMMIT.fullmatch(version) and share_of(package) is not None:
         installed = commit_of(package)
         if not installed:
-            unseen = f"no source of {package} is beside its installation"
-            return f"{part} must be {pinned}, but this cannot be checked, because {unseen}", False
-        same = installed.startswith(version)
-    elif part == "rmw" and chosen != package:
-        installed, same = f"{chosen} in RMW_IMPLEMENTATION", False
-    else:
-        read = {"package": version_of, "debian": debian_version_of}.get(kind)
-        installed = found_of_system(part) if read is None else read(package)
-        same = installed in (pinned, version)
+            return f"cannot be checked, because no source of {package} is beside its installation", None
+        return installed, installed.startswith(version)
+    if part == "rmw" and chosen != package:
+        return f"{chosen} in RMW_IMPLEMENTATION", False
+    read = {"package": version_of, "debian": debian_version_of}.get(kind)
+    installed = found_of_system(part) if read is None else read(package)
+    return installed, installed in (pinned, version)
+
+
+def compared(part: str, pinned: str, where: str) -> tuple[str, bool]:
+    """Return the message about one part, empty where it is as pinned, and whether it is a difference."""
+    installed, same = is_as_pinned(part, pinned, where)
+    if same is None:
+        return f"{part} must be {pinned}, but this {installed}", False
     return ("", False) if same else (f"{part} must be {pinned}, got {installed}", True)
 
 
