@@ -116,20 +116,20 @@ class AttemptFields(Generic[MissingT]):
         """When each of the eight steps happened that is known."""
         return {point.step: point.stamp_ns for point in self.trace}
 
-
-@dataclass(slots=True, kw_only=True)
-class AttemptRecord(AttemptFields[NoReturn]):
-    """One attempt that has ended."""
-
     @property
     def made(self) -> dict[PacketStep, MadeStep]:
         """The steps that were made, in their order."""
-        stamps = self.stamps
-        before_ns, steps = self.started_ns, {}
+        stamps, steps = self.stamps, {}
+        before_ns = self.started_ns if isinstance(self.started_ns, int) else min(stamps.values(), default=0)
         for step in (step for step in PacketStep if step in stamps):
             steps[step] = MadeStep(stamps[step], (stamps[step] - before_ns) / 1e9)
             before_ns = max(before_ns, stamps[step])
         return steps
+
+
+@dataclass(slots=True, kw_only=True)
+class AttemptRecord(AttemptFields[NoReturn]):
+    """One attempt that has ended."""
 
 
 class Layer(Term):

@@ -30,6 +30,19 @@ BEGIN_NS = 1_790_000_000_000_000_000
 MS = 1_000_000
 STORE = get_typestore(Stores.ROS2_JAZZY)
 STORE.register(get_types_from_msg("uint8 mode\n", "ur_dashboard_msgs/msg/SafetyMode"))
+STATE = "control_msgs/msg/JointTrajectoryControllerState"
+_PARTS = ("reference", "feedback", "error", "output")
+STORE.register(
+    get_types_from_msg(
+        "std_msgs/Header header\nstring[] joint_names\n"
+        + "".join(f"trajectory_msgs/JointTrajectoryPoint {part}\n" for part in _PARTS)
+        + "string[] multi_dof_joint_names\n"
+        + "".join(f"trajectory_msgs/MultiDOFJointTrajectoryPoint multi_dof_{part}\n" for part in _PARTS)
+        + "float64 speed_scaling_factor\n",
+        STATE,
+    )
+)
+"""As control_msgs 5 has it."""
 
 
 def made(kind: str, **values: Any) -> Any:
@@ -59,6 +72,27 @@ class HandMade:
         kind = "sensor_msgs/msg/JointState"
         state = made(kind, header=header, name=list(names), position=values, velocity=none, effort=none)
         self.add(at_ns, "/joint_states", kind, state)
+
+    def follows(self, at_ns: int, reference: float, feedback: float, scaling: float) -> None:
+        """Add a state of the controller, all joints of the arm alike."""
+        never = made("builtin_interfaces/msg/Duration", sec=0, nanosec=0)
+        values = {"reference": reference, "feedback": feedback, "error": reference - feedback, "output": reference}
+        none = np.empty(0, dtype=np.float64)
+        rest = {"velocities": none, "accelerations": none, "effort": none, "time_from_start": never}
+        kind = "trajectory_msgs/msg/JointTrajectoryPoint"
+        points = {part: made(kind, positions=np.full(len(JOINTS), value), **rest) for part, value in values.items()}
+        kind = "trajectory_msgs/msg/MultiDOFJointTrajectoryPoint"
+        empty = made(kind, transforms=[], velocities=[], accelerations=[], time_from_start=never)
+        state = made(
+            STATE,
+            header=made("std_msgs/msg/Header", stamp=stamp(BEGIN_NS + at_ns), frame_id=""),
+            joint_names=list(JOINTS),
+            multi_dof_joint_names=[],
+            speed_scaling_factor=scaling,
+            **points,
+            **{f"multi_dof_{part}": empty for part in _PARTS},
+        )
+        self.add(at_ns, "/arm_trajectory/controller_state", STATE, state)
 
     def goal(self, at_ns: int, topic: str, number: int, accepted_ns: int, status: int) -> None:
         """Add the status of an action with one goal."""

@@ -48,7 +48,11 @@ def test_files_are_written_and_those_of_others_are_left(bag: str, tmp_path: Path
     output = tmp_path / "attempts"
     for _ in range(2):
         assert run("attempt", bag, *PACKAGE, "-o", output.as_posix()).code == 0
-    assert sorted(each.name for each in output.iterdir()) == ["good.attempt.json", "good.attempt.md"]
+    assert sorted(each.name for each in output.iterdir()) == [
+        "good.attempt.html",
+        "good.attempt.json",
+        "good.attempt.md",
+    ]
     written = (output / "good.attempt.json").read_text(encoding="utf-8")
     assert written == run("attempt", bag, *PACKAGE, "--format", "json").out
     (output / "good.attempt.md").write_text("my notes", encoding="utf-8")

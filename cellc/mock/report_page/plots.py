@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Protocol
 from xml.etree.ElementTree import Element
 
-from cellc.contract.contract import ContractJointLimits
+from cellc.contract.contract import Contract, ContractJointLimits
 from cellc.mock.evidence.envelope import AgeTrace
 from cellc.mock.evidence.run_trace import JointTrace, StateTrace
 from cellc.mock.report_page.axes import (
@@ -23,7 +24,7 @@ from cellc.mock.report_page.axes import (
     ticks,
     time_labels,
 )
-from cellc.mock.report_page.html import PREFIXES, seconds, small, span, svg, tag
+from cellc.mock.report_page.html import PREFIXES, Child, seconds, small, span, svg, tag
 
 _TOP = 8.0
 # Of a joint: positions between _TOP and _MIDDLE, its error between _LOWER and _ERROR_BOTTOM.
@@ -32,6 +33,58 @@ _MIDDLE, _LOWER, _ERROR_BOTTOM, _JOINT_HEIGHT = 112.0, 128.0, 178.0, 196.0
 _BOTTOM, _HEIGHT = 84.0, 102.0
 _LEAST_JOINT_RANGE, _LEAST_STATE_RANGE, _LEAST_ERROR = 0.02, 0.01, 1e-6
 """rad or m that the axes span at least, so that rounding does not look like motion."""
+
+
+class Plotted(Protocol):
+    """What is drawn over time: of a rehearsal, or of a bag."""
+
+    @property
+    def joints(self) -> Sequence[JointTrace]:
+        """Joints of trajectory controllers."""
+
+    @property
+    def states(self) -> Sequence[StateTrace]:
+        """Joints that no trajectory controller drives."""
+
+    @property
+    def ages(self) -> Sequence[AgeTrace]:
+        """Streams."""
+
+
+def plots(
+    plotted: Plotted, contract: Contract, tolerances: Mapping[str, float], time: TimeAxis, mark: str
+) -> Iterator[Element]:
+    """Yield the plots under their titles.
+
+    Args:
+        tolerances: path tolerance of each joint that has one, rad or m.
+        mark: what a dotted line shows.
+    """
+    if plotted.joints:
+        yield tag("h3", "Command, state and error of each joint")
+        yield tag("p", *_legend(mark), class_="hint legend")
+        panels = [
+            joint_plot(each, contract.joint_limits.get(each.joint), tolerances.get(each.joint), time)
+            for each in plotted.joints
+        ]
+        yield tag("div", *panels, class_="grid")
+    if plotted.states:
+        yield tag("h3", "State of joints that no trajectory controller drives")
+        panels = [state_plot(each, contract.joint_limits.get(each.joint), time) for each in plotted.states]
+        yield tag("div", *panels, class_="grid")
+    if plotted.ages:
+        yield tag("h3", "Ages of messages and transforms")
+        yield tag("div", *(age_plot(each, time) for each in plotted.ages), class_="grid")
+
+
+def _legend(mark: str) -> Iterator[Child]:
+    for class_, words in (("command", "command"), ("state", "state"), ("error", "error = reference − state")):
+        yield tag("span", class_=f"key {class_}")
+        yield f"{words} "
+    yield tag("span", class_="key limit")
+    yield "limit or tolerance "
+    yield tag("span", class_="key fault")
+    yield f"{mark}. Shaded: every other attempt. The bar at the right spans the limits; the thick part was used."
 
 
 def joint_plot(

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 from xml.etree.ElementTree import Element
 
-from cellc.contract.attempt import AttemptRecord, PacketStep
+from cellc.contract.attempt import AttemptFields, AttemptRecord, MadeStep, PacketStep
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.frozen import dataclass
@@ -16,7 +17,7 @@ from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
 from cellc.mock.report_page.html import Child, at, cards, hint, seconds, tag
-from cellc.mock.report_page.plots import age_plot, joint_plot, state_plot
+from cellc.mock.report_page.plots import plots
 from cellc.mock.result import RehearsalResult
 from cellc.mock.sweep.sweep import SweepRun
 
@@ -97,13 +98,12 @@ def _share(at_s: float, time: TimeAxis) -> float:
     return 100.0 * min(1.0, max(0.0, share))
 
 
-def packet(record: AttemptRecord) -> Element:
+def packet(made_steps: Mapping[PacketStep, MadeStep]) -> Element:
     """Return the eight steps with the time of each after the one before; steps that were not made are hollow."""
-    return tag("ol", *_steps(record), class_="packet")
+    return tag("ol", *_steps(made_steps), class_="packet")
 
 
-def _steps(record: AttemptRecord) -> Iterator[Element]:
-    made_steps = record.made
+def _steps(made_steps: Mapping[PacketStep, MadeStep]) -> Iterator[Element]:
     for number, step in enumerate(PacketStep, start=1):
         words = step.name.lower().replace("_", " ")
         if step not in made_steps:
@@ -130,13 +130,12 @@ def _attempt(record: AttemptRecord, time: TimeAxis) -> Iterator[Element]:
     bar = Bar(record.started_ns / 1e9, record.ended_ns / 1e9, "done" if good else "ended", words)
     outcome = tag("span", record.outcome, class_="plain" if good else "bad")
     yield lane([tag("b", record.step), " ", outcome], [bar], time)
-    yield packet(record)
-    details = [tag("span", text) for text in _details(record)]
-    if details:
-        yield tag("p", *details, class_="details")
+    yield packet(record.made)
+    yield tag("p", *(tag("span", text) for text in details(record)), class_="details")
 
 
-def _details(record: AttemptRecord) -> Iterator[str]:
+def details(record: AttemptFields[Any]) -> Iterator[str]:
+    """Yield what is known of an attempt, in words."""
     yield record.attempt_id
     if record.goal_frame is not None and record.goal_stamp is not None:
         yield f"goal in {record.goal_frame} at {at(record.goal_stamp)}"
@@ -155,11 +154,11 @@ def _details(record: AttemptRecord) -> Iterator[str]:
         yield " ".join(f"result {record.result.status} {record.result.error_string}".split())
     if record.cancel is not None:
         yield f"canceled at {at(record.cancel.requested_ns)}, held after {seconds(record.cancel.latency_s)}"
-    if record.safety_state != "normal":
+    if record.safety_state not in ("normal", None):
         yield f"safety state {record.safety_state}"
     if record.fault_code:
         yield f"reason: {record.fault_code}"
-    if record.operator_intervention != "none":
+    if record.operator_intervention not in ("none", None):
         yield f"operator: {record.operator_intervention}"
 
 
@@ -235,21 +234,7 @@ def _links(files: tuple[str, ...]) -> Iterator[Child]:
 def _parts(run: RunEvidence, trace: TraceResult, contract: Contract) -> Iterator[Element]:
     time = _time_axis(run, trace)
     yield attempts(run.result.attempts, time)
-    if trace.joints:
-        yield tag("h3", "Command, state and error of each joint")
-        yield tag("p", *_legend(), class_="hint legend")
-        panels = [
-            joint_plot(each, contract.joint_limits.get(each.joint), run.tolerances.get(each.joint), time)
-            for each in trace.joints
-        ]
-        yield tag("div", *panels, class_="grid")
-    if trace.states:
-        yield tag("h3", "State of joints that no trajectory controller drives")
-        panels = [state_plot(each, contract.joint_limits.get(each.joint), time) for each in trace.states]
-        yield tag("div", *panels, class_="grid")
-    if trace.ages:
-        yield tag("h3", "Ages of messages and transforms")
-        yield tag("div", *(age_plot(each, time) for each in trace.ages), class_="grid")
+    yield from plots(trace, contract, run.tolerances, time, "fault")
     yield from claims(trace, time)
 
 
@@ -258,13 +243,3 @@ def _time_axis(run: RunEvidence, trace: TraceResult) -> TimeAxis:
     end_s = max(trace.ended_ns / 1e9, 1e-3)
     faults_s = tuple(start_s for start_s, _ in fault_times(run.entry.faults, run.result.attempts))
     return TimeAxis(0.0, end_s, faults_s, spans)
-
-
-def _legend() -> Iterator[Child]:
-    for class_, words in (("command", "command"), ("state", "state"), ("error", "error = reference − state")):
-        yield tag("span", class_=f"key {class_}")
-        yield f"{words} "
-    yield tag("span", class_="key limit")
-    yield "limit or tolerance "
-    yield tag("span", class_="key fault")
-    yield "fault. Shaded: every other attempt. The bar at the right spans the limits; the thick part was used."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from cellc.contract.bring_up import Watch
@@ -16,6 +16,7 @@ from cellc.tools.attempt.figures import figures_of
 from cellc.tools.attempt.follow import Followed, Follower
 from cellc.tools.attempt.heard import Decoder
 from cellc.tools.attempt.record import Report
+from cellc.tools.attempt.signals import SignalBuilder
 from cellc.tools.attempt.topics import Sources, sources_of
 
 _OFTEN = 5_000
@@ -28,11 +29,13 @@ def read_attempt(
     rehearsals: Sequence[RehearsalEntry],
     watches: Sequence[Watch],
     task: str | None,
+    sliding: Collection[str] | None = None,
 ) -> Report:
     """Read bags as the record of the task that they are of.
 
     Args:
         task: name of a rehearsal whose steps the task made; that which the bag is named after where it is None.
+        sliding: joints whose positions are lengths, where signals are wanted too.
 
     Raises:
         BagError: they cannot be read, or are of another cell.
@@ -44,7 +47,8 @@ def read_attempt(
     with open_bags(tuple(paths)) as bags:
         sources = sources_of(contract, watches, bags.topics)
         _refuse_other(paths[0], contract, bags, sources)
-        followed, notes = _follow(bags, contract, sources)
+        builder = None if sliding is None else SignalBuilder(contract, sources, sliding)
+        followed, notes = _follow(bags, contract, sources, builder)
     notes = (*notes, *_compare_joints(paths[0], contract, followed, sources))
     name = None if steps is None else steps.name
     attempts = Deriver(contract, followed, stem, name).attempts(() if steps is None else steps.steps)
@@ -59,6 +63,7 @@ def read_attempt(
         followed.heard,
         followed.begin_ns,
         followed.end.at_ns,
+        None if builder is None else builder.signals(followed.end.at_ns - followed.begin_ns),
     )
 
 
@@ -118,12 +123,17 @@ def _compare_joints(path: Path, contract: Contract, followed: Followed, sources:
     return [f"no joint state has `{joint}`" for joint in missing]
 
 
-def _follow(bags: Bags, contract: Contract, sources: Sources) -> tuple[Followed, tuple[str, ...]]:
+def _follow(
+    bags: Bags, contract: Contract, sources: Sources, builder: SignalBuilder | None
+) -> tuple[Followed, tuple[str, ...]]:
     follower, decoder = Follower(contract, sources), Decoder(bags.definitions, contract.distro)
     for count, raw in enumerate(bags.messages(sources.topics), start=1):
         heard = decoder.decode(raw)
         if heard is not None:
             follower.take(raw.log_ns, raw.topic, heard)
+            if builder is not None:
+                begin_ns = follower.followed.begin_ns
+                builder.take(raw.log_ns - begin_ns, raw.topic, heard, begin_ns)
         if count % _OFTEN == 0:
             stage(f"{count} messages, {(raw.log_ns - follower.followed.begin_ns) / 1e9:.0f} s of the bag")
     followed = follower.finish()

@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from cellc.contract.attempt import AttemptFields, CancelRecord, Layer, ResultRecord, TracePoint
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.vocabulary import AttemptOutcome
+
+if TYPE_CHECKING:
+    from cellc.tools.attempt.signals import Signals
 
 UNKNOWN = "UNKNOWN"
 
@@ -66,6 +70,7 @@ class Report:
         task: name of the rehearsal whose steps were taken for those of the task; None where none was.
         notes: what could not be read.
         missing: topics of the cell that were not recorded.
+        signals: None where they were not asked for.
     """
 
     contract: Contract
@@ -78,6 +83,7 @@ class Report:
     messages: int
     begin_ns: int
     end_ns: int
+    signals: Signals | None = None
 
     @property
     def end(self) -> Attempt:

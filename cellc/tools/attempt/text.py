@@ -21,7 +21,7 @@ def render_text(report: Report) -> Iterator[Line]:
     yield ("outcome  ", Styled(_outcome(report.end), _style(report.end)))
     if report.end.finding is not None:
         yield f"layer    {report.end.finding.layer}"
-        yield f"shown    {_shown(report, report.end.finding)}"
+        yield f"shown    {shown_words(report, report.end.finding)}"
     yield ""
     for attempt in report.attempts[:-1]:
         times = f"{_time(report, attempt, 'started_ns')} to {_time(report, attempt, 'ended_ns')}"
@@ -29,8 +29,8 @@ def render_text(report: Report) -> Iterator[Line]:
         reached = [f"{step.value[0]} at {time}" for step, time in _steps(report, attempt) if time]
         yield f"    steps {', '.join(reached) or 'not shown'}"
     for figure in report.figures:
-        yield f"{figure.name}  {_figure(figure)}"
-    yield from (f"UNKNOWN  {name}: {why}" for name, why in _unknown(report).items())
+        yield f"{figure.name}  {figure_words(figure)}"
+    yield from (f"UNKNOWN  {name}: {why}" for name, why in unknown_fields(report))
     yield from (f"note     {note}" for note in report.notes)
     if report.missing:
         yield f"not recorded: {', '.join(report.missing)}"
@@ -55,7 +55,7 @@ def _page(report: Report) -> Iterator[str]:
     )
     if report.end.finding is not None:
         yield ""
-        yield f"Layer **{report.end.finding.layer}**: {code(_shown(report, report.end.finding))}"
+        yield f"Layer **{report.end.finding.layer}**: {code(shown_words(report, report.end.finding))}"
     for attempt in report.attempts:
         yield from _attempt(report, attempt)
     yield from _rest(report)
@@ -78,16 +78,16 @@ def _attempt(report: Report, attempt: Attempt) -> Iterator[str]:
 
 def _layer(report: Report, attempt: Attempt) -> Iterator[tuple[str, str]]:
     if attempt.finding is not None:
-        yield "layer", f"{attempt.finding.layer}: {_shown(report, attempt.finding)}"
+        yield "layer", f"{attempt.finding.layer}: {shown_words(report, attempt.finding)}"
 
 
 def _rest(report: Report) -> Iterator[str]:
     yield ""
     yield "## Key figures"
     yield ""
-    yield from _table(*((figure.name, _figure(figure)) for figure in report.figures))
+    yield from _table(*((figure.name, figure_words(figure)) for figure in report.figures))
     for title, lines in (
-        ("UNKNOWN, and what would have to be recorded", [f"{name}: {why}" for name, why in _unknown(report).items()]),
+        ("UNKNOWN, and what would have to be recorded", [f"{name}: {why}" for name, why in unknown_fields(report)]),
         ("Topics of the cell that were not recorded", report.missing),
         ("Notes", report.notes),
     ):
@@ -109,7 +109,8 @@ def _style(attempt: Attempt) -> Style:
     return Style.GREEN if attempt.outcome is AttemptOutcome.SUCCEEDED else Style.RED
 
 
-def _shown(report: Report, finding: Finding) -> str:
+def shown_words(report: Report, finding: Finding) -> str:
+    """Return the message that shows the layer, with its time and source."""
     at_s = (finding.at_ns - report.begin_ns) / 1e9
     return f"{at_s:.3f} s, {finding.source}: {finding.message}"
 
@@ -149,14 +150,15 @@ def _value(attempt: Attempt, name: str) -> str:
     return ", ".join(known) if shown else f"{value.value if isinstance(value, AttemptOutcome) else value}"
 
 
-def _figure(figure: Figure) -> str:
+def figure_words(figure: Figure) -> str:
+    """Return the value of a figure with its target."""
     value = "not met in this bag" if figure.value is None else f"{figure.value:.6g} {figure.unit}"
     return value if figure.target is None else f"{value}, target {figure.target:g} {figure.unit}"
 
 
-def _unknown(report: Report) -> dict[str, str]:
+def unknown_fields(report: Report) -> list[tuple[str, str]]:
     """Return every field that is UNKNOWN in some attempt, with what would have to be recorded."""
     found: dict[str, str] = {}
     for attempt in report.attempts:
         found |= attempt.unknown
-    return dict(sorted(found.items()))
+    return sorted(found.items())

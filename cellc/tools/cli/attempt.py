@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +12,6 @@ import click
 
 from cellc.contract.errors import reason_of
 from cellc.contract.printing import refuse, show, show_document
-from cellc.tools.cli.forms import FORM
 from cellc.tools.cli.limit_option import limit_option
 from cellc.tools.cli.words import complete_rehearsal
 
@@ -36,9 +37,16 @@ if TYPE_CHECKING:
     "-o",
     "--output",
     type=click.Path(path_type=Path, file_okay=False),
-    help="Also write NAME.attempt.json and NAME.attempt.md to this folder.",
+    help="Also write NAME.attempt.json, .md and .html to this folder; the page has plots.",
 )
-@FORM
+@click.option(
+    "--format",
+    "output_format",
+    type=click.Choice(["text", "markdown", "json", "html"]),
+    default="text",
+    show_default=True,
+    help="Output format; html is one page with plots.",
+)
 @limit_option
 def attempt(
     bags: tuple[Path, ...], package: str | None, task: str | None, output: Path | None, output_format: str
@@ -51,21 +59,46 @@ def attempt(
 
     \b
     cellc attempt bags/1 --package generated/bench --task pick
-    cellc attempt evidence/1/pick.mcap -o attempts
+    cellc attempt evidence/1/pick.mcap -o attempts         writes a page with plots too
     cellc attempt bag_0.mcap bag_1.mcap --package generated/bench --format json
     """
-    report = _read(bags, package, task)
-    _tell(report, output_format)
+    read = _read(bags, package, task, drawn=output is not None or output_format == "html")
+    if output_format == "text":
+        from cellc.tools.attempt.text import render_text
+
+        show(*render_text(read.report))
+    else:
+        show_document(read.rendered(output_format))
     if output is not None:
-        _write(report, output, bags[0])
+        _write(read, output, bags[0])
+    report = read.report
     if report.end.outcome is None or report.end.outcome.value != "succeeded":
         raise click.exceptions.Exit(1)
 
 
-def _read(bags: tuple[Path, ...], package: str | None, task: str | None) -> Report:
+@dataclass(frozen=True)
+class _Read:
+    """A report, with what its page needs of the package."""
+
+    report: Report
+    tolerances: Mapping[str, float]
+
+    def rendered(self, form: str) -> str:
+        """Return the document of a form: json, markdown or html."""
+        if form == "html":
+            from cellc.tools.attempt.page import render_page
+
+            return render_page(self.report, self.tolerances)
+        from cellc.tools.attempt.record import to_json
+        from cellc.tools.attempt.text import render_markdown
+
+        return to_json(self.report) if form == "json" else render_markdown(self.report)
+
+
+def _read(bags: tuple[Path, ...], package: str | None, task: str | None, *, drawn: bool) -> _Read:
     # Reading loads NumPy and the reader of bags.
     from cellc.mock.errors import MockError
-    from cellc.mock.folder import read_folder
+    from cellc.mock.folder import path_tolerances, read_folder
     from cellc.tools.attempt.bag import BagError
     from cellc.tools.attempt.read import cell_of, read_attempt
 
@@ -79,32 +112,21 @@ def _read(bags: tuple[Path, ...], package: str | None, task: str | None) -> Repo
                 )
             named = os.path.join("generated", cell)
         folder = read_folder(Path(named))
-        return read_attempt(bags, folder.contract, folder.rehearsals, folder.watches, task)
+        sliding = [joint.name for joint in folder.description.joints if joint.slides] if drawn else None
+        report = read_attempt(bags, folder.contract, folder.rehearsals, folder.watches, task, sliding)
+        return _Read(report, path_tolerances(folder.parameters) if drawn else {})
     except (BagError, MockError) as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
 
 
-def _tell(report: Report, output_format: str) -> None:
-    from cellc.tools.attempt.record import to_json
-    from cellc.tools.attempt.text import render_markdown, render_text
-
-    if output_format == "json":
-        show_document(to_json(report))
-    elif output_format == "markdown":
-        show_document(render_markdown(report))
-    else:
-        show(*render_text(report))
-
-
-def _write(report: Report, output: Path, bag: Path) -> None:
+def _write(read: _Read, output: Path, bag: Path) -> None:
     """Write the record for programs and for people; a file of others is left as it is."""
     from cellc.contract.store.swap import make_folder, replace_whole
-    from cellc.tools.attempt.record import to_json
-    from cellc.tools.attempt.text import render_markdown
 
     stem = (bag.stem if bag.suffix else bag.resolve().name) + ".attempt"
-    texts = {f"{stem}.json": to_json(report), f"{stem}.md": render_markdown(report)}
+    forms = {"json": "json", "md": "markdown", "html": "html"}
+    texts = {f"{stem}.{suffix}": read.rendered(form) for suffix, form in forms.items()}
     try:
         make_folder(output)
         for name, text in texts.items():
