@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from cellc.mock.folder import read_folder
-from cellc.tools.attempt.read import read_attempt
+from cellc.tools.attempt.read import Drawn, read_attempt
 from cellc.tools.attempt.signals import Signals
 from tests.attempt.hand_made import JOINTS, MS, HandMade, arrived, attempted, protective_stop
 from tests.cells import generated
@@ -43,7 +43,7 @@ def page(bag: Path) -> Page:
 
 def signals(bag: Path) -> Signals:
     folder = read_folder(generated("ur5e_pick"))
-    report = read_attempt([bag], folder.contract, folder.rehearsals, folder.watches, None, ())
+    report = read_attempt([bag], folder.contract, folder.rehearsals, folder.watches, None, Drawn((), {}))
     assert report.signals is not None
     return report.signals
 
@@ -99,7 +99,7 @@ def test_one_sample_of_a_long_bag_is_drawn_and_memory_does_not_grow(tmp_path: Pa
             bag.joints(at_ns, [spike, -1.5, 1.5, -1.5, -1.5, 0.0, 0.0])
         written = bag.write(tmp_path / f"long{seconds}")
         tracemalloc.start()
-        report = read_attempt([written], folder.contract, folder.rehearsals, folder.watches, None, ())
+        report = read_attempt([written], folder.contract, folder.rehearsals, folder.watches, None, Drawn((), {}))
         peaks.append(tracemalloc.get_traced_memory()[1])
         tracemalloc.stop()
         assert report.signals is not None

@@ -15,6 +15,7 @@ from cellc.mock.report_page.axes import TimeAxis
 from cellc.mock.report_page.html import Child, cards, hint, pairs, seconds, section, tag, to_page
 from cellc.mock.report_page.plots import plots, state_plot
 from cellc.mock.report_page.run_section import Bar, axis, details, lane, packet
+from cellc.tools.attempt.compare import MEASURE_NAMES, STEP_NAMES, Comparison, measure_words, step_words
 from cellc.tools.attempt.record import UNKNOWN, Attempt, Report
 from cellc.tools.attempt.text import figure_words, shown_words, unknown_fields
 
@@ -30,7 +31,9 @@ def render_page(report: Report, tolerances: Mapping[str, float]) -> str:
     """
     style = own_text(Path(str(files("cellc.mock.report_page") / "style.css")))
     time = _time_axis(report)
-    main = tag("main", _header(report), _phases(report, time), *_plots(report, tolerances, time), *_rest(report))
+    against = () if report.comparison is None else _against(report.comparison)
+    parts = (_header(report), *against, _phases(report, time), *_plots(report, tolerances, time), *_rest(report))
+    main = tag("main", *parts)
     return to_page(f"{report.contract.cell}: an attempt", style, tag("body", main), policy=_POLICY)
 
 
@@ -134,6 +137,18 @@ def _plots(report: Report, tolerances: Mapping[str, float], time: TimeAxis) -> I
     if not drawn:
         drawn = [hint("The bag has no states of joints or controllers, no transforms and no observations.")]
     yield section("Signals", hint("Seconds since the begin of the bag, by arrival on the recording computer."), *drawn)
+
+
+def _against(comparison: Comparison) -> Iterator[Element]:
+    """Yield where the attempt and a rehearsal part, and what the bag measures beside it."""
+    parted = tag("ul", *(tag("li", each) for each in comparison.parted), class_="plain-list")
+    steps = cards(STEP_NAMES, (step_words(each) for each in comparison.steps))
+    words = hint("They part nowhere.") if not comparison.parted else parted
+    yield section(f"Against {comparison.name}", words, steps)
+    reading = "Facts for the spec: what the bag measures, beside what the rehearsal has and what the contract states."
+    yield section(
+        "Measured", hint(reading), cards(MEASURE_NAMES, (measure_words(each) for each in comparison.measures))
+    )
 
 
 def _rest(report: Report) -> Iterator[Element]:

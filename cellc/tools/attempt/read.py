@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from cellc.contract.bring_up import Watch
@@ -15,6 +16,7 @@ from cellc.tools.attempt.derive import Deriver
 from cellc.tools.attempt.figures import figures_of
 from cellc.tools.attempt.follow import Followed, Follower
 from cellc.tools.attempt.heard import Decoder
+from cellc.tools.attempt.measures import MeasureBuilder
 from cellc.tools.attempt.record import Report
 from cellc.tools.attempt.signals import SignalBuilder
 from cellc.tools.attempt.topics import Sources, sources_of
@@ -23,19 +25,32 @@ _OFTEN = 5_000
 """Messages after which the progress is shown."""
 
 
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """What is known of the joints of a package beside its contract.
+
+    Attributes:
+        sliding: joints whose positions are lengths.
+        tolerances: path tolerance of each joint that has one, rad or m.
+    """
+
+    sliding: Collection[str]
+    tolerances: Mapping[str, float]
+
+
 def read_attempt(
     paths: Sequence[Path],
     contract: Contract,
     rehearsals: Sequence[RehearsalEntry],
     watches: Sequence[Watch],
     task: str | None,
-    sliding: Collection[str] | None = None,
+    drawn: Drawn | None = None,
 ) -> Report:
     """Read bags as the record of the task that they are of.
 
     Args:
         task: name of a rehearsal whose steps the task made; that which the bag is named after where it is None.
-        sliding: joints whose positions are lengths, where signals are wanted too.
+        drawn: what signals and measures need, where they are wanted too.
 
     Raises:
         BagError: they cannot be read, or are of another cell.
@@ -47,9 +62,13 @@ def read_attempt(
     with open_bags(tuple(paths)) as bags:
         sources = sources_of(contract, watches, bags.topics)
         _refuse_other(paths[0], contract, bags, sources)
-        builder = None if sliding is None else SignalBuilder(contract, sources, sliding)
-        followed, notes = _follow(bags, contract, sources, builder)
+        builders = None
+        if drawn is not None:
+            measures = MeasureBuilder(contract, sources, drawn.tolerances)
+            builders = SignalBuilder(contract, sources, drawn.sliding), measures
+        followed, notes = _follow(bags, contract, sources, builders)
     notes = (*notes, *_compare_joints(paths[0], contract, followed, sources))
+    told = {controller for topic, controller in sources.states.items() if topic in sources.topics}
     name = None if steps is None else steps.name
     attempts = Deriver(contract, followed, stem, name).attempts(() if steps is None else steps.steps)
     return Report(
@@ -63,7 +82,9 @@ def read_attempt(
         followed.heard,
         followed.begin_ns,
         followed.end.at_ns,
-        None if builder is None else builder.signals(followed.end.at_ns - followed.begin_ns),
+        None if builders is None else builders[0].signals(followed.end.at_ns - followed.begin_ns),
+        () if builders is None else builders[1].measures(followed),
+        {goal.goal_id: goal.worst_error for goal in followed.goals if goal.action.controller in told},
     )
 
 
@@ -124,16 +145,17 @@ def _compare_joints(path: Path, contract: Contract, followed: Followed, sources:
 
 
 def _follow(
-    bags: Bags, contract: Contract, sources: Sources, builder: SignalBuilder | None
+    bags: Bags, contract: Contract, sources: Sources, builders: tuple[SignalBuilder, MeasureBuilder] | None
 ) -> tuple[Followed, tuple[str, ...]]:
     follower, decoder = Follower(contract, sources), Decoder(bags.definitions, contract.distro)
     for count, raw in enumerate(bags.messages(sources.topics), start=1):
         heard = decoder.decode(raw)
         if heard is not None:
             follower.take(raw.log_ns, raw.topic, heard)
-            if builder is not None:
+            if builders is not None:
                 begin_ns = follower.followed.begin_ns
-                builder.take(raw.log_ns - begin_ns, raw.topic, heard, begin_ns)
+                builders[0].take(raw.log_ns - begin_ns, raw.topic, heard, begin_ns)
+                builders[1].take(raw.log_ns, raw.topic, heard)
         if count % _OFTEN == 0:
             stage(f"{count} messages, {(raw.log_ns - follower.followed.begin_ns) / 1e9:.0f} s of the bag")
     followed = follower.finish()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields
 from enum import Enum
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,8 @@ from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.vocabulary import AttemptOutcome
 
 if TYPE_CHECKING:
+    from cellc.tools.attempt.compare import Comparison
+    from cellc.tools.attempt.measures import Measure
     from cellc.tools.attempt.signals import Signals
 
 UNKNOWN = "UNKNOWN"
@@ -71,6 +73,9 @@ class Report:
         notes: what could not be read.
         missing: topics of the cell that were not recorded.
         signals: None where they were not asked for.
+        measures: figures for the spec; empty where they were not asked for.
+        errors: largest following error of each goal whose controller tells its state, rad or m, by its id.
+        comparison: with a rehearsal, where one was named.
     """
 
     contract: Contract
@@ -84,6 +89,9 @@ class Report:
     begin_ns: int
     end_ns: int
     signals: Signals | None = None
+    measures: tuple[Measure, ...] = ()
+    errors: Mapping[str, float] = field(default_factory=dict)
+    comparison: Comparison | None = None
 
     @property
     def end(self) -> Attempt:
@@ -108,6 +116,7 @@ def to_json(report: Report) -> str:
             "figures": [_plain(each) for each in report.figures],
             "notes": list(report.notes),
             "missing_topics": list(report.missing),
+            **({} if report.comparison is None else {"comparison": asdict(report.comparison)}),
         }
     )
 

@@ -9,6 +9,7 @@ from cellc.compiler.formats.escape import code
 from cellc.contract.attempt import PacketStep
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.vocabulary import AttemptOutcome
+from cellc.tools.attempt.compare import MEASURE_NAMES, STEP_NAMES, Comparison, measure_words, step_words
 from cellc.tools.attempt.record import UNKNOWN, Attempt, Figure, Finding, Report
 
 _APART = ("trace", "finding", "unknown", "attempt_id", "step", "version_tuple", "configuration_id")
@@ -30,10 +31,21 @@ def render_text(report: Report) -> Iterator[Line]:
         yield f"    steps {', '.join(reached) or 'not shown'}"
     for figure in report.figures:
         yield f"{figure.name}  {figure_words(figure)}"
+    if report.comparison is not None:
+        yield from _against(report.comparison)
     yield from (f"UNKNOWN  {name}: {why}" for name, why in unknown_fields(report))
     yield from (f"note     {note}" for note in report.notes)
     if report.missing:
         yield f"not recorded: {', '.join(report.missing)}"
+
+
+def _against(comparison: Comparison) -> Iterator[str]:
+    """Yield where an attempt and a rehearsal part, and what the bag measures beside it."""
+    yield f"against  {comparison.name}"
+    yield from (f"parted   {each}" for each in comparison.parted or ("nowhere",))
+    for each in comparison.measures:
+        name, real, rehearsed, stated, source = measure_words(each)
+        yield f"measured {name}: {real}; rehearsed {rehearsed}; stated {stated}; from {source}"
 
 
 def render_markdown(report: Report) -> str:
@@ -56,9 +68,25 @@ def _page(report: Report) -> Iterator[str]:
     if report.end.finding is not None:
         yield ""
         yield f"Layer **{report.end.finding.layer}**: {code(shown_words(report, report.end.finding))}"
+    if report.comparison is not None:
+        yield from _against_tables(report.comparison)
     for attempt in report.attempts:
         yield from _attempt(report, attempt)
     yield from _rest(report)
+
+
+def _against_tables(comparison: Comparison) -> Iterator[str]:
+    yield from ("", f"## Against {code(comparison.name)}", "")
+    yield from (f"- {code(each)}" for each in comparison.parted or ("They part nowhere",))
+    tables = (
+        (STEP_NAMES, [step_words(each) for each in comparison.steps]),
+        (MEASURE_NAMES, [measure_words(each) for each in comparison.measures]),
+    )
+    for names, rows in tables:
+        yield ""
+        yield f"| {' | '.join(names)} |"
+        yield "|" + "---|" * len(names)
+        yield from (f"| {' | '.join(code(cell).replace('|', '&#124;') for cell in row)} |" for row in rows)
 
 
 def _attempt(report: Report, attempt: Attempt) -> Iterator[str]:

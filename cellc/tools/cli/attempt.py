@@ -40,6 +40,12 @@ if TYPE_CHECKING:
     help="Also write NAME.attempt.json, .md and .html to this folder; the page has plots.",
 )
 @click.option(
+    "--against",
+    metavar="REHEARSAL",
+    shell_complete=complete_rehearsal,
+    help="Compare with this rehearsal: a name of the package, which is run, or a bag of the mock.",
+)
+@click.option(
     "--format",
     "output_format",
     type=click.Choice(["text", "markdown", "json", "html"]),
@@ -49,7 +55,12 @@ if TYPE_CHECKING:
 )
 @limit_option
 def attempt(
-    bags: tuple[Path, ...], package: str | None, task: str | None, output: Path | None, output_format: str
+    bags: tuple[Path, ...],
+    package: str | None,
+    task: str | None,
+    output: Path | None,
+    against: str | None,
+    output_format: str,
 ) -> None:
     """Read each BAG of one attempt, and print its record and the layer in which it failed.
 
@@ -57,12 +68,15 @@ def attempt(
     split bag are read as one. What the bag does not show is UNKNOWN, with what would have to be recorded. Exit 1 if
     the attempt failed or its outcome is UNKNOWN.
 
+    With --against, also say where attempt and rehearsal part, and what the bag measures of figures of the spec.
+
     \b
     cellc attempt bags/1 --package generated/bench --task pick
     cellc attempt evidence/1/pick.mcap -o attempts         writes a page with plots too
+    cellc attempt bags/1 --package generated/bench --task pick --against pick
     cellc attempt bag_0.mcap bag_1.mcap --package generated/bench --format json
     """
-    read = _read(bags, package, task, drawn=output is not None or output_format == "html")
+    read = _read(bags, package, task, against, drawn=output is not None or output_format == "html")
     if output_format == "text":
         from cellc.tools.attempt.text import render_text
 
@@ -95,12 +109,13 @@ class _Read:
         return to_json(self.report) if form == "json" else render_markdown(self.report)
 
 
-def _read(bags: tuple[Path, ...], package: str | None, task: str | None, *, drawn: bool) -> _Read:
+def _read(bags: tuple[Path, ...], package: str | None, task: str | None, against: str | None, *, drawn: bool) -> _Read:
     # Reading loads NumPy and the reader of bags.
     from cellc.mock.errors import MockError
     from cellc.mock.folder import path_tolerances, read_folder
+    from cellc.tools.attempt.against import compared
     from cellc.tools.attempt.bag import BagError
-    from cellc.tools.attempt.read import cell_of, read_attempt
+    from cellc.tools.attempt.read import Drawn, cell_of, read_attempt
 
     try:
         named = package
@@ -112,9 +127,14 @@ def _read(bags: tuple[Path, ...], package: str | None, task: str | None, *, draw
                 )
             named = os.path.join("generated", cell)
         folder = read_folder(Path(named))
-        sliding = [joint.name for joint in folder.description.joints if joint.slides] if drawn else None
-        report = read_attempt(bags, folder.contract, folder.rehearsals, folder.watches, task, sliding)
-        return _Read(report, path_tolerances(folder.parameters) if drawn else {})
+        drawing = None
+        if drawn or against is not None:
+            sliding = [joint.name for joint in folder.description.joints if joint.slides]
+            drawing = Drawn(sliding, path_tolerances(folder.parameters))
+        report = read_attempt(bags, folder.contract, folder.rehearsals, folder.watches, task, drawing)
+        if against is not None and drawing is not None:
+            report = compared(report, folder, against, drawing)
+        return _Read(report, {} if drawing is None else drawing.tolerances)
     except (BagError, MockError) as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
