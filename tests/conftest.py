@@ -75,7 +75,7 @@ def pytest_configure(config: pytest.Config) -> None:
     long = [config.rootpath / path for path in config.getini("long_tests")]
     config.stash[_LEFT_OUT] = frozenset()
     if config.option.long and config.args_source is pytest.Config.ArgsSource.ARGS:
-        raise pytest.UsageError("--long runs the long tests alone and takes no path; a named path runs all that is in it")
+        raise pytest.UsageError("--long takes no path: a named path runs all that is in it")
     if config.option.long:
         config.args = list(map(str, long))
     elif config.args_source is pytest.Config.ArgsSource.TESTPATHS and not config.option.all:
