@@ -51,6 +51,7 @@ CALLS = (
     ("attempt --help", 0, "print its record and the layer"),
     (f"evidence {BUILT} --package {BUILT}", 1, "14 gates: 0 complete"),
     ("evidence nothing", 2, "error: nothing: no such folder"),
+    ("evidence --help", 0, "Nothing is signed"),
     (f"audit {SPEC}", 0, "Cell bench."),
     ("audit nothing.yaml", 1, NO_SPEC),
     ("catalog ur5e", 0, "# `ur5e`"),
