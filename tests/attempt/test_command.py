@@ -55,10 +55,14 @@ def test_files_are_written_and_those_of_others_are_left(bag: str, tmp_path: Path
     ]
     written = (output / "good.attempt.json").read_text(encoding="utf-8")
     assert written == run("attempt", bag, *PACKAGE, "--format", "json").out
-    (output / "good.attempt.md").write_text("my notes", encoding="utf-8")
-    ran = run("attempt", bag, *PACKAGE, "-o", output.as_posix())
-    assert (ran.code, "is no file of this command" in ran.err) == (2, True)
-    assert (output / "good.attempt.md").read_text(encoding="utf-8") == "my notes"
+    for suffix, notes in (("md", "my notes"), ("html", "<!doctype html>\nmy page"), ("json", '{\n  "format": 1}')):
+        place = output / f"good.attempt.{suffix}"
+        own = place.read_bytes()
+        place.write_text(notes, encoding="utf-8")
+        ran = run("attempt", bag, *PACKAGE, "-o", output.as_posix())
+        assert (ran.code, "is no file of this command" in ran.err) == (2, True)
+        assert place.read_text(encoding="utf-8") == notes
+        place.write_bytes(own)
 
 
 def test_a_failed_attempt_is_exit_code_1_and_wrong_words_are_2(bag: str, tmp_path: Path) -> None:

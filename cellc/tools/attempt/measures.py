@@ -13,9 +13,9 @@ from cellc.mock.task.bounds import joint_state_age_s
 from cellc.tools.attempt.follow import SUCCEEDED, Followed
 from cellc.tools.attempt.heard import ControllerSample, Edges, Heard, JointSample, ObservedPose, Vector
 from cellc.tools.attempt.motion import MOVED, STANDSTILL
-from cellc.tools.attempt.spread import Spread
 from cellc.tools.attempt.topics import Sources
 
+_MOST = 4096
 _MOST_STREAMS = 200
 _NO_STATES = "states of the controller, `controller_state`"
 
@@ -42,6 +42,35 @@ class Measure:
     source: str
     stated: str
     spec: str
+
+
+@dataclass(slots=True)
+class Spread:
+    """Count, extremes and median of values in bounded memory; beyond 4096 every second, fourth, … one is kept."""
+
+    count: int = 0
+    least: float = float("inf")
+    most: float = float("-inf")
+    _kept: list[float] = field(default_factory=list)
+    _stride: int = 1
+
+    def add(self, value: float) -> None:
+        """Take a value; what is no number counts for nothing."""
+        if value != value:
+            return
+        if self.count % self._stride == 0:
+            self._kept.append(value)
+            if len(self._kept) > _MOST:
+                self._kept = self._kept[::2]
+                self._stride *= 2
+        self.count += 1
+        self.least = min(self.least, value)
+        self.most = max(self.most, value)
+
+    @property
+    def median(self) -> float:
+        """The middle one of the values; that of two which is larger."""
+        return sorted(self._kept)[len(self._kept) // 2]
 
 
 @dataclass(slots=True)

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cellc.contract.errors import reason_of
 from cellc.contract.printing import refuse, show, show_document
 from cellc.tools.cli.limit_option import limit_option
 from cellc.tools.cli.words import complete_rehearsal
+from cellc.tools.cli.written import write_reports
 
 if TYPE_CHECKING:
     from cellc.tools.attempt.record import Report
@@ -142,32 +142,7 @@ def _read(bags: tuple[Path, ...], package: str | None, task: str | None, against
 
 def _write(read: _Read, output: Path, bag: Path) -> None:
     """Write the record for programs and for people; a file of others is left as it is."""
-    from cellc.contract.store.swap import make_folder, replace_whole
-
-    stem = (bag.stem if bag.suffix else bag.resolve().name) + ".attempt"
+    stem, cell = (bag.stem if bag.suffix else bag.resolve().name) + ".attempt", read.report.contract.cell
+    marks = {"json": f'"cell": "{cell}",', "md": f"# Attempt of `{cell}`", "html": f"<title>{cell}: an attempt</title>"}
     forms = {"json": "json", "md": "markdown", "html": "html"}
-    texts = {f"{stem}.{suffix}": read.rendered(form) for suffix, form in forms.items()}
-    try:
-        make_folder(output)
-        for name, text in texts.items():
-            _hold_own(output / name, text)
-        for name, text in texts.items():
-            replace_whole(output / name, text.encode())
-    except OSError as error:
-        refuse(f"{output.as_posix()}: cannot be written: {reason_of(error)}")
-        raise click.exceptions.Exit(2) from None
-
-
-def _hold_own(place: Path, text: str) -> None:
-    """Refuse to replace what this command did not write."""
-    from cellc.contract.store.regular_file import open_regular
-
-    head = text[:12].encode()
-    try:
-        with open_regular(place) as stream:
-            found = stream.read(len(head))
-    except FileNotFoundError:
-        return
-    if found != head:
-        refuse(f"{place.as_posix()}: is no file of this command; move it away, or name another folder")
-        raise click.exceptions.Exit(2)
+    write_reports(output, {f"{stem}.{suffix}": (read.rendered(form), marks[suffix]) for suffix, form in forms.items()})

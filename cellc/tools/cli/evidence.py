@@ -8,16 +8,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from cellc.contract.errors import reason_of
 from cellc.contract.printing import refuse, show, show_document
 from cellc.contract.vocabulary import NETWORK_GATES, PROMOTION_GATES, GateCode
 from cellc.tools.cli.limit_option import limit_option
+from cellc.tools.cli.written import write_reports
 
 if TYPE_CHECKING:
     from cellc.tools.evidence.report import Report
-
-_HEAD = 1024
-"""Bytes in which a file of this command has its mark, which those of others have not."""
 
 
 @click.command()
@@ -98,7 +95,6 @@ def _tell(report: Report, output_format: str) -> None:
 
 def _write(report: Report, output: Path) -> None:
     """Write the report for programs and the page for people; a file of others is left as it is."""
-    from cellc.contract.store.swap import make_folder, replace_whole
     from cellc.tools.evidence.page import to_html
     from cellc.tools.evidence.report import to_json
 
@@ -107,26 +103,4 @@ def _write(report: Report, output: Path) -> None:
         f"{stem}.json": (to_json(report), f'"cell": "{report.cell}",'),
         f"{stem}.html": (to_html(report), f"<title>{report.cell}: evidence of the gates</title>"),
     }
-    try:
-        make_folder(output)
-        for name, (_, mark) in texts.items():
-            _hold_own(output / name, mark.encode())
-        for name, (text, _) in texts.items():
-            replace_whole(output / name, text.encode())
-    except OSError as error:
-        refuse(f"{output.as_posix()}: cannot be written: {reason_of(error)}")
-        raise click.exceptions.Exit(2) from None
-
-
-def _hold_own(place: Path, mark: bytes) -> None:
-    """Refuse to replace what this command did not write."""
-    from cellc.contract.store.regular_file import open_regular
-
-    try:
-        with open_regular(place, follow=False) as stream:
-            is_own = mark in stream.read(_HEAD)
-    except FileNotFoundError:
-        return
-    if not is_own:
-        refuse(f"{place.as_posix()}: is no file of this command; move it away, or name another folder")
-        raise click.exceptions.Exit(2)
+    write_reports(output, texts)
