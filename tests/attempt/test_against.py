@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -164,5 +165,93 @@ def test_what_is_no_rehearsal_and_no_bag_is_refused(tmp_path: Path) -> None:
     bag = driven(500 * MS).write(tmp_path / "real")
     ran = run("attempt", bag.as_posix(), *PACKAGE, "--against", "nothing")
     assert ran.code == 2
-    assert "`nothing` must be a bag, or a rehearsal of the package; it has `pick_and_place`" in ran.err
+    assert (
+        "`nothing` must be a bag, a file of records or a rehearsal of the package; it has `pick_and_place`" in ran.err
+    )
     assert "comparison" not in json.loads(attempted(bag).out)
+
+
+def records_of(folder: Path, name: str) -> Path:
+    """Return the records that the mock wrote of a rehearsal."""
+    return folder / f"{name}.records.jsonl"
+
+
+def parted(bag: Path, other: Path, *words: str) -> list[str]:
+    """Return where a bag and something else part."""
+    ran = run("attempt", bag.as_posix(), *PACKAGE, "--against", other.as_posix(), *words, "--format", "json")
+    assert ran.err == ""
+    return list(json.loads(ran.out)["comparison"]["parted"])
+
+
+def test_records_say_of_each_step_what_their_bag_says(rehearsed: Path, tmp_path: Path) -> None:
+    bag = rehearsed / "no_part.mcap"
+    expected = parted(bag, rehearsed / "pick_and_place.mcap")
+    assert len(expected) == 5  # grip: outcome and time; three steps that were not made
+    assert parted(bag, records_of(rehearsed, "pick_and_place")) == expected
+    assert parted(bag, records_of(rehearsed, "no_part")) == []
+    # What this command wrote of another bag has them too.
+    written = run("attempt", (rehearsed / "pick_and_place.mcap").as_posix(), *PACKAGE, "-o", tmp_path.as_posix())
+    assert written.code == 0
+    assert parted(bag, tmp_path / "pick_and_place.attempt.json") == expected
+
+
+def test_of_records_of_several_rehearsals_those_of_the_task_are_taken(rehearsed: Path, tmp_path: Path) -> None:
+    both = tmp_path / "all.jsonl"
+    texts = (records_of(rehearsed, name).read_text(encoding="utf-8") for name in ("no_part", "pick_and_place"))
+    both.write_text("".join(texts), encoding="utf-8")
+    assert parted(rehearsed / "no_part.mcap", both) == []
+    bag = driven(500 * MS).write(tmp_path / "real")
+    ran = run("attempt", bag.as_posix(), *PACKAGE, "--against", both.as_posix())
+    assert (ran.code, ran.err) == (2, f"error: {both.as_posix()}: has records of 2 rehearsals; name one with --task\n")
+
+
+def test_records_have_no_errors_and_what_is_unknown_stays_unknown(rehearsed: Path, tmp_path: Path) -> None:
+    first = json.loads(records_of(rehearsed, "pick_and_place").read_text(encoding="utf-8").splitlines()[0])
+    end = {**first, "step": "end"}
+    lines = ({**first, "outcome": "UNKNOWN", "started_ns": "UNKNOWN", "ended_ns": "UNKNOWN", "trace": []}, end)
+    records = tmp_path / "own.jsonl"
+    records.write_text("".join(f"{json.dumps(line)}\n" for line in lines), encoding="utf-8")
+    bag = driven(500 * MS).write(tmp_path / "real").as_posix()
+    page = run("attempt", bag, *PACKAGE, "--against", records.as_posix(), "--format", "markdown").out
+    assert "`succeeded` | `UNKNOWN` | `0.350` | `UNKNOWN` | `0.01` | `UNKNOWN` |" in page
+    assert re.search(r"`rate of /joint_states` \| `median 500[^|]*\| `UNKNOWN` \|", page)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda _: "", "has no records"),
+        (lambda text: text[: len(text) // 2], "is no file of records: is not JSON: "),
+        (lambda text: text.replace('"step"', '"stop"'), "is no file of records: `step`: field required"),
+        (
+            lambda text: text.replace("cfg-", "cfg-f"),
+            "has no records of this package: its configuration_id must be cfg-",
+        ),
+        (lambda text: text.replace('"succeeded"', '"went well"'), "is no file of records: `outcome"),
+    ],
+)
+def test_a_file_of_records_that_is_none_is_refused(
+    change: Callable[[str], str], said: str, rehearsed: Path, tmp_path: Path
+) -> None:
+    records = tmp_path / "own.jsonl"
+    records.write_text(change(records_of(rehearsed, "pick_and_place").read_text(encoding="utf-8")), encoding="utf-8")
+    bag = (rehearsed / "no_part.mcap").as_posix()
+    ran = run("attempt", bag, *PACKAGE, "--against", records.as_posix())
+    assert ran.code == 2
+    assert ran.err.startswith(f"error: {records.as_posix()}: {said}")
+    assert ran.err.count("\n") == 1
+
+
+def test_texts_of_records_stay_on_their_line(rehearsed: Path, tmp_path: Path) -> None:
+    hostile = "x\x1b[2J\r\n::error::| `a` <script>alert(1)</script>\u202e"
+    lines = records_of(rehearsed, "pick_and_place").read_text(encoding="utf-8").splitlines()
+    records = tmp_path / "own.jsonl"
+    changed = ({**json.loads(line), "step": hostile} for line in lines)
+    records.write_text("".join(f"{json.dumps(line)}\n" for line in changed), encoding="utf-8")
+    bag = (rehearsed / "no_part.mcap").as_posix()
+    for form in ("text", "markdown", "html", "json"):
+        ran = run("attempt", bag, *PACKAGE, "--against", records.as_posix(), "--format", form)
+        assert ran.code == 1
+        assert not set("\x1b\r\u202e") & set(ran.out)
+        assert not any(line.startswith("::") for line in ran.out.splitlines())
+        assert form != "html" or "<script" not in ran.out

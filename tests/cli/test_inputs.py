@@ -13,6 +13,7 @@ import click
 import pytest
 
 from cellc.tools.cli.main import cellc
+from tests.attempt.hand_made import arrived
 from tests.cells import ROOT
 from tests.cli.run import run
 
@@ -39,6 +40,7 @@ NOT_GENERATED = "{} has no `manifest.json`: it is not a generated folder"
 NO_GIT = "is not in a readable Git repository"
 NOTHING = "there is no file or folder `{}`"
 NO_BAG = "holds no file .mcap or .db3"
+NO_LOG = "no such file or folder"
 NO_BAG_FILE = "must be a folder of rosbag2, or a file .mcap or .db3"
 XML = "not well-formed XML"
 NO_SOURCE = "refused: `{}` is not a file, a folder or an installed package"
@@ -76,6 +78,28 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
         (2, NO_BAG_FILE),
         (2, NO_BAG),
     ),
+    "attempt good --package {}": (
+        (2, NOT_BUILT),
+        (2, "no such folder"),
+        (2, NO_FOLDER),
+        (2, "no such folder"),
+        (2, NO_FOLDER),
+        (2, NO_FOLDER),
+        (0, "outcome  succeeded"),
+        (2, NO_FOLDER),
+        (2, NOT_BUILT),
+    ),
+    "attempt good --package picked --against {}": (
+        (2, NO_BAG),
+        (2, "`{}` must be a bag, a file of records or a rehearsal of the package; it has `pick_and_place`"),
+        (2, NO_BAG_FILE),
+        (2, "`{}` must be a bag, a file of records or a rehearsal of the package; it has `pick_and_place`"),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+    ),
     "audit {}": (*_SPEC, (1, FOLDER)),
     "build {} -o out": (*_SPEC, (0, "written")),
     # A device and a robot are judged for themselves.
@@ -85,6 +109,17 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
     "diagnose does not move {}": tuple(
         (code, said) if said in (TEXT, BYTES, DEVICE, ROBOT) else (0, "does not take commands")
         for code, said in (*_SPEC, (1, FOLDER))
+    ),
+    "diagnose --log {}": (
+        (2, "holds no log that can be read; it is empty"),
+        (2, NO_LOG),
+        (0, "no known symptom in 1 line of 1 file"),
+        (2, NO_LOG),
+        (0, "no known symptom in 21 lines of 1 file"),
+        (0, "no known symptom in 22 lines of 1 file"),
+        (1, "first layer: owner of the command"),  # its pages name what fails
+        (0, "no known symptom"),
+        (0, "no known symptom"),
     ),
     "diff {} cell/cell.yaml": (
         (2, NOT_GENERATED),
@@ -107,6 +142,17 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
         (1, "0 complete, 0 FAILED"),
         (2, "is not a folder"),
         (1, "0 complete, 0 FAILED"),
+    ),
+    "evidence emptyfolder --package {}": (
+        (2, NOT_BUILT),
+        (2, "no such folder"),
+        (2, NO_FOLDER),
+        (2, "no such folder"),
+        (2, NO_FOLDER),
+        (2, NO_FOLDER),
+        (1, "0 complete, 0 FAILED"),
+        (2, NO_FOLDER),
+        (2, NOT_BUILT),
     ),
     "format {} --check": (
         (2, "there is no cell.yaml, device.yaml or *.family.yaml below `{}`"),
@@ -162,7 +208,9 @@ def folder_fixture(tmp_path_factory: pytest.TempPathFactory) -> Path:
     shutil.copytree(ROOT / "tests/corpus/valid/parts/lift", folder / "arm")
     shutil.copy(ROOT / "tests/corpus/valid/parts/lift/lift.urdf", folder / "robot.urdf")
     shutil.copytree(ROOT / "generated/minimal", folder / "built")
+    shutil.copytree(ROOT / "generated/ur5e_pick", folder / "picked")
     shutil.copytree(ROOT / "cells/minimal", folder / "cell")
+    arrived().write(folder / "good")
     return folder
 
 

@@ -43,6 +43,12 @@ def test_rehearsals_of_the_folder_are_completed() -> None:
     assert _completed(["mock", generated("minimal").as_posix(), "--rehearsal"], "") == ["ready"]
 
 
+@pytest.mark.parametrize("option", ["--task", "--against"])
+def test_rehearsals_of_the_package_of_a_bag_are_completed(option: str) -> None:
+    package = generated("minimal").as_posix()
+    assert _completed(["attempt", "bag.mcap", "--package", package, option], "") == ["ready"]
+
+
 def test_the_rehearsal_of_a_run_is_completed_first_where_a_campaign_disturbs_several(tmp_path: Path) -> None:
     told = json.loads((generated("ur5e_pick") / "rehearsals.json").read_text(encoding="utf-8"))
     plain = next(rehearsal for rehearsal in told["rehearsals"] if rehearsal["name"] == "pick_and_place")

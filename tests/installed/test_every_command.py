@@ -61,6 +61,8 @@ CALLS = (
     ("completion bash", 0, "complete -o nosort"),
     ("completion tcsh", 2, "'tcsh' is not one of 'bash', 'zsh', 'fish'"),
     ("diagnose robot does not move", 0, "look at"),
+    ("diagnose --log cells", 0, "no known symptom"),
+    ("diagnose --log nothing", 2, "error: nothing: no such file or folder"),
     ("diagnose xyzzy", 1, "UNKNOWN: no known symptom fits"),
     (f"diff {SPEC} {BUILT}", 0, "no change"),
     (f"diff {BUILT} nothing", 2, "there is no file `nothing`"),

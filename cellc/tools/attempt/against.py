@@ -1,4 +1,4 @@
-"""The other side of a comparison: a rehearsal that is run for it, or a bag of one."""
+"""The other side of a comparison: a rehearsal that is run for it, a bag or a file of records."""
 
 from __future__ import annotations
 
@@ -13,13 +13,14 @@ from cellc.tools.attempt.bag import BagError
 from cellc.tools.attempt.compare import compare
 from cellc.tools.attempt.read import Drawn, read_attempt
 from cellc.tools.attempt.record import Report
+from cellc.tools.attempt.recorded import SUFFIXES, recorded_report
 
 
 def compared(report: Report, folder: GeneratedFolder, against: str, drawn: Drawn) -> Report:
     """Return a report with its comparison.
 
     Args:
-        against: name of a rehearsal of the folder, or where a bag lies.
+        against: name of a rehearsal of the folder, or where a bag or a file of records lies.
 
     Raises:
         BagError: it is neither.
@@ -32,9 +33,12 @@ def compared(report: Report, folder: GeneratedFolder, against: str, drawn: Drawn
     place = Path(against)
     if not place.exists():
         known = ", ".join(f"`{name}`" for name in names) or "none"
-        raise BagError(f"`{against}` must be a bag, or a rehearsal of the package; it has {known}")
-    task = report.task if place.stem not in names else None
-    other = read_attempt([place], folder.contract, folder.rehearsals, folder.watches, task, drawn)
+        raise BagError(f"`{against}` must be a bag, a file of records or a rehearsal of the package; it has {known}")
+    if place.suffix in SUFFIXES:
+        other = recorded_report(place, folder.contract, report.task)
+    else:
+        task = report.task if place.stem not in names else None
+        other = read_attempt([place], folder.contract, folder.rehearsals, folder.watches, task, drawn)
     return replace(report, comparison=compare(report, other, place.as_posix()))
 
 

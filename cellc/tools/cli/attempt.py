@@ -41,9 +41,9 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--against",
-    metavar="REHEARSAL",
+    metavar="REHEARSAL|FILE",
     shell_complete=complete_rehearsal,
-    help="Compare with this rehearsal: a name of the package, which is run, or a bag of the mock.",
+    help="Compare with this: a rehearsal of the package, which is run, another bag, or a file of records.",
 )
 @click.option(
     "--format",
@@ -68,7 +68,8 @@ def attempt(
     split bag are read as one. What the bag does not show is UNKNOWN, with what would have to be recorded. Exit 1 if
     the attempt failed or its outcome is UNKNOWN.
 
-    With --against, also say where attempt and rehearsal part, and what the bag measures of figures of the spec.
+    With --against, also say where attempt and rehearsal part, and what the bag measures of figures of the spec. A file
+    of records, NAME.records.jsonl of the mock or NAME.attempt.json, has outcomes and times alone.
 
     \b
     cellc attempt bags/1 --package generated/bench --task pick

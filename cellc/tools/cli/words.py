@@ -75,7 +75,7 @@ def _entries(context: click.Context) -> Sequence[RehearsalEntry]:
 
 
 def _folder(context: click.Context) -> Path:
-    several = context.params.get("folders") or (context.params.get("folder"),)
+    several = context.params.get("folders") or (context.params.get("package") or context.params.get("folder"),)
     # Behind an option without its value click has not distinguished arguments from each other yet.
     return Path(str(next(filter(None, (*several, *context.args)), "")))
 
