@@ -139,7 +139,7 @@ def assemble(
     """
     contract, noise = folder.contract, seed if reality.noise is None else reality.noise
     horizon_s = _horizon_s(contract)
-    control = standing or ControlStack(_managers(folder, noise), contract.managers, horizon_s, _adapters(contract))
+    control = standing or _control(folder, noise, horizon_s)
     simulation = Simulation(control)
     clocks = build_clocks(_read(contract.clocks, reality.offsets_s), contract.clock_of, lambda: simulation.now_ns)
     network = Network(contract.interfaces, simulation, noise, middleware_of(contract))
@@ -216,9 +216,18 @@ def _note_jump(plant: Plant, jump: TimeJump) -> None:
     plant.task.requests.changed.fire(jump.at_ns)
 
 
-def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerManager]:
+def _control(folder: GeneratedFolder, seed: int, horizon_s: float) -> ControlStack:
     contract = folder.contract
-    managers = {
+    control = ControlStack(_managers(folder), contract.managers, horizon_s, _adapters(contract))
+    for joint, nature in _natures(contract, seed).items():
+        for server in control.servers_of_joint(joint):
+            server.disturbances.disturb(joint, nature)
+    return control
+
+
+def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
+    contract = folder.contract
+    return {
         name: ControllerManager(
             folder.description,
             folder.parameters[name],
@@ -232,18 +241,6 @@ def _managers(folder: GeneratedFolder, seed: int) -> Mapping[str, ControllerMana
         )
         for name, manager in contract.managers.items()
     }
-    fingers = {
-        device.gripper.joint: device.gripper.max_velocity for device in contract.devices.values() if device.gripper
-    }
-    as_they_are = ContractSimulatedJoint()
-    for joint in dict.fromkeys((*fingers, *contract.simulated_joints)):
-        facts = contract.simulated_joints.get(joint, as_they_are)
-        speed = facts.max_velocity or fingers.get(joint) or inf
-        nature = JointFault(time_constant_s=facts.lag_s, max_velocity=speed)
-        noise = Noise.of_joint(joint, facts.noise, seed) if facts.noise else None
-        for manager in managers.values():
-            manager.disturbances.nature(joint, nature, noise)
-    return managers
 
 
 def _adapters(contract: Contract) -> Mapping[str, AdapterServer]:
@@ -253,6 +250,21 @@ def _adapters(contract: Contract) -> Mapping[str, AdapterServer]:
         device: AdapterServer(device, facts, contract.joint_limits, clocks.get(device, DEFAULT))
         for device, facts in contract.adapters.items()
     }
+
+
+def _natures(contract: Contract, seed: int) -> dict[str, JointFault]:
+    """Return how joints differ from those that follow their commands immediately, when nothing is wrong."""
+    fingers = {
+        device.gripper.joint: device.gripper.max_velocity for device in contract.devices.values() if device.gripper
+    }
+    as_they_are = ContractSimulatedJoint()
+    natures: dict[str, JointFault] = {}
+    for joint in dict.fromkeys((*fingers, *contract.simulated_joints)):
+        facts = contract.simulated_joints.get(joint, as_they_are)
+        speed = facts.max_velocity or fingers.get(joint) or inf
+        noise = Noise.of_joint(joint, facts.noise, seed) if facts.noise else None
+        natures[joint] = JointFault(time_constant_s=facts.lag_s, max_velocity=speed, noise=noise)
+    return {joint: nature for joint, nature in natures.items() if nature != JointFault()}
 
 
 def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:

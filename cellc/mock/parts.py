@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from cellc.contract.contract import Contract, ContractBand, ContractGrasp
 from cellc.contract.devices import ContractGripper
 from cellc.contract.transforms import Pose, Vector3
+from cellc.mock.control import JointFault
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.world.world import World
 
@@ -37,6 +38,7 @@ class Parts:
         self._missing: set[str] = set()
         self._weak: set[str] = set()
         self._taken_from: dict[str, Vector3] = {}
+        self._met: dict[str, JointFault] = {}
 
     def grasp(self, name: str | None) -> ContractGrasp | None:
         """Return what is stated of a part."""
@@ -148,7 +150,13 @@ class Parts:
             self.slipped_m[self.held[device]] = by_m
 
     def _block(self, gripper: ContractGripper, at: float | None) -> None:
-        lower = at if at is not None and gripper.open > gripper.closed else -math.inf
-        upper = at if at is not None and gripper.open <= gripper.closed else math.inf
-        for manager in self._control.managers.values():
-            manager.disturbances.meet(gripper.joint, lower, upper)
+        """Let fingers meet a part that they cannot pass; none at None."""
+        joint = gripper.joint
+        before = self._met.pop(joint, None)
+        if at is not None:
+            self._met[joint] = JointFault(lower=at) if gripper.open > gripper.closed else JointFault(upper=at)
+        for server in self._control.servers_of_joint(joint):
+            if before is not None:
+                server.disturbances.restore(joint, before)
+            if joint in self._met:
+                server.disturbances.disturb(joint, self._met[joint])

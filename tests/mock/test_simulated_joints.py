@@ -19,10 +19,10 @@ def test_figures_of_a_joint_count_before_those_of_all(tmp_path: Path) -> None:
     entry = cell.entries[0]
     assert cell.rehearse(entry, seed=0, watch=plants.append).outcome == entry.expect
     disturbances = plants[0].control.managers["stages"].disturbances
-    turn, slide = disturbances.fault_of("stage_turn"), disturbances.fault_of("stage_slide")
+    turn, slide = disturbances.joints.of("stage_turn"), disturbances.joints.of("stage_slide")
     assert turn is not None
     assert slide is not None
     assert (turn.time_constant_s, slide.time_constant_s, slide.max_velocity) == (0.01, 0.005, 0.2)
-    noise = disturbances.noise_of("stage_turn")
+    noise = turn.noise
     assert noise is not None
     assert abs(noise.amplitude - 0.000174533) < 1e-9  # 0.01 deg

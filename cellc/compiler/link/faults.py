@@ -18,7 +18,8 @@ from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.faults import EventSpec, FaultSpec, PhaseSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.contract.faults import FaultKind, FaultTarget, GoalStep, stop_state
+from cellc.contract.fault_declaration import FaultTarget
+from cellc.contract.faults import FaultKind, GoalStep, stop_state
 from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment, Need
 
 SENDS_GOALS = get_args(GoalStep)

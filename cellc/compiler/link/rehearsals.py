@@ -21,7 +21,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.quantity import Quantity
 from cellc.compiler.spec.rehearsals import RehearsalSpec, StepSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
-from cellc.contract.faults import FaultTarget
+from cellc.contract.fault_declaration import FaultTarget
 from cellc.contract.frozen import dataclass
 from cellc.contract.steps import StepTarget
 from cellc.contract.vocabulary import InterfaceKind

@@ -8,7 +8,8 @@ from pydantic import Discriminator, Field, Tag, create_model
 from cellc.compiler.spec.base import MOST, FrameReference, shape_of
 from cellc.compiler.spec.kinds import Kinds, first_key
 from cellc.compiler.spec.quantity import Duration, JointPosition, JointSpeed, Quantity, Share, TimeShift, Way
-from cellc.contract.faults import MOST_CYCLES, Amount, FaultKind, GoalStep, Reference
+from cellc.contract.fault_declaration import Amount, Reference
+from cellc.contract.faults import MOST_CYCLES, FaultKind, GoalStep
 from cellc.contract.stated import Name, StatedModel, Text
 
 

@@ -219,11 +219,19 @@ class AdapterServer:
         """Publish the same state in every period: without commands the joints are at standstill."""
         count = (until_ns - self._next_ns) // self.period_ns + 1
         if self._phase not in (Phase.UNCONFIGURED, Phase.FINALIZED):
-            self.now_ns = self._next_ns
-            self._stamps += range(self._next_ns, self._next_ns + count * self.period_ns, self.period_ns)
-            self._positions += [self.adapter.read().positions] * count
+            stamps = range(self._next_ns, self._next_ns + count * self.period_ns, self.period_ns)
+            self._stamps += stamps
+            self._positions += self._standing(stamps)
         self._next_ns += count * self.period_ns
         self.now_ns = self._next_ns - self.period_ns
+
+    def _standing(self, stamps: range) -> list[tuple[float, ...]]:
+        """Return what is measured of joints at standstill; it differs from period to period only if it is disturbed."""
+        positions: list[tuple[float, ...]] = []
+        for stamp_ns in stamps if self.adapter.joints else stamps[:1]:
+            self.now_ns = stamp_ns
+            positions.append(self.adapter.read().positions)
+        return positions * (len(stamps) // len(positions))
 
     def _tick(self) -> None:
         """Publish the state of one period and send the pending command."""

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 
 from cellc.contract.adapter import AdapterModel, DeviceState, JointCommand, Phase, Refusal, check_command
 from cellc.contract.control_law import ControlLaw
 from cellc.mock.adapter.measured import MeasuredMotion
-from cellc.mock.control.hardware.disturbances import JointFault
+from cellc.mock.control.hardware import JointFault, JointFaults
 from cellc.robot.planning import Springs
 
 WATCHDOG_FAULT = "no command within the watchdog's time"
@@ -20,12 +19,12 @@ class SimulatedAdapter:
     """A device in simulated time; it leads its joints to a command in one period, and they follow by its law.
 
     Attributes:
-        joint_faults: of the joints that do not follow their commands as they should.
+        joints: what is wrong with each joint.
     """
 
     def __init__(self, model: AdapterModel, positions: tuple[float, ...], now_ns: Callable[[], int]) -> None:
         """Bind the device at its initial positions; ``now_ns`` is its clock."""
-        self.joint_faults: dict[str, JointFault] = {}
+        self.joints = JointFaults()
         self._model = model
         self._clock = now_ns
         self._phase = Phase.UNCONFIGURED
@@ -116,7 +115,7 @@ class SimulatedAdapter:
         self._watch()
         now_ns = self.now_ns()
         positions, velocities = self._state(now_ns)
-        return DeviceState(now_ns, positions, velocities, (), self._phase, self._fault)
+        return DeviceState(now_ns, self._measured_at(positions, now_ns), velocities, (), self._phase, self._fault)
 
     def command(self, command: JointCommand) -> Refusal | None:
         """Go towards a command, or refuse it."""
@@ -137,13 +136,21 @@ class SimulatedAdapter:
             self._brake(self.now_ns())
 
     def disturb(self, joint: str, fault: JointFault) -> None:
-        """Let a joint have a fault from now on in place of the one it had; an offset moves it immediately."""
-        shift = fault.offset - self.joint_faults.get(joint, JointFault()).offset
+        """Let something be wrong with a joint, beside whatever else is; an offset moves it immediately."""
+        self.joints.add(joint, fault)
+        self._shift(joint, fault.offset)
+
+    def restore(self, joint: str, fault: JointFault) -> None:
+        """Let that be right again."""
+        before = self.joints.of(joint) or JointFault()
+        self.joints.remove(joint, fault)
+        self._shift(joint, (self.joints.of(joint) or JointFault()).offset - before.offset)
+
+    def _shift(self, joint: str, by: float) -> None:
         column = self._model.joint_names.index(joint)
         self._from, self._to = (
-            (*ends[:column], ends[column] + shift, *ends[column + 1 :]) for ends in (self._from, self._to)
+            (*ends[:column], ends[column] + by, *ends[column + 1 :]) for ends in (self._from, self._to)
         )
-        self.joint_faults[joint] = fault
 
     def trip(self, reason: str) -> None:
         """Let the vendor's safety stop the device until ``release``."""
@@ -177,15 +184,26 @@ class SimulatedAdapter:
 
     def _reachable(self, wanted: tuple[float, ...], at: tuple[float, ...]) -> tuple[float, ...]:
         """Return where the joints are one period after a command."""
-        if not self.joint_faults:
+        if not self.joints:
             return wanted
         return tuple(
             self._followed(name, here, there)
             for name, here, there in zip(self._model.joint_names, at, wanted, strict=True)
         )
 
+    def _measured_at(self, positions: tuple[float, ...], now_ns: int) -> tuple[float, ...]:
+        """Return what is measured of positions, rad or m."""
+        if not self.joints:
+            return positions
+        cycle = now_ns // round(self._model.command_period_s * 1e9)
+        faults = map(self.joints.of, self._model.joint_names)
+        return tuple(
+            at if fault is None else float(fault.measured(np.array([at]), cycle)[0])
+            for at, fault in zip(positions, faults, strict=True)
+        )
+
     def _followed(self, joint: str, at: float, wanted: float) -> float:
-        fault = self.joint_faults.get(joint)
+        fault = self.joints.of(joint)
         if fault is None:
             return wanted
         return float(fault.follow(np.array([wanted]), at, self._model.command_period_s)[0])
@@ -241,21 +259,13 @@ class AdapterDisturbances:
         """Bind the healthy device."""
         self._adapter = adapter
 
-    def stick(self, joint: str) -> None:
-        """Let a joint stand still whatever is commanded."""
-        self._adapter.disturb(joint, replace(self._fault(joint), stuck=True))
+    def disturb(self, joint: str, fault: JointFault) -> None:
+        """Let something be wrong with a joint, beside whatever else is."""
+        self._adapter.disturb(joint, fault)
 
-    def slow(self, joint: str, max_velocity: float) -> None:
-        """Let a joint not exceed a velocity (rad/s or m/s)."""
-        self._adapter.disturb(joint, replace(self._fault(joint), max_velocity=max_velocity))
-
-    def offset(self, joint: str, offset: float) -> None:
-        """Let a joint stand beside its command by a constant (rad or m)."""
-        self._adapter.disturb(joint, replace(self._fault(joint), offset=offset))
-
-    def clear(self, joint: str) -> None:
-        """Let a joint be healthy again."""
-        self._adapter.disturb(joint, JointFault())
+    def restore(self, joint: str, fault: JointFault) -> None:
+        """Let that be right again."""
+        self._adapter.restore(joint, fault)
 
     def protective_stop(self, component: str) -> None:
         """Let the safety of the device stop it."""
@@ -266,6 +276,3 @@ class AdapterDisturbances:
         self._adapter.release()
         self._adapter.acknowledge()
         self._adapter.activate()
-
-    def _fault(self, joint: str) -> JointFault:
-        return self._adapter.joint_faults.get(joint, JointFault())

@@ -11,6 +11,7 @@ from cellc.contract.faults import FaultKind
 from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome, Behavior
+from cellc.mock.control import JointFault
 from cellc.mock.faults.cases import (
     BORNE,
     CellStep,
@@ -33,6 +34,7 @@ SHARE_OF_RANGE = 0.1
 """A case displaces a joint by this share of its range, and by no more than ``MOST``."""
 MOST = 0.5
 """rad or m."""
+_STUCK = JointFault(stuck=True)
 BEYOND = 5
 """Cycles that a case misses beyond those that are allowed."""
 
@@ -58,11 +60,11 @@ class Stick:
 
     def begin(self, ports: FaultPorts) -> None:
         """Stick."""
-        ports.hardware.stick(self.joint)
+        ports.hardware.disturb(self.joint, _STUCK)
 
     def end(self, ports: FaultPorts) -> None:
         """Follow again."""
-        ports.hardware.free(self.joint)
+        ports.hardware.restore(self.joint, _STUCK)
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,11 +93,11 @@ class Slow:
 
     def begin(self, ports: FaultPorts) -> None:
         """Slow down."""
-        ports.hardware.slow(self.joint, self.velocity)
+        ports.hardware.disturb(self.joint, JointFault(max_velocity=self.velocity))
 
     def end(self, ports: FaultPorts) -> None:
         """Follow as fast as commanded."""
-        ports.hardware.free(self.joint)
+        ports.hardware.restore(self.joint, JointFault(max_velocity=self.velocity))
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,11 +127,11 @@ class Displace:
 
     def begin(self, ports: FaultPorts) -> None:
         """Displace."""
-        ports.hardware.displace(self.joint, self.displacement)
+        ports.hardware.disturb(self.joint, JointFault(offset=self.displacement))
 
     def end(self, ports: FaultPorts) -> None:
         """Stand at the command again."""
-        ports.hardware.free(self.joint)
+        ports.hardware.restore(self.joint, JointFault(offset=self.displacement))
 
 
 @dataclass(frozen=True, slots=True)

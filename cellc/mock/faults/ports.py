@@ -10,7 +10,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.mock.bus.network import Network
 from cellc.mock.clocks import Clock, Clocks
-from cellc.mock.control import ControlEvent, GripperEnded, GripperGoal, TrajectoryEnded, TrajectoryGoal
+from cellc.mock.control import ControlEvent, GripperEnded, GripperGoal, JointFault, TrajectoryEnded, TrajectoryGoal
 from cellc.mock.effects import Effects
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.process import Action
@@ -49,25 +49,15 @@ class HardwarePort:
 
     control: ControlStack
 
-    def stick(self, joint: str) -> None:
-        """Hold a joint where it is."""
+    def disturb(self, joint: str, fault: JointFault) -> None:
+        """Let something be wrong with a joint."""
         for server in self.control.servers_of_joint(joint):
-            server.disturbances.stick(joint)
+            server.disturbances.disturb(joint, fault)
 
-    def slow(self, joint: str, velocity: float) -> None:
-        """Bound the speed of a joint, rad/s or m/s."""
+    def restore(self, joint: str, fault: JointFault) -> None:
+        """Let that be right again."""
         for server in self.control.servers_of_joint(joint):
-            server.disturbances.slow(joint, velocity)
-
-    def displace(self, joint: str, displacement: float) -> None:
-        """Put a joint beside its command, by rad or m."""
-        for server in self.control.servers_of_joint(joint):
-            server.disturbances.offset(joint, displacement)
-
-    def free(self, joint: str) -> None:
-        """Let a joint follow its commands again."""
-        for server in self.control.servers_of_joint(joint):
-            server.disturbances.clear(joint)
+            server.disturbances.restore(joint, fault)
 
     def positions(self, component: str, joints: Collection[str]) -> dict[str, float]:
         """Return where joints of a component stand."""

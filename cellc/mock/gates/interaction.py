@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.contract.entities import ContractInterface
-from cellc.contract.faults import FaultKind, Interaction
+from cellc.contract.fault_declaration import Interaction
+from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.gates.command_path import cancel_trace

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.contract import Contract
-from cellc.contract.faults import Interaction
+from cellc.contract.fault_declaration import Interaction
 from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign

@@ -9,7 +9,8 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.source.document import Plain, SourceDocument
 from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import YamlPath
-from cellc.contract.faults import FaultKind, Reference
+from cellc.contract.fault_declaration import Reference
+from cellc.contract.faults import FaultKind
 from cellc.contract.steps import StepKind, StepTarget
 
 _SECTIONS: Mapping[str, YamlPath] = {

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from cellc.contract.adapter import Phase
+from cellc.contract.devices import ContractSimulatedJoint
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry, StepEntry
 from cellc.contract.steps import StepKind
@@ -15,8 +18,8 @@ from cellc.mock.adapter.server import AdapterServer
 from cellc.mock.campaign.campaign import execute
 from cellc.mock.campaign.limits import check_limits
 from cellc.mock.campaign.plan import CampaignRun
-from cellc.mock.control import GripperGoal, TrajectoryGoal, TrajectoryPoint
-from cellc.mock.control.hardware.disturbances import JointFault
+from cellc.mock.cell import cell_of
+from cellc.mock.control import GripperGoal, JointFault, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandJournal
 from cellc.mock.faults.registry import possible_faults
 from cellc.mock.plant import Plant
@@ -259,3 +262,20 @@ def test_start_beside_the_last_command_is_noted_an_instant_after_it(
     _, interruptions = server.journal.take()
     # What was commanded at the same instant is no jump: it becomes one with the next command.
     assert [interruption.stamp_ns for interruption in interruptions] == noted
+
+
+def test_joint_behind_an_adapter_is_measured_with_the_noise_that_the_spec_states(cell: MockCell) -> None:
+    joint = cell.contract.adapters["arm"].joints[0]
+    stated = {joint: ContractSimulatedJoint(noise=1e-4)}
+    facts = cell.contract.model_copy(update={"simulated_joints": stated})
+    result, plant = run(cell_of(replace(cell.folder, contract=facts)))
+    assert result.outcome == "succeeded"
+    server = plant.control.adapters["arm"]
+    server.take_joint_states()
+    server.advance(server.now_ns + SECOND)
+    block = server.take_joint_states()
+    column = block.names.index(joint)
+    measured, others = block.positions[:, column], np.delete(block.positions, column, axis=1)
+    assert not np.ptp(others, axis=0).any()
+    # Evenly distributed noise of 0.1 mrad has a standard deviation of 0.1/sqrt(3) mrad.
+    assert measured.std() == pytest.approx(1e-4 / 3**0.5, rel=0.1)

@@ -17,7 +17,7 @@ from cellc.contract.adapter import (
     Waypoint,
 )
 from cellc.mock.adapter.simulated import SimulatedAdapter
-from cellc.mock.control.hardware.disturbances import JointFault
+from cellc.mock.control import JointFault
 
 PERIOD_S = 0.002
 
@@ -93,6 +93,13 @@ def test_joint_that_sticks_ends_in_a_violated_path_tolerance() -> None:
     assert result is not None
     assert result.status is FollowerStatus.PATH_TOLERANCE_VIOLATED
     assert result.text.startswith("`joint` is 0.0")
+
+
+def test_joint_that_lags_is_behind_by_its_velocity_times_its_time_constant() -> None:
+    arm = Arm(Trajectory((Waypoint(0.0, (0.0,), (0.4,), (0.0,)), Waypoint(2.0, (0.8,), (0.4,), (0.0,)))))
+    arm.adapter.disturb("joint", JointFault(time_constant_s=0.02))
+    arm.run(1.0)
+    assert 0.4 - arm.adapter.read().positions[0] == pytest.approx(0.4 * 0.02, abs=0.4 * PERIOD_S)
 
 
 def test_trajectory_that_is_too_fast_is_refused_and_held() -> None:

@@ -16,7 +16,7 @@ from cellc.contract.contract import Contract, ContractJointLimits
 from cellc.contract.vocabulary import Distro
 from cellc.mock import MockCell
 from cellc.mock.campaign.limits import check_limits
-from cellc.mock.control import ControllerManager, TrajectoryGoal, TrajectoryPoint
+from cellc.mock.control import ControllerManager, JointFault, TrajectoryGoal, TrajectoryPoint
 from cellc.mock.control.journal import CommandSamples, Interruption
 from tests.mock.control.arm_of_two import MS, run
 from tests.mock.control.bench import Value, bench
@@ -86,7 +86,7 @@ def replace(manager: ControllerManager, goal_id: int) -> None:
 
 
 def stick(manager: ControllerManager, goal_id: int) -> None:
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
 
 
 def scale(manager: ControllerManager, goal_id: int) -> None:
@@ -99,7 +99,7 @@ def miss(manager: ControllerManager, goal_id: int) -> None:
 
 def displace(manager: ControllerManager, goal_id: int) -> None:
     run(manager, 800 * MS)
-    manager.disturbances.offset("a", 0.05)
+    manager.disturbances.disturb("a", JointFault(offset=0.05))
     run(manager, 100 * MS)
     manager.send_goal("arm", goal(0.25))
 

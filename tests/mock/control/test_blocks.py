@@ -120,31 +120,36 @@ STORIES: dict[str, Story] = {
     "gripper": Story(
         (
             (0, lambda m: m.send_goal("hand", GripperGoal((0.04,)))),
-            (40 * MS, lambda m: m.disturbances.block("f", upper=0.025)),
-            (900 * MS, lambda m: m.disturbances.clear("f")),
+            (40 * MS, lambda m: m.disturbances.disturb("f", JointFault(upper=0.025))),
+            (900 * MS, lambda m: m.disturbances.restore("f", JointFault(upper=0.025))),
             (1000 * MS, lambda m: m.send_goal("hand", GripperGoal((0.0,)))),
         )
     ),
     "stuck": Story(
         (
             (0, lambda m: m.send_goal("arm", _MOVE)),
-            (103 * MS, lambda m: m.disturbances.stick("b")),
+            (103 * MS, lambda m: m.disturbances.disturb("b", JointFault(stuck=True))),
             (1500 * MS, lambda m: m.send_goal("arm", _MOVE)),
         )
     ),
     "lagging by nature, with noise": Story(
         (
-            (0, lambda m: m.disturbances.nature("a", JointFault(time_constant_s=0.02), Noise.of_joint("a", 1e-4, 0))),
+            (
+                0,
+                lambda m: m.disturbances.disturb(
+                    "a", JointFault(time_constant_s=0.02, noise=Noise.of_joint("a", 1e-4, 0))
+                ),
+            ),
             (5 * MS, lambda m: m.send_goal("arm", _MOVE)),
-            (400 * MS, lambda m: m.disturbances.slow("a", 0.1)),
-            (450 * MS, lambda m: m.disturbances.clear("a")),
+            (400 * MS, lambda m: m.disturbances.disturb("a", JointFault(max_velocity=0.1))),
+            (450 * MS, lambda m: m.disturbances.restore("a", JointFault(max_velocity=0.1))),
         )
     ),
     "slow and lagging": Story(
         (
-            (0, lambda m: m.disturbances.slow("a", 0.5)),
-            (0, lambda m: m.disturbances.lag("b", 0.05)),
-            (0, lambda m: m.disturbances.offset("c", 0.003)),
+            (0, lambda m: m.disturbances.disturb("a", JointFault(max_velocity=0.5))),
+            (0, lambda m: m.disturbances.disturb("b", JointFault(time_constant_s=0.05))),
+            (0, lambda m: m.disturbances.disturb("c", JointFault(offset=0.003))),
             (5 * MS, lambda m: m.send_goal("arm", _MOVE)),
         )
     ),

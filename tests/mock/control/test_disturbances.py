@@ -12,6 +12,7 @@ from cellc.mock.control import (
     GripperEnded,
     GripperGoal,
     HardwareChanged,
+    JointFault,
     ManagerAbortedError,
     TrajectoryEnded,
     TrajectoryGoal,
@@ -41,7 +42,7 @@ def test_healthy_arm_reaches_its_goal() -> None:
 
 def test_stuck_joint_violates_the_path_tolerance() -> None:
     manager = _arm()
-    manager.disturbances.stick("b")
+    manager.disturbances.disturb("b", JointFault(stuck=True))
     manager.send_goal("arm", _GOAL)
     assert _results(manager) == [(6, -4)]
     assert manager.state("b/position") == 0.0
@@ -50,7 +51,7 @@ def test_stuck_joint_violates_the_path_tolerance() -> None:
 def test_slow_joint_never_exceeds_its_velocity() -> None:
     manager = _arm()
     manager.subscribe_joint_states("joints")
-    manager.disturbances.slow("a", 0.45)
+    manager.disturbances.disturb("a", JointFault(max_velocity=0.45))
     manager.send_goal("arm", _GOAL)
     assert _results(manager) == [(4, 0)]
     (block,) = manager.take_joint_states("joints")
@@ -59,16 +60,45 @@ def test_slow_joint_never_exceeds_its_velocity() -> None:
 
 def test_lagging_joint_follows_with_its_time_constant() -> None:
     manager = _arm()
-    manager.disturbances.lag("a", 0.1)
+    manager.disturbances.disturb("a", JointFault(time_constant_s=0.1))
     manager.send_goal("arm", _GOAL)
     run(manager, S - 10 * MS)
     # A first-order lag follows a ramp of 0.5 rad/s with a delay of one time constant: 0.05 rad behind.
     assert 0.5 * 0.99 - manager.state("a/position") == pytest.approx(0.05, abs=0.002)
 
 
+def test_of_two_faults_of_a_joint_each_ends_by_itself() -> None:
+    manager = _arm()
+    slow, beside = JointFault(max_velocity=0.45), JointFault(offset=0.002)
+    for fault in (slow, beside):
+        manager.disturbances.disturb("a", fault)
+    manager.disturbances.restore("a", slow)
+    manager.send_goal("arm", _GOAL)
+    run(manager, S + 100 * MS)
+    assert manager.state("a/position") == pytest.approx(0.502)
+    manager.disturbances.restore("a", beside)
+    run(manager, 10 * MS)
+    assert manager.state("a/position") == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("by_nature", "fault", "together"),
+    [
+        (JointFault(max_velocity=0.2), JointFault(max_velocity=0.5), JointFault(max_velocity=0.2)),
+        (JointFault(lower=-0.1, upper=0.3), JointFault(upper=0.2), JointFault(lower=-0.1, upper=0.2)),
+        (JointFault(offset=0.1), JointFault(offset=0.2, stuck=True), JointFault(offset=0.1 + 0.2, stuck=True)),
+    ],
+)
+def test_no_fault_makes_a_joint_better_than_it_is(
+    by_nature: JointFault, fault: JointFault, together: JointFault
+) -> None:
+    assert by_nature & fault == together
+    assert fault & by_nature == together
+
+
 def test_object_between_the_fingers_stalls_the_gripper() -> None:
     manager = _arm()
-    manager.disturbances.block("f", upper=0.021)
+    manager.disturbances.disturb("f", JointFault(upper=0.021))
     manager.send_goal("hand", GripperGoal((0.04,)))
     (ended,) = [event for event in run(manager, S) if isinstance(event, GripperEnded)]
     assert (int(ended.status), ended.stalled, ended.reached_goal) == (4, True, False)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from cellc.mock.control import JointFault
 from cellc.mock.control.controllers.joint_trajectory.motion import stop_points
-from cellc.mock.control.hardware.disturbances import JointFault
 from cellc.mock.control.hardware.joint_motion import differences, integral
 from cellc.mock.control.hardware.limiter import CommandLimiter
 from cellc.mock.control.interfaces import InterfaceTable

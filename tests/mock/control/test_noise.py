@@ -34,7 +34,7 @@ def test_noise_is_even_bounded_and_another_for_each_joint_and_seed() -> None:
 
 def test_measured_position_errs_and_the_joint_does_not() -> None:
     manager = bench()
-    manager.disturbances.nature("a", JointFault(), Noise.of_joint("a", 0.001, 0))
+    manager.disturbances.disturb("a", JointFault(noise=Noise.of_joint("a", 0.001, 0)))
     send(manager, point(0.4, 0.4))
     assert int(ending(manager)[0]) == 4
     seen = []
@@ -48,9 +48,9 @@ def test_measured_position_errs_and_the_joint_does_not() -> None:
 
 def test_joint_that_is_cleared_of_a_fault_is_what_it_is_by_nature() -> None:
     manager = bench()
-    manager.disturbances.nature("a", JointFault(max_velocity=0.25), None)
-    manager.disturbances.stick("a")
-    manager.disturbances.clear("a")
+    manager.disturbances.disturb("a", JointFault(max_velocity=0.25))
+    manager.disturbances.disturb("a", JointFault(stuck=True))
+    manager.disturbances.restore("a", JointFault(stuck=True))
     send(manager, point(0.4, 0.0, at=1.0))
     wait(manager, 0.4)
     assert positions(manager)[0] == pytest.approx(0.25 * 0.4, abs=0.002)

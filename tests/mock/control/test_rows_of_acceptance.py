@@ -9,6 +9,7 @@ import pytest
 from cellc.contract.vocabulary import Distro
 from cellc.mock.control import (
     GoalStatus,
+    JointFault,
     JointTolerance,
     TrajectoryEnded,
     TrajectoryFeedback,
@@ -198,7 +199,7 @@ def test_result_and_feedback_come_on_ticks_of_the_monitor() -> None:
 @row("1", 7)
 def test_tolerance_that_is_absent_keeps_that_of_the_controller() -> None:
     manager = bench()
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
     send(manager, point(0.5, 0.0), path=(JointTolerance("a", 0.0),))
     assert ending(manager)[:2] == (GoalStatus.ABORTED, -4)
 
@@ -206,7 +207,7 @@ def test_tolerance_that_is_absent_keeps_that_of_the_controller() -> None:
 @row("1", 8)
 def test_positive_tolerance_replaces() -> None:
     manager = bench()
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
     send(manager, point(0.5, 0.0), path=(JointTolerance("a", 0.9),), goal=(JointTolerance("a", 0.9),))
     assert ending(manager)[:2] == (GoalStatus.SUCCEEDED, 0)
 
@@ -214,7 +215,7 @@ def test_positive_tolerance_replaces() -> None:
 @row("1", 9)
 def test_tolerance_of_minus_one_switches_the_check_off() -> None:
     manager = bench()
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
     send(manager, point(0.5, 0.0), path=(JointTolerance("a", -1.0),), goal=(JointTolerance("a", -1.0),))
     assert ending(manager)[:2] == (GoalStatus.SUCCEEDED, 0)
 
@@ -223,7 +224,7 @@ def test_tolerance_of_minus_one_switches_the_check_off() -> None:
 @pytest.mark.parametrize("bad", [JointTolerance("b", -2.0), JointTolerance("nobody", 1.0)])
 def test_one_bad_tolerance_puts_the_whole_goal_on_defaults(bad: JointTolerance) -> None:
     manager = bench()
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
     send(manager, point(0.5, 0.0), path=(JointTolerance("a", -1.0), bad))
     assert ending(manager)[:2] == (GoalStatus.ABORTED, -4)
     assert any(line.level == "ERROR" for line in manager.log.lines())
@@ -233,7 +234,7 @@ def test_one_bad_tolerance_puts_the_whole_goal_on_defaults(bad: JointTolerance) 
 @pytest.mark.parametrize(("goal_time", "waited"), [(0.0, 0.5), (-2.0, 0.5), (1.5, 1.5)])
 def test_goal_time_of_the_goal_replaces_that_of_the_controller(goal_time: float, waited: float) -> None:
     manager = bench()
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
     send(manager, point(0.1, 0.0), goal_time=goal_time)
     ended = only(wait(manager, 4.0), TrajectoryEnded)
     assert ended.error_code == -5

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from cellc.contract.vocabulary import Behavior
-from cellc.mock.control import ControllerManager, GoalStatus, TrajectoryEnded
+from cellc.mock.control import ControllerManager, GoalStatus, JointFault, TrajectoryEnded
 
 from .bench import S, Value, bench, commands, ending, only, point, positions, send, urdf, wait
 from .fact_rows import row
@@ -52,7 +52,7 @@ def test_without_interpolation_the_point_is_a_step() -> None:
 @row("3", 2)
 def test_first_segment_begins_at_the_measured_state() -> None:
     manager = bench(_FREE)
-    manager.disturbances.offset("a", 0.05)
+    manager.disturbances.disturb("a", JointFault(offset=0.05))
     wait(manager, 0.1)
     measured = positions(manager)[0]
     manager.record("arm", 500.0)
@@ -122,7 +122,7 @@ def test_continuous_joint_takes_the_short_way() -> None:
 def test_path_tolerance_is_checked_in_each_cycle_before_the_last_point() -> None:
     manager = bench()
     sent_ns = manager.now_ns
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
     send(manager, point(0.5, 0.0))
     ended = only(wait(manager, 3.0), TrajectoryEnded)
     assert (ended.decided_ns - sent_ns) / S == pytest.approx(0.4, abs=0.006)  # 0.2 rad of error at 0.5 rad/s
@@ -142,7 +142,7 @@ def test_first_sample_is_checked_too() -> None:
 def test_goal_tolerance_is_checked_in_each_cycle_after_the_last_point() -> None:
     manager = bench()
     sent_ns = manager.now_ns
-    manager.disturbances.slow("a", 0.12)
+    manager.disturbances.disturb("a", JointFault(max_velocity=0.12))
     send(manager, point(0.15, 0.0))  # 0.14 rad, inside the tolerance, are reached after 1.167 s
     ended = only(wait(manager, 3.0), TrajectoryEnded)
     assert ended.status is GoalStatus.SUCCEEDED
@@ -152,7 +152,7 @@ def test_goal_tolerance_is_checked_in_each_cycle_after_the_last_point() -> None:
 @row("3", 8)
 def test_stopped_velocity_tolerance_has_no_effect_on_a_position_command() -> None:
     manager = bench({"constraints.stopped_velocity_tolerance": 1e-6})
-    manager.disturbances.slow("a", 0.12)
+    manager.disturbances.disturb("a", JointFault(max_velocity=0.12))
     send(manager, point(0.15, 0.0))  # it is still moving when it comes inside the tolerance
     ended = only(wait(manager, 3.0), TrajectoryEnded)
     assert ended.status is GoalStatus.SUCCEEDED

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from cellc.contract.vocabulary import Distro
-from cellc.mock.control import ControllerManager, GoalStatus, GripperEnded, GripperGoal
+from cellc.mock.control import ControllerManager, GoalStatus, GripperEnded, GripperGoal, JointFault
 
 from .bench import S, Value, bench, only, urdf, wait
 from .fact_rows import row
@@ -21,7 +21,7 @@ def _cell(
     distro: Distro, plugin: str, hand: dict[str, Value] | None = None, description: str = ""
 ) -> ControllerManager:
     manager = bench(hand=hand, types={"hand": plugin}, distro=distro, description=description)
-    manager.disturbances.slow("f", 0.2)  # Humble's manager limits no command
+    manager.disturbances.disturb("f", JointFault(max_velocity=0.2))  # Humble's manager limits no command
     return manager
 
 
@@ -77,7 +77,7 @@ def test_position_inside_the_tolerance_is_reached(distro: Distro, plugin: str) -
 @pytest.mark.parametrize(("allowed", "status"), [(False, GoalStatus.ABORTED), (True, GoalStatus.SUCCEEDED)])
 def test_stall_ends_as_the_parameter_says(distro: Distro, plugin: str, allowed: bool, status: GoalStatus) -> None:
     manager = _cell(distro, plugin, {"allow_stalling": allowed})
-    manager.disturbances.block("f", 0.0, 0.01)
+    manager.disturbances.disturb("f", JointFault(lower=0.0, upper=0.01))
     sent_ns = manager.now_ns
     _grip(manager, 0.03)
     ended = only(wait(manager, 2.0), GripperEnded)
@@ -134,7 +134,7 @@ def test_result_has_one_position_and_one_effort() -> None:
 @row("6", 9)
 def test_without_dynamics_stall_time_begins_with_acceptance() -> None:
     manager = _cell(Distro.KILTED, PARALLEL, description=urdf(dynamics=False))
-    manager.disturbances.stick("f")
+    manager.disturbances.disturb("f", JointFault(stuck=True))
     sent_ns = manager.now_ns
     _grip(manager, 0.03)
     ended = only(wait(manager, 2.0), GripperEnded)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cellc.contract.vocabulary import Distro
-from cellc.mock.control import ControllerManager, GoalStatus, Trajectory, TrajectoryEnded, TrajectoryPoint
+from cellc.mock.control import ControllerManager, GoalStatus, JointFault, Trajectory, TrajectoryEnded, TrajectoryPoint
 
 from .bench import S, Value, bench, commands, ending, only, point, positions, send, wait
 from .fact_rows import row
@@ -38,7 +38,7 @@ def test_goal_inside_its_tolerance_succeeds() -> None:
 @row("4", 2)
 def test_without_goal_tolerances_the_last_time_is_success() -> None:
     manager = bench(_LOOSE)
-    manager.disturbances.stick("a")
+    manager.disturbances.disturb("a", JointFault(stuck=True))
     sent_ns = manager.now_ns
     send(manager, point(0.4, 0.0))
     ended = only(wait(manager, 3.0), TrajectoryEnded)
@@ -51,7 +51,7 @@ def test_without_goal_tolerances_the_last_time_is_success() -> None:
 @row("1", 5)
 def test_path_tolerance_exceeded_aborts_and_holds() -> None:
     manager = bench()
-    manager.disturbances.block("a", -0.1, 0.1)
+    manager.disturbances.disturb("a", JointFault(lower=-0.1, upper=0.1))
     send(manager, point(0.8, 0.4))
     assert ending(manager) == (GoalStatus.ABORTED, -4, "Aborted due to path tolerance violation")
     assert commands(manager)[0] == pytest.approx(0.1, abs=1e-6)
@@ -65,7 +65,7 @@ def test_path_tolerance_exceeded_decelerates_where_it_is_configured() -> None:
     stop: dict[str, Value] = {"constraints.decelerate_on_cancel": True}
     stop |= {f"constraints.{joint}.max_deceleration_on_cancel": 0.5 for joint in ("a", "b")}
     manager = bench(stop)
-    manager.disturbances.block("a", -0.1, 0.1)
+    manager.disturbances.disturb("a", JointFault(lower=-0.1, upper=0.1))
     send(manager, point(0.8, 0.4))
     assert ending(manager)[1] == -4
     wait(manager, 2.0)
@@ -78,7 +78,7 @@ def test_path_tolerance_exceeded_decelerates_where_it_is_configured() -> None:
 @row("1", 6)
 def test_goal_time_exceeded_aborts() -> None:
     manager = bench(_FREE)
-    manager.disturbances.block("a", -0.1, 0.1)
+    manager.disturbances.disturb("a", JointFault(lower=-0.1, upper=0.1))
     send(manager, point(0.3, 0.0))
     status, code, text = ending(manager)
     assert (status, code) == (GoalStatus.ABORTED, -5)
@@ -92,7 +92,7 @@ def test_goal_time_exceeded_aborts() -> None:
 @row("4", 5)
 def test_without_goal_time_a_goal_may_never_end() -> None:
     manager = bench(_FREE | {"constraints.goal_time": 0.0})
-    manager.disturbances.block("a", -0.1, 0.1)
+    manager.disturbances.disturb("a", JointFault(lower=-0.1, upper=0.1))
     send(manager, point(0.3, 0.0))
     assert _no_end(manager, 300.0)
     assert commands(manager)[0] == 0.3
@@ -196,7 +196,7 @@ def test_invalid_message_on_the_topic_is_ignored() -> None:
 @pytest.mark.parametrize("target", [0.8, 0.25])
 def test_topic_trajectory_that_fails_has_no_result_and_holds(target: float) -> None:
     manager = bench()
-    manager.disturbances.block("a", -0.1, 0.1)
+    manager.disturbances.disturb("a", JointFault(lower=-0.1, upper=0.1))
     _publish(manager, point(target, 0.0))  # the path tolerance, and the goal time
     assert _no_end(manager, 5.0)
     assert commands(manager)[0] == pytest.approx(0.1, abs=1e-6)

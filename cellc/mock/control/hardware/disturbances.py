@@ -2,85 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from dataclasses import replace
 
-import numpy as np
-
-from cellc.contract.frozen import dataclass
-from cellc.mock.control.hardware.joint_motion import Noise, rate_limit
-from cellc.mock.control.interfaces import Array
-
-
-@dataclass(frozen=True, slots=True)
-class JointFault:
-    """How a joint differs from one that follows its command immediately.
-
-    Attributes:
-        stuck: the joint does not move at all.
-        max_velocity: rad/s or m/s that the joint cannot exceed.
-        time_constant_s: of a first-order lag behind the command; 0 for none.
-        offset: rad or m added to the position.
-        lower: the joint is blocked below this position.
-        upper: the joint is blocked above this position.
-    """
-
-    stuck: bool = False
-    max_velocity: float = math.inf
-    time_constant_s: float = 0.0
-    offset: float = 0.0
-    lower: float = -math.inf
-    upper: float = math.inf
-
-    def follow(self, wanted: Array, previous: float, period_s: float) -> Array:
-        """Positions that the joint really takes.
-
-        Args:
-            wanted: positions that it would take in successive cycles.
-            previous: its position before.
-            period_s: time between two cycles.
-
-        Returns:
-            Positions of the same cycles.
-        """
-        if self.stuck:
-            return np.full_like(wanted, previous)
-        if len(wanted) > 1 and self.time_constant_s > 0.0 and self._is_bounded:
-            return self._follow_singly(wanted, previous, period_s)
-        moved = wanted + self.offset
-        if self.time_constant_s > 0.0:
-            moved = _lag(moved, previous, period_s / (self.time_constant_s + period_s))
-        if math.isfinite(self.max_velocity):
-            moved, _ = rate_limit(moved, previous, self.max_velocity * period_s, self.lower, self.upper)
-        return np.minimum(np.maximum(moved, self.lower), self.upper)
-
-    @property
-    def _is_bounded(self) -> bool:
-        return math.isfinite(self.max_velocity) or math.isfinite(self.lower) or math.isfinite(self.upper)
-
-    def _follow_singly(self, wanted: Array, previous: float, period_s: float) -> Array:
-        """Follow cycle by cycle: the lag of each begins where a bound left the joint in the one before."""
-        moved = np.empty_like(wanted)
-        for cycle in range(len(wanted)):
-            moved[cycle : cycle + 1] = self.follow(wanted[cycle : cycle + 1], previous, period_s)
-            previous = float(moved[cycle])
-        return moved
-
-
-def _lag(wanted: Array, previous: float, share: float) -> Array:
-    """First-order lag, each value a `share` of the way nearer to the wanted one."""
-    lagged = wanted.tolist()
-    for index, value in enumerate(lagged):
-        previous = previous + share * (value - previous)
-        lagged[index] = previous
-    return np.array(lagged)
+from cellc.mock.control.hardware.joint_fault import JointFault, JointFaults
 
 
 class Disturbances:
     """Switches faults on and off.
 
     Attributes:
+        joints: what is wrong with each joint.
         refused: why claims were refused that somebody asked for.
 
     Args:
@@ -107,45 +38,13 @@ class Disturbances:
         self._stand = stand
         self._place = place
         self._rest = rest
-        self._joints: dict[str, JointFault] = {}
-        self._nature: dict[str, JointFault] = {}
-        self._met: dict[str, tuple[float, float]] = {}
-        self._noise: dict[str, Noise] = {}
+        self.joints = JointFaults()
         self._deaf: set[str] = set()
         self._failing_read: set[str] = set()
         self._failing_write: set[str] = set()
         self._lost: set[str] = set()
         self._refusing: dict[str, str] = {}
         self.refused: list[str] = []
-
-    @property
-    def disturbs_joints(self) -> bool:
-        """Whether any joint differs from one that follows its command immediately."""
-        return bool(self._joints or self._nature or self._met)
-
-    def fault_of(self, joint: str) -> JointFault | None:
-        """How a joint differs from one that follows its command immediately, None where it does not."""
-        fault = self._joints.get(joint) or self._nature.get(joint)
-        if joint not in self._met:
-            return fault
-        (lower, upper), alone = self._met[joint], fault or JointFault()
-        return replace(alone, lower=max(lower, alone.lower), upper=min(upper, alone.upper))
-
-    def noise_of(self, joint: str) -> Noise | None:
-        """The noise of a joint's measured position, or None."""
-        return self._noise.get(joint)
-
-    @property
-    def has_noise(self) -> bool:
-        """Whether any joint has noise."""
-        return bool(self._noise)
-
-    def nature(self, joint: str, nature: JointFault, noise: Noise | None) -> None:
-        """Say how a joint is when it is healthy; faults come on top and go."""
-        self._changed()
-        self._nature[joint] = nature
-        if noise is not None:
-            self._noise[joint] = noise
 
     def ignores_commands(self, component: str) -> bool:
         """Whether a component ignores its commands."""
@@ -171,44 +70,15 @@ class Disturbances:
         """Whether a read or write is to fail."""
         return bool(self._failing_read or self._failing_write)
 
-    def _present(self, joint: str) -> JointFault:
-        return self._joints.get(joint) or self._nature.get(joint) or JointFault()
-
-    def _change(self, joint: str, fault: JointFault) -> None:
+    def disturb(self, joint: str, fault: JointFault) -> None:
+        """Let something be wrong with a joint, beside whatever else is."""
         self._changed()
-        self._joints[joint] = fault
+        self.joints.add(joint, fault)
 
-    def stick(self, joint: str) -> None:
-        """Let a joint stand still whatever is commanded."""
-        self._change(joint, replace(self._present(joint), stuck=True))
-
-    def slow(self, joint: str, max_velocity: float) -> None:
-        """Let a joint not exceed a velocity (rad/s or m/s)."""
-        self._change(joint, replace(self._present(joint), max_velocity=max_velocity))
-
-    def lag(self, joint: str, time_constant_s: float) -> None:
-        """Let a joint lag behind its command."""
-        self._change(joint, replace(self._present(joint), time_constant_s=time_constant_s))
-
-    def offset(self, joint: str, offset: float) -> None:
-        """Let a joint stand beside its command by a constant (rad or m)."""
-        self._change(joint, replace(self._present(joint), offset=offset))
-
-    def block(self, joint: str, lower: float = -math.inf, upper: float = math.inf) -> None:
-        """Block a joint's way, as an object between the fingers does."""
-        self._change(joint, replace(self._present(joint), lower=lower, upper=upper))
-
-    def meet(self, joint: str, lower: float, upper: float) -> None:
-        """Let fingers meet a part that they cannot pass, whatever faults come and go; infinite bounds are of none."""
+    def restore(self, joint: str, fault: JointFault) -> None:
+        """Let that be right again."""
         self._changed()
-        self._met.pop(joint, None)
-        if math.isfinite(lower) or math.isfinite(upper):
-            self._met[joint] = (lower, upper)
-
-    def clear(self, joint: str) -> None:
-        """Let a joint be healthy again."""
-        self._changed()
-        self._joints.pop(joint, None)
+        self.joints.remove(joint, fault)
 
     def ignore_commands(self, component: str) -> None:
         """Let a component no longer follow its commands."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -183,26 +182,27 @@ class GenericSystem:
             indices, columns = self._state_columns[kind]
             if len(indices):
                 state[:, columns] = values[:, indices]
-        self._add_noise(state)
+        self._measure(state)
         self._mirror(command, state)
         self._motion = motion
         return cycles
 
-    def _add_noise(self, state: Array) -> None:
-        """Add noise to what is measured; where the joint really is stays without."""
-        if not self._disturbances.has_noise:
+    def _measure(self, state: Array) -> None:
+        """Change what is measured of the joints; where they really are stays as it is."""
+        if not self._disturbances.joints:
             return
         for index, column in zip(*self._state_columns["position"], strict=True):
-            noise = self._disturbances.noise_of(self._names[index])
-            if noise is not None:
-                state[:, column] += noise.values(self._first_cycle, len(state))
+            fault = self._disturbances.joints.of(self._names[index])
+            if fault is not None:
+                state[:, column] = fault.measured(state[:, column], self._first_cycle)
 
     def _computable(self, command: Array) -> int:
         """All cycles, or none where they depend on each other in a way that only single cycles can follow."""
         if len(command) == 1:
             return 1
-        if self._disturbances.disturbs_joints and any(
-            mode != "position" and self._disturbances.fault_of(name) is not None
+        faults = self._disturbances.joints
+        if faults and any(
+            mode != "position" and faults.of(name) is not None
             for name, mode in zip(self._names, self._modes, strict=True)
         ):
             return 0
@@ -250,13 +250,13 @@ class GenericSystem:
         motion.position[:, indices] = position
 
     def _follow(self, indices: NDArray[np.intp], position: Array, period_s: float, *, moved_by_position: bool) -> None:
-        """Apply the faults of the joints in place; an integrated position knows neither offset nor lag."""
-        if not self._disturbances.disturbs_joints:
+        """Apply the faults of the joints in place."""
+        if not self._disturbances.joints:
             return
         for column, index in enumerate(indices):
-            fault = self._disturbances.fault_of(self._names[index])
+            fault = self._disturbances.joints.of(self._names[index])
             if fault is not None:
-                fault = fault if moved_by_position else replace(fault, offset=0.0, time_constant_s=0.0)
+                fault = fault if moved_by_position else fault.integrated
                 position[:, column] = fault.follow(
                     np.ascontiguousarray(position[:, column]), float(self._position[index]), period_s
                 )
