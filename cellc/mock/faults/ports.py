@@ -59,10 +59,10 @@ class HardwarePort:
         for server in self.control.servers_of_joint(joint):
             server.disturbances.restore(joint, fault)
 
-    def positions(self, component: str, joints: Collection[str]) -> dict[str, float]:
-        """Return where joints of a component stand."""
-        servers = self.control.servers_of_component(component)
-        return {joint: server.joint_positions()[joint] for server in servers for joint in joints}
+    def positions(self, joints: Collection[str]) -> dict[str, float]:
+        """Return what is measured of joints, rad or m."""
+        servers = {joint: self.control.servers_of_joint(joint) for joint in joints}
+        return {joint: server.joint_positions()[joint] for joint in joints for server in servers[joint]}
 
     def scale_speed(self, component: str, interface: str, factor: float) -> None:
         """Set the speed scaling that a component reports, 0 to 1."""

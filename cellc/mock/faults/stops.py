@@ -132,10 +132,9 @@ class WrongPayload:
 
     kind: ClassVar[FaultKind] = FaultKind.WRONG_PAYLOAD
 
-    def __init__(self, device: str, component: str, state: str, joints: tuple[str, ...]) -> None:
+    def __init__(self, device: str, state: str, joints: tuple[str, ...]) -> None:
         """Bind the fault to an arm, and to the state in which it stops."""
         self._device = device
-        self._component = component
         self._state = state
         self._joints = joints
         self._active = False
@@ -144,11 +143,10 @@ class WrongPayload:
     @classmethod
     def of(cls, entry: FaultEntry, contract: Contract) -> WrongPayload | None:
         """Return the fault of an entry; None where its target is no arm that can stop."""
-        component = stoppable(contract).get(entry.target)
-        if component is None or contract.devices[entry.target].kind != "arm":
+        if entry.target not in stoppable(contract) or contract.devices[entry.target].kind != "arm":
             return None
         state = stop_of(contract, entry.target, FaultKind.PROTECTIVE_STOP)
-        return None if state is None else cls(entry.target, component, state, joints_of_device(contract, entry.target))
+        return None if state is None else cls(entry.target, state, joints_of_device(contract, entry.target))
 
     @classmethod
     def cases(cls, contract: Contract) -> Iterator[FaultCase]:
@@ -162,7 +160,7 @@ class WrongPayload:
     def begin(self, ports: FaultPorts) -> None:
         """Change the load."""
         self._active = True
-        self._stopped_at = ports.hardware.positions(self._component, self._joints)
+        self._stopped_at = ports.hardware.positions(self._joints)
         self._look(ports)
 
     def end(self, ports: FaultPorts) -> None:
@@ -173,7 +171,7 @@ class WrongPayload:
         """Stop where a joint has moved; what made the robot stop is over as soon as it is at rest."""
         if not self._active:
             return
-        positions = ports.hardware.positions(self._component, self._joints)
+        positions = ports.hardware.positions(self._joints)
         if any(abs(positions[joint] - self._stopped_at[joint]) > NOTICED_AFTER for joint in positions):
             self._stopped_at = positions
             ports.effects.stop(self._device, self._state)
