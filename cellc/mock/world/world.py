@@ -141,7 +141,10 @@ def _begin_ns(placement: Placement) -> int:
 
 
 class World:
-    """Where links and objects really are at a time, computed from the recorded joint positions."""
+    """Where links and objects are at a time, computed from the recorded joint positions.
+
+    These are measured: noise that a spec states of a joint moves its links too, by as much.
+    """
 
     def __init__(self, links: LinkTree, histories: Iterable[JointStateHistory]) -> None:
         """Bind the world to the links of the cell and the recorded joint states."""
@@ -151,14 +154,14 @@ class World:
         self._standing: dict[tuple[str, Placement], DeferredPose] = {}
 
     def joint_positions(self, stamp_ns: int) -> dict[str, float]:
-        """Return the true positions of all recorded joints at a time."""
+        """Return the measured positions of all recorded joints at a time, rad or m."""
         positions: dict[str, float] = {}
         for history in self._histories:
             positions |= history.at(stamp_ns)
         return positions
 
     def link_pose(self, link: str, stamp_ns: int) -> Pose:
-        """Return the true pose of a link in the root link at a time."""
+        """Return the pose of a link in the root link at a time."""
         return self._links.pose(link, self.joint_positions(stamp_ns))
 
     def carrier_of(self, joint: str) -> str | None:
@@ -182,12 +185,12 @@ class World:
         return self._placements[name][-1].link
 
     def object_pose(self, name: str, stamp_ns: int) -> Pose:
-        """Return the true pose of an object in the root link at a time."""
+        """Return the pose of an object in the root link at a time."""
         placement = self._placement(name, stamp_ns)
         return self.link_pose(placement.link, stamp_ns) @ placement.pose
 
     def sight(self, link: str, name: str, stamp_ns: int) -> DeferredPose:
-        """Return the true pose of an object in the frame of a link at a time, from what is recorded by now."""
+        """Return the pose of an object in the frame of a link at a time, from what is recorded by now."""
         placement = self._placement(name, stamp_ns)
         if self._links.is_fixed(link) and self._links.is_fixed(placement.link):
             if (link, placement) not in self._standing:
