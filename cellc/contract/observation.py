@@ -25,6 +25,21 @@ class ObservedManager(ContractModel):
 
     hardware: dict[str, HardwareState] = Field(description="State of each hardware component.")
     controllers: dict[str, ManagedState] = Field(description="State of each controller.")
+    reports: bool = Field(False, description="Its release publishes what its cycles took, and diagnostics of them.")
+
+
+class ObservedReading(ContractModel):
+    """What a device says of itself, by a topic or by a service without an argument."""
+
+    name: str = Field(description="What it is.")
+    device: str = Field(description="Of which device.")
+    interface: str = Field(description="Full name of the topic or the service.")
+    fields: tuple[str, ...] = Field(description="Fields of message or answer, joined by dots.")
+    values: dict[str, bool | int] = Field(default_factory=dict, description="Values by name; none for a figure.")
+    expected: dict[str, tuple[str, ...]] = Field(
+        default_factory=dict, description="Names of which one must show, by the gate from which on it must."
+    )
+    version: str | None = Field(None, description="The part of the version tuple that must be the value.")
 
 
 class ObservedTarget(ContractModel):
@@ -40,6 +55,7 @@ class ObservedTarget(ContractModel):
     lifecycle: dict[str, ManagedState] = Field(description="State of each managed node.")
     lifecycle_claimed: dict[str, ManagedState] = Field(description="The same from the claims on.")
     late_joints: tuple[str, ...] = Field(description="Joints without states until a person activates their hardware.")
+    readings: tuple[ObservedReading, ...] = Field((), description="What the devices say of themselves.")
 
 
 class ObservedCard(ContractModel):
@@ -73,6 +89,7 @@ class Observation(ContractModel):
     """The file."""
 
     enclave: str = Field(description="SROS2 enclave of the program.")
+    recorded: tuple[str, ...] = Field(description="Topics that an attempt records.")
     computers: dict[str, ObservedComputer] = Field(description="By host; an empty name where the spec states none.")
     mock: ObservedTarget = Field(description="On the mock.")
     real: ObservedTarget = Field(description="On the real target.")

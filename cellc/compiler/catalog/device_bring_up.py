@@ -1,6 +1,6 @@
 """What bring-up needs of a device: its network, its safety states, and what people do and read at it."""
 
-from typing import Literal
+from typing import Literal, Union
 
 from pydantic import Field, model_validator
 
@@ -221,6 +221,43 @@ class RecordFacts(CatalogModel):
         keys = (self.controller, self.topic, self.field)
         if any(part is None for part in keys) == (self.read is None) or (self.read and any(keys)):
             raise ValueError("must have `controller`, `topic` and `field`, or `read` alone")
+        return self
+
+
+class ReadingFacts(CatalogModel):
+    """What the running device says of itself, by a topic or a service that changes nothing; ``observe`` shows it.
+
+    Attributes:
+        name: What it is, such as ``safety state``.
+        controller: Kind of controller of this device below whose node the topic or service is.
+        topic: Name of the topic below that node.
+        service: Name of the service below that node, which takes no argument; it excludes ``topic``.
+        fields: Fields of message or answer, joined by dots where there are several.
+        values: Value of the field by its name, such as ``{RUNNING: 7}``; absent for a figure.
+        expected: Names of ``values`` of which one must show, by the gate from which on it must; absent where any may.
+        version: Part of the version tuple that must be the value, such as ``firmware``.
+        source: Document or line of code from which this was read.
+    """
+
+    name: Text
+    controller: Token
+    topic: Token | None = None
+    service: Token | None = None
+    fields: tuple[Token, ...] = Field(min_length=1)
+    values: dict[Text, Union[bool, int]] = Field(default_factory=dict)
+    expected: dict[GateName, tuple[Text, ...]] = Field(default_factory=dict)
+    version: Literal["firmware"] | None = None
+    source: Text
+
+    @model_validator(mode="after")
+    def _says_one_thing_in_one_way(self) -> "ReadingFacts":
+        if (self.topic is None) == (self.service is None):
+            raise ValueError("must have `topic` or `service`, and not both")
+        unknown = sorted({name for names in self.expected.values() for name in names} - self.values.keys())
+        if unknown:
+            raise ValueError(f"`expected` must name keys of `values`, got {', '.join(unknown)}")
+        if self.version is not None and self.expected:
+            raise ValueError("must have `version` or `expected`, and not both")
         return self
 
 

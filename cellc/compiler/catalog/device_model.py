@@ -23,6 +23,7 @@ from cellc.compiler.catalog.device_bring_up import (
     CommissioningStep,
     JogFacts,
     NetworkFacts,
+    ReadingFacts,
     RecordFacts,
     SafetyFacts,
     SpeedControlFacts,
@@ -258,6 +259,7 @@ class DeviceModel(CatalogModel):
         robot: What can be set in the robot's own controller.
         plug: What the device takes from the tool connector of a robot.
         record: Where the record of a real attempt has the state of the device from.
+        readings: What topics and services of the running device say of it, and what the gates expect.
         commissioning: What people do at the real device in each gate.
         versions: Versions of driver, library, description and firmware that go together.
         mock_cannot_prove: What only the real device shows, one sentence each; it is listed in the audit.
@@ -302,6 +304,7 @@ class DeviceModel(CatalogModel):
     robot: RobotControllerFacts = Field(default_factory=RobotControllerFacts)
     plug: PlugFacts | None = None
     record: dict[Literal["speed_scaling", "safety_state", "fault_code"], RecordFacts] = Field(default_factory=dict)
+    readings: tuple[ReadingFacts, ...] = ()
     commissioning: tuple[CommissioningStep, ...] = ()
     versions: tuple[VersionRow, ...] = ()
     mock_cannot_prove: tuple[Text, ...] = ()

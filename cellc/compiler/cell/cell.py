@@ -14,7 +14,7 @@ from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface,
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Rehearsal, Servo
 from cellc.compiler.cell.site import TARGET_DEFAULTS, Bringup, Calibration, Host, Recording, Safety, Target
 from cellc.compiler.cell.uncertainty import Uncertainty
-from cellc.compiler.cell.vendor import RecordSource
+from cellc.compiler.cell.vendor import Reading, RecordSource
 from cellc.contract.diagnostics import Span
 from cellc.contract.entities import Kpis
 from cellc.contract.frozen import dataclass
@@ -204,8 +204,8 @@ class Cell:
         taken = [taker.joints for taker in self.trajectory_controllers] + [taker.joints for taker in self.adapters]
         return frozenset(joint for joints in taken for joint in joints)
 
-    def reporting(self, device: Device, source: RecordSource) -> Controller | None:
-        """Return the controller of a device that publishes a field of the record on the real target, if one does."""
+    def reporting(self, device: Device, source: RecordSource | Reading) -> Controller | None:
+        """Return the controller of a device that tells something of it on the real target, if one does."""
         kind = source.controller_kind
         reporters = (
             controller

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated
 
@@ -114,6 +115,28 @@ class RecordSource:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """What the running device says of itself, by a topic or a service without an argument.
+
+    Args:
+        name: what it is.
+        controller_kind, below: the controller of the device, and the name of topic or service below its node.
+        fields: of message or answer, joined by dots.
+        values: by name; empty for a figure.
+        expected: names of which one must show, by the gate from which on it must.
+        version: the part of the version tuple that must be the value.
+    """
+
+    name: str
+    controller_kind: str
+    below: str
+    fields: tuple[str, ...]
+    values: Mapping[str, bool | int]
+    expected: Mapping[GateCode, tuple[str, ...]]
+    version: str | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SpeedControl:
     """What slows every motion of a device down: its ``name``, how it is set, and the share for first motions.
 
@@ -131,6 +154,7 @@ class Procedures(Part):
 
     Args:
         record: where the record of an attempt has fields from that the real one alone can tell.
+        readings: what its topics and services say of it.
         jog: how people move one joint by hand; None where no source says.
         jog_begins, jog_ends: what they do before it, and then, before the driver is started again.
         driver_runs: the driver reads positions meanwhile.
@@ -142,6 +166,7 @@ class Procedures(Part):
 
     safety: Annotated[VendorSafety, ELSEWHERE] = field(default_factory=VendorSafety)
     record: Annotated[tuple[RecordSource, ...], ELSEWHERE] = ()
+    readings: Annotated[tuple[Reading, ...], ELSEWHERE] = ()
     jog: str | None = None
     jog_begins: Annotated[str, ELSEWHERE] = ""
     jog_ends: Annotated[str, ELSEWHERE] = ""

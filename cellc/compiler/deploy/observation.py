@@ -10,18 +10,27 @@ from cellc.compiler.deploy.computers import computers
 from cellc.compiler.deploy.ends import ends_on
 from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.deploy.readiness import components_of
+from cellc.compiler.deploy.recording import recorded_topics
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import observe_enclave
 from cellc.contract.bring_up import CLAIM_WATCH, BringUp, ControllerProof, HardwareProof, LifecycleProof, ManagedState
 from cellc.contract.entities import HardwareState, Target
-from cellc.contract.observation import Observation, ObservedEnds, ObservedManager, ObservedTarget
+from cellc.contract.observation import Observation, ObservedEnds, ObservedManager, ObservedReading, ObservedTarget
 from cellc.contract.vocabulary import BringUpPhase, Feature, features
+
+_CYCLES = "~/statistics/values"
+"""Topic below a controller manager with what each of its cycles took."""
 
 
 def observation(graph: CellGraph, plan: BringUp) -> Observation:
     """Return what runs on both targets."""
     targets = {target: _on(graph, plan, target) for target in ("mock", "real")}
-    return Observation(enclave=observe_enclave(graph.cell), computers=computers(graph), **targets)
+    return Observation(
+        enclave=observe_enclave(graph.cell),
+        recorded=tuple(recorded_topics(graph.cell)),
+        computers=computers(graph),
+        **targets,
+    )
 
 
 def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
@@ -31,6 +40,7 @@ def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
     claimed = [proof for step in plan.steps(target) for proof in step.effect]
     lifecycle: dict[str, ManagedState] = {node.full_name: "inactive" for node in cell.nodes if node.lifecycle}
     lifecycle |= {proof.node: proof.state for proof in shown if isinstance(proof, LifecycleProof)}
+    reporting = {node.full_name for node in cell.nodes if _CYCLES in node.endpoints.publishes}
     ends = {each.name: ends_on(graph, each, target) for each in cell.interfaces if target in each.targets}
     return ObservedTarget(
         nodes=tuple(sorted({name for name, _ in placed})),
@@ -55,13 +65,33 @@ def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
                     for each in shown
                     if isinstance(each, ControllerProof) and each.manager == manager.node
                 },
+                reports=manager.node in reporting,
             )
             for manager in cell.managers
         },
         lifecycle=lifecycle,
         lifecycle_claimed=lifecycle | {each.node: each.state for each in claimed if isinstance(each, LifecycleProof)},
         late_joints=() if target == "mock" else tuple(sorted(_late_joints(cell))),
+        readings=() if target == "mock" else tuple(_readings(cell)),
     )
+
+
+def _readings(cell: Cell) -> Iterator[ObservedReading]:
+    """Yield what the devices say of themselves where this cell has what says it; each release has other interfaces."""
+    there = {interface.name for interface in cell.interfaces if "real" in interface.targets}
+    for device in cell.devices:
+        for reading in device.procedures.readings:
+            telling = cell.reporting(device, reading)
+            if telling is not None and (name := f"{telling.full_name}/{reading.below}") in there:
+                yield ObservedReading(
+                    name=reading.name,
+                    device=device.name,
+                    interface=name,
+                    fields=reading.fields,
+                    values=dict(reading.values),
+                    expected={gate.value: names for gate, names in reading.expected.items()},
+                    version=None if reading.version is None else f"{device.name}.{reading.version}",
+                )
 
 
 def _late_joints(cell: Cell) -> Iterator[str]:

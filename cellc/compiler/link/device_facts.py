@@ -31,6 +31,7 @@ from cellc.compiler.cell.hardware import Adapter, DeviceControl, HardwareCompone
 from cellc.compiler.cell.vendor import (
     CommissioningStep,
     Procedures,
+    Reading,
     RecordSource,
     RecoveryProcedure,
     SafetyState,
@@ -113,6 +114,7 @@ def vendor_procedures(
     return Procedures(
         safety=_vendor_safety(facts, known, holding),
         record=tuple(_record(facts)),
+        readings=tuple(_readings(facts)),
         jog=None if facts.jog is None else facts.jog.does,
         jog_begins=(None if facts.jog is None else facts.jog.before) or "",
         jog_ends=(None if facts.jog is None else facts.jog.then) or "",
@@ -164,6 +166,19 @@ def _record(facts: DeviceModel) -> Iterator[RecordSource]:
             topic=record.topic,
             field=record.field,
             read=record.read,
+        )
+
+
+def _readings(facts: DeviceModel) -> Iterator[Reading]:
+    for reading in facts.readings:
+        yield Reading(
+            name=reading.name,
+            controller_kind=reading.controller,
+            below=reading.topic or reading.service or "",
+            fields=reading.fields,
+            values=reading.values,
+            expected=reading.expected,
+            version=reading.version,
         )
 
 
