@@ -5,12 +5,15 @@ Run as a program: ``played_graph.py PACKAGE TARGET WRONG``. WRONG names what is 
 
 from __future__ import annotations
 
+import ctypes
 import importlib
 import json
 import math
 import sys
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -21,6 +24,7 @@ import yaml
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 
@@ -55,6 +59,7 @@ class Played:
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes: dict[str, Node] = {}
         self.says: list[tuple[float, Any]] = []
+        self.kept: list[Any] = []
         names = [name for name in self.plan["nodes"] if wrong != f"missing:{name}"]
         for name in [*names, *(["/stranger"] if wrong == "stranger" else [])]:
             self.join(name)
@@ -69,6 +74,8 @@ class Played:
             bare, namespace=home or "/", context=self.context, allow_undeclared_parameters=True, enable_rosout=False
         )
         self.nodes[name] = node
+        if self.wrong == f"sim_time:{name}":
+            node.set_parameters([Parameter("use_sim_time", value=True)])
         self.executor.add_node(node)
 
     def parameters(self, folder: Path, target: str) -> None:
@@ -131,12 +138,14 @@ class Played:
             if self.wrong == f"volatile:{name}" and side == "sources":
                 stated.durability = DurabilityPolicy.VOLATILE
             if side == "sources":
-                self.publish(name, interface, kind, owner.create_publisher(kind, name, stated))
+                with redefined(kind) if self.wrong == f"hash:{name}" else nullcontext():
+                    publisher = owner.create_publisher(kind, name, stated)
+                self.publish(name, interface, kind, publisher)
             else:
                 owner.create_subscription(kind, name, lambda _: None, stated)
         elif interface["kind"] == "service":
             make = owner.create_service if side == "sources" else owner.create_client
-            make(kind, name, *([lambda _, answer: answer] if side == "sources" else []))
+            make(kind, name, *([partial(self.tell, name)] if side == "sources" else []))
         else:
             status = loaded("action_msgs/msg/GoalStatusArray")
             latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -144,7 +153,10 @@ class Played:
             make(status, f"{name}/_action/status", qos_profile=latched)
 
     def publish(self, name: str, interface: Any, kind: Any, publisher: Any) -> None:
-        """Say what a topic with a rate says, in its rate."""
+        """Say what a topic with a rate says, in its rate, and once what a device says of itself."""
+        if any(reading["interface"] == name for reading in self.plan["readings"]):
+            publisher.publish(self.tell(name, None, kind()))
+            self.kept.append(publisher)
         if interface.get("rate_hz") is None or self.wrong == f"silent:{name}":
             return
         message, joints = kind(), kind.__name__ == "JointState"
@@ -175,6 +187,23 @@ class Played:
             publisher.publish(message)
 
         self.says.append((1.0 / rate, say))
+
+    def tell(self, name: str, _: Any, message: Any) -> Any:
+        """Fill a message or an answer with what a device says of itself at G4, or with something else."""
+        for reading in self.plan["readings"]:
+            if reading["interface"] == name:
+                due = [names for since, names in sorted(reading.get("expected", {}).items()) if since <= "G4"]
+                values = [reading["values"][due[-1][0]]] if due else [1.0]
+                if "version" in reading:
+                    pinned = self.contract["version_tuple"][reading["version"]].rpartition(" ")[2]
+                    values = [int(part) for part in pinned.split(".")]
+                if "values" in reading and not due:
+                    values = [next(iter(reading["values"].values()))]
+                if self.wrong == f"says:{name}":
+                    values = [values[0] + 4, *values[1:]]  # SAFEGUARD_STOP, RUNNING, another major version
+                for field, value in zip(reading["fields"], values, strict=True):
+                    setattr(message, field, value)
+        return message
 
     def position(self, joint: str) -> float:
         """Return a position within the limits of a joint."""
@@ -251,6 +280,7 @@ class Played:
                 each.state.label = "finalized" if self.wrong == f"hardware:{component}" else state
                 components.append(each)
             node = self.nodes[name]
+            self.cycles(node, name, manager["update_rate_hz"])
             node.create_service(listing, f"{name}/list_controllers", answering("controller", controllers))
             node.create_service(parts, f"{name}/list_hardware_components", answering("component", components))
         for name, state in self.plan["lifecycle"].items():
@@ -258,6 +288,30 @@ class Played:
             made = loaded("lifecycle_msgs/msg/State")(label="finalized" if self.wrong == f"lifecycle:{name}" else state)
             if name in self.nodes:
                 self.nodes[name].create_service(kind, f"{name}/get_state", answering("current_state", made))
+
+    def cycles(self, node: Node, name: str, rate: float) -> None:
+        """Say what the cycles of a manager take, and what it thinks of them."""
+        diagnoses, status, pair = (
+            loaded(f"diagnostic_msgs/msg/{each}") for each in ("DiagnosticArray", "DiagnosticStatus", "KeyValue")
+        )
+        average = rate * (0.8 if self.wrong == "slow_manager" else 1.0)
+        figures = {"update_rate": f"{rate:g}", "periodicity.average": f"{average:f}", "periodicity.min": f"{average:f}"}
+        said = status(
+            level=b"\1" if self.wrong == "irregular" else b"\0", name="controller_manager: Controller Manager Activity"
+        )
+        said.message = "Controller Manager has bad periodicity" if self.wrong == "irregular" else "running"
+        said.values = [pair(key=key, value=value) for key, value in figures.items()]
+        publisher = node.create_publisher(diagnoses, "/diagnostics", 1)
+        self.says.append((0.5, partial(publisher.publish, diagnoses(status=[said]))))
+        names, values = (loaded(f"pal_statistics_msgs/msg/Statistics{each}") for each in ("Names", "Values"))
+        if names is not None:
+            latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+            first = node.create_publisher(names, f"{name}/statistics/names", latched)
+            first.publish(names(names=["other", "controller_manager.total_time"], names_version=2))
+            self.kept.append(first)
+            took = node.create_publisher(values, f"{name}/statistics/values", 100)
+            time_us = 1.2e6 / rate if self.wrong == "overrun" else 0.5e6 / rate
+            self.says.append((0.02, partial(took.publish, values(values=[9e9, time_us], names_version=2))))
 
     def run(self) -> None:
         """Play until standard input ends."""
@@ -269,6 +323,39 @@ class Played:
         threading.Thread(target=self.executor.spin, daemon=True).start()
         print("plays", flush=True)
         sys.stdin.read()
+
+
+class TypeSupport(ctypes.Structure):
+    """``rosidl_message_type_support_t`` of rosidl_runtime_c since Iron."""
+
+    _fields_ = [
+        ("identifier", ctypes.c_char_p),
+        ("data", ctypes.c_void_p),
+        ("func", ctypes.c_void_p),
+        ("get_type_hash", ctypes.c_void_p),
+    ]
+
+
+_HASH = ctypes.create_string_buffer(b"\1" + b"\x42" * 32, 33)
+_OTHER = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p)(lambda _: ctypes.addressof(_HASH))
+
+
+@contextmanager
+def redefined(kind: Any) -> Iterator[None]:
+    """Let a type have another hash meanwhile, as one that was built from another definition."""
+    kind.__class__.__import_type_support__()
+    pointer = ctypes.pythonapi.PyCapsule_GetPointer
+    pointer.restype, pointer.argtypes = ctypes.c_void_p, [ctypes.py_object, ctypes.c_char_p]
+    address = pointer(kind.__class__._TYPE_SUPPORT, None)
+    handle = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p, ctypes.c_char_p)
+    inner = handle(TypeSupport.from_address(address).func)(address, b"rosidl_typesupport_fastrtps_c")
+    supports = [TypeSupport.from_address(each) for each in (address, inner)]
+    before = [support.get_type_hash for support in supports]
+    for support in supports:
+        support.get_type_hash = ctypes.cast(_OTHER, ctypes.c_void_p).value
+    yield
+    for support, own in zip(supports, before, strict=True):
+        support.get_type_hash = own
 
 
 def answering(field: str, value: Any) -> Any:

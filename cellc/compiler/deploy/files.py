@@ -31,7 +31,7 @@ OBSERVATION = "config/observe.json"
 """What runs on each target: the ends of interfaces, states and nodes."""
 
 OBSERVE_PROGRAM = "scripts/observe"
-OBSERVE_CHECKS, OBSERVE_HOST = "scripts/observe_checks.py", "scripts/observe_host.py"
+OBSERVE_MODULES = tuple(f"scripts/observe_{part}.py" for part in ("checks", "host", "listener", "reports"))
 """What compares that with the running graph and computer, and its comparisons."""
 
 RECORDING = "config/recording_qos.yaml"

@@ -10,8 +10,7 @@ from cellc.compiler.cell.site import FirstMotion
 from cellc.compiler.deploy.files import (
     BRING_UP_PROGRAM,
     FIRST_GOAL_PROGRAM,
-    OBSERVE_CHECKS,
-    OBSERVE_HOST,
+    OBSERVE_MODULES,
     OBSERVE_PROGRAM,
     REQUIRED_PROGRAM,
     VERSIONS_PROGRAM,
@@ -109,4 +108,4 @@ def programs(cell: Cell) -> tuple[str, ...]:
     ends = () if Feature.EXIT_ENDS_LAUNCH in features(cell.distro) else (REQUIRED_PROGRAM,)
     goal = (FIRST_GOAL_PROGRAM,) if first_goals(cell) else ()
     watch = (WATCH_PROGRAM,) if any(watches(cell)) else ()
-    return (BRING_UP_PROGRAM, VERSIONS_PROGRAM, *ends, *goal, *watch, OBSERVE_PROGRAM, OBSERVE_CHECKS, OBSERVE_HOST)
+    return (BRING_UP_PROGRAM, VERSIONS_PROGRAM, *ends, *goal, *watch, OBSERVE_PROGRAM, *OBSERVE_MODULES)

@@ -34,13 +34,12 @@ def observation(graph: CellGraph, plan: BringUp) -> Observation:
 
 
 def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
-    cell, placed = graph.cell, tuple(_nodes(graph.cell, plan, target))
+    cell, placed = graph.cell, tuple(nodes_on(graph.cell, plan, target))
     taken = [step for step in plan.steps(target) if target == "mock" or step.phase is BringUpPhase.START]
     shown = [proof for step in taken for proof in step.effect]
     claimed = [proof for step in plan.steps(target) for proof in step.effect]
     lifecycle: dict[str, ManagedState] = {node.full_name: "inactive" for node in cell.nodes if node.lifecycle}
     lifecycle |= {proof.node: proof.state for proof in shown if isinstance(proof, LifecycleProof)}
-    reporting = {node.full_name for node in cell.nodes if _CYCLES in node.endpoints.publishes}
     ends = {each.name: ends_on(graph, each, target) for each in cell.interfaces if target in each.targets}
     return ObservedTarget(
         nodes=tuple(sorted({name for name, _ in placed})),
@@ -65,18 +64,24 @@ def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
                     for each in shown
                     if isinstance(each, ControllerProof) and each.manager == manager.node
                 },
-                reports=manager.node in reporting,
+                reports=manager.node in reporting(cell),
             )
             for manager in cell.managers
         },
         lifecycle=lifecycle,
         lifecycle_claimed=lifecycle | {each.node: each.state for each in claimed if isinstance(each, LifecycleProof)},
         late_joints=() if target == "mock" else tuple(sorted(_late_joints(cell))),
-        readings=() if target == "mock" else tuple(_readings(cell)),
+        readings=() if target == "mock" else tuple(readings(cell)),
     )
 
 
-def _readings(cell: Cell) -> Iterator[ObservedReading]:
+def reporting(cell: Cell) -> tuple[str, ...]:
+    """Return the controller managers that publish what their cycles take: not those of every release do."""
+    published = {node.full_name: node.endpoints.publishes for node in cell.nodes}
+    return tuple(manager.node for manager in cell.managers if _CYCLES in published.get(manager.node, ()))
+
+
+def readings(cell: Cell) -> Iterator[ObservedReading]:
     """Yield what the devices say of themselves where this cell has what says it; each release has other interfaces."""
     there = {interface.name for interface in cell.interfaces if "real" in interface.targets}
     for device in cell.devices:
@@ -107,7 +112,7 @@ def _components(cell: Cell, manager: ControllerManager, target: Target) -> Itera
             yield device.control.hardware.name, device.control.startup_state
 
 
-def _nodes(cell: Cell, plan: BringUp, target: Target) -> Iterator[tuple[str, str]]:
+def nodes_on(cell: Cell, plan: BringUp, target: Target) -> Iterator[tuple[str, str]]:
     """Yield the full name of every node on a target, with its host."""
     for node in cell.nodes:
         if target == "real" or not node.real_only:

@@ -25,11 +25,9 @@ STANDING = 0.002  # rad or m: noise of a joint at rest
 FIXED_M, FIXED_RAD = 1e-4, math.radians(0.01)  # by this much a fixed transform may differ: both are rounded
 CLAIMED_FROM = "G7"  # gates before it claim nothing and move nothing
 SHOWN = 4  # problems that a line names; it counts the others
+KEPT = 100  # values of one reading
 SIDES = {"topic": ("publishers", "subscribers"), "service": ("server", "clients"), "action": ("server", "clients")}
 OFFERED = {("best_effort", "reliable"), ("volatile", "transient_local")}  # offered, and requested without a match
-VALUES = {1: "bool_value", 2: "integer_value", 3: "double_value", 4: "string_value", 5: "byte_array_value"}
-VALUES |= {6: "bool_array_value", 7: "integer_array_value", 8: "double_array_value", 9: "string_array_value"}
-NOT_SET = 0  # rcl_interfaces/msg/ParameterType
 
 
 @dataclass(frozen=True)
@@ -51,6 +49,7 @@ class End:
     type: str = ""
     reliability: str = ""
     durability: str = ""
+    type_hash: str = ""
 
 
 Ends = tuple[Sequence[End], Sequence[End]]
@@ -63,6 +62,7 @@ class Stream:
     Attributes:
         arrivals: one entry a message, s since 1970 on this computer's clock.
         ages: at arrival, s, where messages have stamps.
+        size: of all messages, byte.
         joints: lowest and highest position of each joint, rad or m.
     """
 
@@ -70,13 +70,15 @@ class Stream:
     ages: array[float] = field(default_factory=lambda: array("d"))
     frames: set[str] = field(default_factory=set)
     joints: dict[str, tuple[float, float]] = field(default_factory=dict)
+    size: int = 0
     newest_s: float = 0.0
     backward: int = 0
     not_finite: int = 0
 
-    def take(self, arrived_s: float, stamp: tuple[float, str] | None) -> None:
-        """Note a message; `stamp` has the seconds and the frame of its header."""
+    def take(self, arrived_s: float, stamp: tuple[float, str] | None, size: int = 0) -> None:
+        """Note a message of a size in byte; `stamp` has the seconds and the frame of its header."""
         self.arrivals.append(arrived_s)
+        self.size += size
         if stamp is not None:
             self.ages.append(arrived_s - stamp[0])
             self.frames.add(stamp[1])
@@ -92,6 +94,33 @@ class Stream:
 
 
 @dataclass
+class Cycles:
+    """What a controller manager says of its cycles.
+
+    Attributes:
+        times_us: what each took for reading, updating and writing.
+        statuses: level, message and figures of each diagnosis of the manager itself.
+    """
+
+    times_us: array[float] = field(default_factory=lambda: array("d"))
+    statuses: list[tuple[int, str, Mapping[str, str]]] = field(default_factory=list)
+
+
+@dataclass
+class Reading:
+    """What a device said of itself: each value once, of numbers the lowest and the highest."""
+
+    values: list[Any] = field(default_factory=list)
+
+    def take(self, value: Any) -> None:
+        """Note a value."""
+        if isinstance(value, float):
+            self.values = [min([*self.values[:1], value]), max([*self.values[-1:], value])]
+        elif value not in self.values and len(self.values) < KEPT:
+            self.values.append(value)
+
+
+@dataclass
 class Seen:
     """A graph as it was seen.
 
@@ -101,6 +130,8 @@ class Seen:
         uninstalled: types of interfaces that are not installed here.
         moving: parents of each child on ``/tf``.
         fixed: parent, position and quaternion of each child on ``/tf_static``.
+        cycles: of each controller manager.
+        readings: of each interface by which a device says something of itself.
     """
 
     nodes: list[str] = field(default_factory=list)
@@ -110,6 +141,8 @@ class Seen:
     streams: dict[str, Stream] = field(default_factory=dict)
     moving: dict[str, set[str]] = field(default_factory=dict)
     fixed: dict[str, set[tuple[str, tuple[float, ...], tuple[float, ...]]]] = field(default_factory=dict)
+    cycles: dict[str, Cycles] = field(default_factory=dict)
+    readings: dict[str, Reading] = field(default_factory=dict)
     listened_s: float = 0.0
 
 
@@ -121,12 +154,6 @@ class Package:
     plan: Any
     description: Element
     parameters: Mapping[str, Mapping[str, Any]]
-
-
-def comparisons(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
-    """Yield every comparison at a gate."""
-    for part in (nodes, endpoints, streams, joints, transforms, control, lifecycle, parameters, description):
-        yield from part(package, seen, gate)
 
 
 def judged(part: str, subject: str, expected: str, problems: Sequence[str], seen: str = "") -> Line:
@@ -173,6 +200,21 @@ def endpoints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
         unmatched = [problem for writer in found[0] for reader in found[1] for problem in _unmatched(writer, reader)]
         if unmatched:
             yield judged("graph", f"{name}, QoS", "publishers offer what subscribers request", unmatched)
+    yield from hashes(seen)
+
+
+def hashes(seen: Seen) -> Iterator[Line]:
+    """Compare the definitions with which the ends of each topic were built, where the middleware carries their hash."""
+    found = {name: [end for side in sides for end in side if end.type_hash] for name, sides in seen.ends.items()}
+    several = {name: ends for name, ends in found.items() if len(ends) > 1}
+    problems = [
+        f"{name} has {listed(f'{end.type_hash[:15]} at {end.node}' for end in ends)}"
+        for name, ends in several.items()
+        if len({(end.type, end.type_hash) for end in ends}) > len({end.type for end in ends})
+    ]
+    if several:
+        counted = f"{len(several)} topics whose ends carry one"
+        yield judged("graph", "type hashes", "one at all ends of a topic", problems, counted)
 
 
 def _other_kind(interface: Any, side: str, end: End) -> Iterator[str]:
@@ -293,107 +335,3 @@ def quaternion(rpy: Sequence[float]) -> tuple[float, float, float, float]:
     (sr, cr), (sp, cp), (sy, cy) = ((math.sin(angle / 2.0), math.cos(angle / 2.0)) for angle in rpy)
     x, y = sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy
     return x, y, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy
-
-
-def control(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
-    """Compare hardware components and controllers: states, types and claims."""
-    for manager in package.contract["managers"].values():
-        node = f"{manager['namespace'].rstrip('/')}/controller_manager"
-        states, declared = package.plan["states"][node], manager["controllers"]
-        hardware = seen.answers.get(f"{node}/list_hardware_components")
-        expected = listed(f"{name} {state}" for name, state in states["hardware"].items())
-        if hardware is None:
-            yield Line("control", f"{node}, hardware", UNKNOWN, expected, "no answer")
-        elif gate < CLAIMED_FROM:
-            found = {each.name: each.state.label for each in hardware.component}
-            yield judged("control", f"{node}, hardware", expected, differences(states["hardware"], found))
-        answer = seen.answers.get(f"{node}/list_controllers")
-        wanted = states["controllers"]
-        if gate >= CLAIMED_FROM:
-            wanted = {name: "active" if declared[name]["active"] else state for name, state in wanted.items()}
-        expected = listed(f"{name} {state}" for name, state in wanted.items())
-        if answer is None:
-            yield Line("control", f"{node}, controllers", UNKNOWN, expected, "no answer")
-            continue
-        problems = differences(wanted, {each.name: each.state for each in answer.controller})
-        for each in answer.controller:
-            problems += _claims(each, declared[each.name]) if each.name in declared else []
-        yield judged("control", f"{node}, controllers", expected, problems)
-
-
-def _claims(found: Any, declared: Any) -> Iterator[str]:
-    if found.type != declared["plugin"]:
-        yield f"{found.name} is a {found.type}, expected {declared['plugin']}"
-    claims = set(declared["command_interfaces"]) if found.state == "active" else set()
-    if set(found.claimed_interfaces) != claims:
-        yield f"{found.name} claims {listed(found.claimed_interfaces)}, expected {listed(claims)}"
-
-
-def differences(wanted: Mapping[str, str], found: Mapping[str, str]) -> list[str]:
-    """Return what is missing, not declared or in another state."""
-    missing = [f"{name} is missing" for name in wanted if name not in found]
-    more = [f"{name} is not declared" for name in found if name not in wanted]
-    other = [
-        f"{name} is {found[name]}, expected {state}"
-        for name, state in wanted.items()
-        if found.get(name, state) != state
-    ]
-    return missing + more + other
-
-
-def lifecycle(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
-    """Compare the states of managed nodes."""
-    for node, state in package.plan["lifecycle" if gate < CLAIMED_FROM else "lifecycle_claimed"].items():
-        answer = seen.answers.get(f"{node}/get_state")
-        found = "no answer" if answer is None else answer.current_state.label
-        verdict = UNKNOWN if answer is None else PASSED if found == state else FAILED
-        yield Line("control", f"{node}, lifecycle", verdict, state, found)
-
-
-def parameters(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
-    """Compare the parameters of each running node with its file."""
-    for node, written in package.parameters.items():
-        if node not in seen.nodes:
-            continue
-        answer, expected = seen.answers.get(f"{node}/get_parameters"), f"{len(written)} values of its file"
-        if answer is None:
-            yield Line("parameters", node, UNKNOWN, expected, "no answer")
-            continue
-        values = [getattr(each, VALUES[each.type]) if each.type != NOT_SET else None for each in answer.values]
-        pairs = zip(written.items(), values, strict=False)
-        # rclcpp answers with no value at all where one of the names is not declared.
-        problems = [] if len(values) == len(written) else [f"{len(values)} of {len(written)} values answered"]
-        problems += [
-            f"{name} is {value}, expected {stated}" for (name, stated), value in pairs if not same(stated, value)
-        ]
-        yield judged("parameters", node, expected, problems)
-
-
-def same(written: Any, found: Any) -> bool:
-    """Return whether a value is the written one: numbers by their size, lists by their entries, no number unset."""
-    if isinstance(written, (list, tuple)):
-        return found is not None and len(written) == len(found) and all(map(same, written, found))
-    if isinstance(written, (int, float)) and isinstance(found, (int, float)):
-        return math.isclose(written, found, rel_tol=1e-9)
-    return bool(written == found)
-
-
-def description(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
-    """Compare the description that runs with that of the package, but for elements that a launch fills in."""
-    running, written = seen.answers.get("robot_description"), Counter(_below(package.description, ""))
-    if running is None:
-        yield Line("parameters", "robot_description", UNKNOWN, "that of the package", "no description was published")
-        return
-    filled = {place for place, text in written if "$(" in text}
-    differing = (written - (found := Counter(_below(running, ""))), "without"), (found - written, "with")
-    problems = [f"{word} {place} {text}" for more, word in differing for place, text in more if place not in filled]
-    yield judged("parameters", "robot_description", "that of the package", problems)
-
-
-def _below(element: Element, above: str) -> Iterator[tuple[str, str]]:
-    """Yield each element with its attributes and text, but for the file of a mesh, which a launch resolves."""
-    place = f"{above}/{element.tag}" + (f"[{element.get('name')}]" if element.get("name") else "")
-    attributes = [f"{name}={text}" for name, text in sorted(element.attrib.items()) if name != "filename"]
-    yield place, " ".join([*attributes, (element.text or "").strip()])
-    for child in element:
-        yield from _below(child, place)

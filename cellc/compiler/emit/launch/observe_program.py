@@ -5,8 +5,8 @@
             [--host NAME]
 
 It reads the ends of every interface, listens to every topic with a rate and to the transforms, and asks controller
-managers, managed nodes and parameters, by four services that change nothing. Each line is PASSED, FAILED or UNKNOWN,
-with what is expected and what is seen. On a cell of several computers each runs it: `cellc evidence` joins the
+managers, managed nodes, parameters and devices, by services that change nothing. Each line is PASSED, FAILED or
+UNKNOWN, with what is expected and what is seen. On a cell of several computers each runs it: `cellc evidence` joins the
 reports. Nodes that a later gate starts need not run. Layers L3 to L5 have one part each: graph, flow, tf. At G0 and L1
 it needs no graph, and compares versions, network cards, routes, environment and kernel of this computer; at L5 its
 clock. Ctrl-C ends the listening; what was seen until then is compared. Exit status: 0 all passed, 1 a line failed or is
@@ -16,15 +16,12 @@ unknown, 2 usage.
 from __future__ import annotations
 
 import argparse
-import importlib
 import json
 import platform
-import struct
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
-from functools import partial
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -36,13 +33,15 @@ from cellc.compiler.emit.launch.observe_checks import (
     Ends,
     Line,
     Package,
+    Reading,
     Seen,
-    Stream,
-    comparisons,
 )
 from cellc.compiler.emit.launch.observe_host import comparisons_of_host
+from cellc.compiler.emit.launch.observe_listener import loaded, said, subscribe
+from cellc.compiler.emit.launch.observe_reports import comparisons, space
 
-# The only services that are asked: none changes anything.
+# The only services that are asked, beside those without an argument by which the catalog says that a device tells its
+# version or state: none changes anything.
 READS = {
     "list_controllers": "controller_manager_msgs/srv/ListControllers",
     "list_hardware_components": "controller_manager_msgs/srv/ListHardwareComponents",
@@ -51,38 +50,10 @@ READS = {
 }
 DISCOVERY_S, ANSWER_S = 3.0, 3.0
 POLL_S = 0.01  # at 1 kHz a tenth of the queue fills in it
-TRANSFORMS, DESCRIPTION = "tf2_msgs/msg/TFMessage", "std_msgs/msg/String"
 PARTS = {"G0": "", "L1": "", "L3": "graph", "L4": "flow", "L5": "tf"}  # of the graph; other gates ask for all
 HOST_PARTS = {"G0": "versions", "L1": "host", "L3": "environment", "L5": "clock"}  # of this computer
 DAY_S = 86400.0
-# Of joint states one in so many is read whole, of the others the stamp; a prime, or publishers that alternate hide one.
-EACH = 11
-
-
-def stamp_of(data: bytes) -> tuple[float, str]:
-    """Return stamp, s, and frame of a serialized message that begins with a header: CDR, as DDS sends it.
-
-    Raises:
-        struct.error: the message is too short for it.
-    """
-    order = "<" if data[1:2] > b"\0" else ">"
-    seconds, nanoseconds, length = struct.unpack_from(f"{order}iII", data, 4)
-    return seconds + nanoseconds / 1e9, data[16 : 16 + max(0, length - 1)].decode("utf-8", "replace")
-
-
-def loaded(kind: str) -> Any:
-    """Return the class of an interface type such as ``std_msgs/msg/Bool``; None where it is not installed."""
-    package, part, name = kind.split("/")
-    try:
-        return getattr(importlib.import_module(f"{package}.{part}"), name)
-    except (ImportError, AttributeError):
-        return None
-
-
-def deserialized(data: bytes, kind: Any) -> Any:
-    from rclpy.serialization import deserialize_message
-
-    return deserialize_message(data, kind)
+NO_HASH = "INVALID"  # what rclpy shows where the other end carries none
 
 
 class Graph:
@@ -154,9 +125,18 @@ class Graph:
         subscription = self._node.create_subscription(kind, topic, take, qos, raw=True)
         self._subscriptions.append((subscription, take))
 
-    def ask(self, service: str, **fields: Any) -> Any:
-        """Return the answer of a service that changes nothing; None where it gives none."""
-        kind = loaded(READS[service.rpartition("/")[2]])
+    def serves(self, node: str, service: str) -> bool:
+        """Return whether a node answers a service."""
+        home, _, bare = node.rpartition("/")
+        return any(name == service for name, _ in self._node.get_service_names_and_types_by_node(bare, home or "/"))
+
+    def ask(self, service: str, stated: str = "", **fields: Any) -> Any:
+        """Return the answer of a service that changes nothing; None where it gives none.
+
+        Args:
+            stated: its type, where it is one of the services by which devices say something of themselves.
+        """
+        kind = loaded(stated or READS[service.rpartition("/")[2]])
         if kind is None:
             return None
         client = self._node.create_client(kind, service)
@@ -172,52 +152,20 @@ class Graph:
 
 def _end(info: Any) -> End:
     qos, home = info.qos_profile, info.node_namespace.rstrip("/")
-    return End(f"{home}/{info.node_name}", info.topic_type, qos.reliability.name.lower(), qos.durability.name.lower())
-
-
-class Listener:
-    """Takes messages into what is seen."""
-
-    def __init__(self, seen: Seen) -> None:
-        self._seen = seen
-
-    def stream(self, topic: str, kind: Any, stamped: bool, data: bytes, received_s: float) -> None:
-        stream = self._seen.streams.setdefault(topic, Stream())
-        try:
-            stream.take(received_s, stamp_of(data) if stamped else None)
-        except struct.error:
-            stream.frames.add(f"of a message of {len(data)} bytes")
-            return
-        if kind.__name__ == "JointState" and len(stream.arrivals) % EACH == 1:
-            message = deserialized(data, kind)
-            stream.take_joints(message.name, message.position)
-
-    def moving(self, kind: Any, data: bytes, received_s: float) -> None:
-        for each in deserialized(data, kind).transforms:
-            self._seen.moving.setdefault(each.child_frame_id, set()).add(each.header.frame_id)
-
-    def fixed(self, kind: Any, data: bytes, received_s: float) -> None:
-        for each in deserialized(data, kind).transforms:
-            at, turned = each.transform.translation, each.transform.rotation
-            place = (at.x, at.y, at.z), (turned.x, turned.y, turned.z, turned.w)
-            self._seen.fixed.setdefault(each.child_frame_id, set()).add((each.header.frame_id, *place))
-
-    def description(self, kind: Any, data: bytes, received_s: float) -> None:
-        try:
-            robot = ElementTree.fromstring(deserialized(data, kind).data)
-        except ElementTree.ParseError as error:
-            robot = ElementTree.Element(f"no XML: {error}")
-        self._seen.answers["robot_description"] = robot
+    policies = qos.reliability.name.lower(), qos.durability.name.lower()
+    type_hash = str(getattr(info, "topic_type_hash", NO_HASH))  # since Iron
+    return End(f"{home}/{info.node_name}", info.topic_type, *policies, "" if type_hash == NO_HASH else type_hash)
 
 
 def look(graph: Any, package: Package, for_s: float) -> Seen:
     """Listen, then read the graph and ask."""
     seen = Seen()
-    subscribe(graph, package, seen)
+    listener = subscribe(graph, package, seen)
     begin_s = time.monotonic() + DISCOVERY_S
     try:
         graph.wait(begin_s)
         seen.streams.clear()
+        seen.cycles.clear()
         for left_s in range(int(for_s), 0, -10):
             print(f"listening, {left_s} s left", flush=True)
             graph.wait(min(begin_s + for_s, begin_s + for_s - left_s + 10))
@@ -226,6 +174,13 @@ def look(graph: Any, package: Package, for_s: float) -> Seen:
         print("listening was ended", flush=True)
     seen.listened_s = max(0.0, time.monotonic() - begin_s)
     graph.stop_listening()
+    listener.finish()
+    ask(graph, package, seen)
+    return seen
+
+
+def ask(graph: Any, package: Package, seen: Seen) -> None:
+    """Read the graph, and ask all that is asked."""
     seen.nodes = graph.nodes()
     for name in package.plan["ends"]:
         seen.ends[name] = graph.ends(name, package.contract["interfaces"][name]["kind"])
@@ -238,25 +193,13 @@ def look(graph: Any, package: Package, for_s: float) -> Seen:
         seen.answers[f"{node}/get_parameters"] = graph.ask(
             f"{node}/get_parameters", names=list(package.parameters[node])
         )
-    return seen
-
-
-def subscribe(graph: Any, package: Package, seen: Seen) -> None:
-    """Listen to every topic with a rate, to transforms and to the description."""
-    listener = Listener(seen)
-    for name, interface in package.contract["interfaces"].items():
-        if interface.get("rate_hz") is not None:
-            kind = loaded(interface["type"])
-            if kind is None:
-                seen.uninstalled.add(interface["type"])
-            else:
-                stamped = next(iter(kind.get_fields_and_field_types()), "") == "header"
-                graph.listen(name, kind, partial(listener.stream, name, kind, stamped))
-    if kind := loaded(TRANSFORMS):
-        graph.listen("/tf", kind, partial(listener.moving, kind))
-        graph.listen("/tf_static", kind, partial(listener.fixed, kind), latched=True)
-    if kind := loaded(DESCRIPTION):
-        graph.listen("/robot_description", kind, partial(listener.description, kind), latched=True)
+    for node in sorted({*package.plan["nodes"]} & {*seen.nodes}):
+        if graph.serves(node, f"{node}/get_parameters"):
+            seen.answers[f"{node}/use_sim_time"] = graph.ask(f"{node}/get_parameters", names=["use_sim_time"])
+    for reading in package.plan["readings"]:
+        interface = package.contract["interfaces"][reading["interface"]]
+        if interface["kind"] == "service" and (answer := graph.ask(reading["interface"], interface["type"])):
+            seen.readings.setdefault(reading["interface"], Reading()).take(said(answer, reading["fields"]))
 
 
 def read_package(folder: Path, target: str) -> Package:
@@ -269,8 +212,8 @@ def read_package(folder: Path, target: str) -> Package:
         other = {"real": ".mock", "mock": ".real"}[target]
         for node, values in read_parameters(file) if not file.stem.endswith(other) else ():
             written.setdefault(node, {}).update(values)
-    shared = {"enclave": plan["enclave"], "computers": plan["computers"]}
-    return Package(contract, {**shared, **plan[target]}, description, written)
+    shared = {name: plan[name] for name in ("enclave", "recorded", "computers")}
+    return Package(contract, {**shared, "readings": (), **plan[target]}, description, written)
 
 
 def read_parameters(file: Path) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -374,6 +317,8 @@ def main(arguments: Sequence[str]) -> int:
         seen = looked(package, read.for_s)
         whole = comparisons(package, seen, "G3" if read.gate in PARTS else read.gate)
         lines += [line for line in whole if line.part == PARTS.get(read.gate, line.part)]
+        if read.evidence is not None and read.gate not in PARTS:
+            lines.append(space(package, seen, read.evidence, read.gate))
         listened_s = seen.listened_s
     for line in lines:
         text = f"{line.verdict:8}{line.part:11}{line.subject}: {line.seen}"

@@ -94,7 +94,7 @@ def _enclaves(cell: Cell, plan: BringUp) -> Iterator[tuple[str, tuple[Profile, .
     yield bring_up_enclave(cell), tuple(bring_up_process(cell, plan))
     if senders := tuple(sender(cell, f"/{NODE}", goal.action, goal.topic) for goal in first_goals(cell)):
         yield first_goal_enclave(cell), senders
-    yield observe_enclave(cell), (observer(cell),)
+    yield observe_enclave(cell), (observer(cell, plan),)
     yield people_enclave(cell), tuple(people(cell))
     yield commissioning_enclave(cell), tuple(people(cell, Kind.COMMISSIONING))
 

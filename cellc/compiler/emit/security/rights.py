@@ -17,6 +17,7 @@ from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import InnerNode, Node, NodeEndpoints, NodeSource
 from cellc.compiler.deploy.files import plans
+from cellc.compiler.deploy.observation import nodes_on, readings, reporting
 from cellc.compiler.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.compiler.deploy.recording import recorded_topics
 from cellc.compiler.link.hardware import JOINT_STATES
@@ -286,11 +287,18 @@ def people(cell: Cell, *more: Kind) -> Iterator[Profile]:
         yield _profile(cell, f"/{name}", Kind.NODE, Kind.OBSERVER, Kind.PEOPLE, Kind.RVIZ, *more)
 
 
-def observer(cell: Cell) -> Profile:
-    """Return the rights of the program that compares the graph with the package: it asks for parameters besides."""
-    read = tuple(f"{node.full_name}/get_parameters" for node in cell.nodes)
-    read += tuple(f"{controller.full_name}/get_parameters" for controller in cell.controllers)
-    return Profile("/observe", (Kind.NODE_WITHOUT_PARAMETERS, Kind.OBSERVER), Rights(request=read))
+def observer(cell: Cell, plan: BringUp) -> Profile:
+    """Return the rights of the program that compares the graph with the package.
+
+    Beside what people may look at, it asks for parameters, hears what cycles take, and asks devices for their versions.
+    """
+    running = {name for target in TARGETS for name, _ in nodes_on(cell, plan, target) if "*" not in name}
+    asked = (f"{name}/get_parameters" for name in sorted(running))
+    names = {interface.name: interface.kind for interface in cell.interfaces}
+    told = (reading.interface for reading in readings(cell) if names[reading.interface] is InterfaceKind.SERVICE)
+    cycles = (f"{node}/statistics/{part}" for node in reporting(cell) for part in ("names", "values"))
+    own = Rights(subscribe=(*cycles, "/diagnostics"), request=(*asked, *told))
+    return Profile("/observe", (Kind.NODE_WITHOUT_PARAMETERS, Kind.OBSERVER), own)
 
 
 def _of_observer(cell: Cell) -> Rights:
