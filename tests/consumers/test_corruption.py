@@ -163,14 +163,17 @@ _RUNS: tuple[Callable[[StandIn, Path], None], ...] = (
     test_bring_up.test_exit_status_of_the_mover_is_passed_on,
 )
 _observes_computer = test_observe_host.test_emitted_program_compares_this_computer_without_a_graph
+_observes_graph = test_observe.test_the_emitted_program_passes_its_package_and_names_a_second_commander
 _accepts_versions = test_installed_versions.test_person_accepts_each_part_by_name_and_the_record_has_both
 _RUNS_OF_PROGRAMS: dict[str, Callable[[Path], None]] = {
     "scripts/installed_versions.py": _accepts_versions,
     "scripts/first_goal": test_first_goal.test_evidence_holds_command_state_and_error_of_every_joint_and_a_plot,
-    "scripts/observe": test_observe.test_the_emitted_program_passes_its_package_and_names_a_second_commander,
-    "scripts/observe_checks.py": test_observe.test_the_emitted_program_passes_its_package_and_names_a_second_commander,
+    "scripts/observe": _observes_graph,
+    "scripts/observe_checks.py": _observes_graph,
+    "scripts/observe_listener.py": _observes_graph,
+    "scripts/observe_reports.py": _observes_graph,
     "scripts/observe_host.py": _observes_computer,
-    "config/observe.json": test_observe.test_the_emitted_program_passes_its_package_and_names_a_second_commander,
+    "config/observe.json": _observes_graph,
     "scripts/claim_watch": lambda _: test_claim_watch.test_a_topic_that_nobody_publishes_any_more_proves_nothing(
         test_claim_watch.FakeRos()
     ),

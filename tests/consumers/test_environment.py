@@ -142,7 +142,7 @@ def test_everything_that_is_read_at_run_time_is_installed(cell: str, distro: str
         "installed_versions.py"
     }
     # What a person runs to compare the graph with the package, and what that imports.
-    started |= {"observe", "observe_checks.py", "observe_host.py"}
+    started |= {"observe", *(f"observe_{part}.py" for part in ("checks", "host", "listener", "reports"))}
     assert started == {path.rpartition("/")[2] for path in programs.split()}
     assert kinds["DIRECTORY"] | {"scripts"} >= folders - {"evidence"}
     assert kinds["FILES"] >= {"contract.json", "manifest.json", "rehearsals.json"}

@@ -228,7 +228,7 @@ def test_every_parameter_file_is_read_by_a_process(cell: str, distro: str) -> No
         assert target == "mock" or read | stages == {path for path in parameters if f".{other}.yaml" not in path}
 
 
-_BESIDE = {"installed_versions", "observe_checks", "observe_host"}
+_BESIDE = {"installed_versions", *(f"observe_{part}" for part in ("checks", "host", "listener", "reports"))}
 """Modules of the package itself, beside its programs."""
 _KEYS = {"yaml": "python3-yaml"}
 """Keys of rosdep of what is no package of ROS."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 from collections.abc import Mapping
@@ -208,7 +209,12 @@ def test_words_that_are_no_figure_are_gone() -> None:
 def test_the_brakes_of_a_ur_are_closed_before_its_driver_is_started_and_while_it_reads() -> None:
     gates = _gates("ur5e_pick")
     assert _in_order(gates["G3"], "the brakes are closed", "Authorize the hardware launch")
-    assert _in_order(gates["G4"], "Authorize the hardware launch again", "robot_mode", "POWER_OFF (3) or IDLE (5)")
+    assert _in_order(
+        gates["G4"], "the brakes are closed", "Authorize the hardware launch again", "the states of devices"
+    )
+    readings = json.loads(built("ur5e_pick").texts["config/observe.json"])["real"]["readings"]
+    (mode,) = [reading for reading in readings if reading["interface"] == "/arm_io/robot_mode"]
+    assert mode["expected"]["G4"] == ["POWER_OFF", "IDLE"]
 
 
 @pytest.mark.parametrize("cell", ["fr3_hand", "gen3_2f", "openarm_bimanual"])

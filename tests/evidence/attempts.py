@@ -18,7 +18,7 @@ from tests.cells import generated
 from tests.cli.run import run
 from tests.consumers.test_observe import right
 
-SECONDS = {"G0": 0, "L1": 0, "L3": 5, "L4": 60, "L5": 30, "G3": 600, "G4": 10}
+SECONDS = {"G0": 0, "L1": 0, "L3": 5, "L4": 60, "L5": 30, "G3": 600, "G4": 10, "G7": 30}
 """As the checklists ask for; at G0 and L1 the computer alone is read."""
 JOINTS = ("wrist_3", "wrist_2", "wrist_1", "elbow", "shoulder_lift", "shoulder_pan")
 METADATA = """\

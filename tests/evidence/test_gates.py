@@ -65,6 +65,7 @@ def test_nothing_is_there(tmp_path: Path) -> None:
         "G7-bag",
         *(f"G7-first-goal-arm_{joint}_joint-end-*.json" for joint in JOINTS),
         "G7-first-goal-arm_wrist_3_joint-cancel-*.json",
+        "observe-G7-*.json",
         "G7-bag.attempt.json",
     ]
 

@@ -16,6 +16,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import SOURCES, plans
 from cellc.compiler.deploy.first_goal import first_goals, programs
+from cellc.compiler.deploy.observation import readings, reporting
 from cellc.compiler.deploy.versions import installed_parts
 from cellc.compiler.deploy.watches import watches
 from cellc.compiler.formats.urdf.hardware import share_folders
@@ -31,6 +32,7 @@ _CONTROL = ("controller_manager", "hardware_interface", "ros2controlcli")
 _BRING_UP = ("controller_manager_msgs", "lifecycle_msgs", "rcl_interfaces", "rclpy", "tf2_msgs")
 # What the program that observes imports besides; the first is a key of rosdep.
 _OBSERVE = ("python3-yaml", "std_msgs")
+_CYCLES = ("diagnostic_msgs", "pal_statistics_msgs")
 # What acknowledges claims, and what ends them where a robot no longer follows.
 _WATCH = ("action_msgs", "std_srvs")
 # What the commands of the gates call; the keys of rosdep.
@@ -118,6 +120,10 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
         names |= set(_FIRST_GOAL)
     if any(watches(cell)):
         names |= set(_WATCH)
+    told = {reading.interface for reading in readings(cell)}
+    names |= {interface.type.partition("/")[0] for interface in cell.interfaces if interface.name in told}
+    if reporting(cell):
+        names |= set(_CYCLES)
     if cell.managers:
         names |= set(_CONTROL)
         # Every topic that the bring-up listens to is one whose type it imports.

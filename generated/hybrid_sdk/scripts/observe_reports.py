@@ -236,7 +236,7 @@ def devices(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
             absent = f"{kind} is not installed here" if kind in seen.uninstalled else "no answer"
             yield Line("vendor", subject, UNKNOWN, expected, absent)
             continue
-        shown = [_named(value, reading.get("values", {})) for value in found]
+        shown = list(dict.fromkeys(_named(value, reading.get("values", {})) for value in found))
         other = [text for text in shown if names and text not in names]
         if pinned != UNKNOWN and "version" in reading:
             other = [text for text in shown if f"{text}.".startswith(f"{pinned}.") is False]

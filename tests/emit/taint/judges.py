@@ -190,6 +190,8 @@ _READERS: dict[str, tuple[Callable[[str], Reading], ...]] = {
     "scripts/observe": (python,),
     "scripts/observe_checks.py": (python,),
     "scripts/observe_host.py": (python,),
+    "scripts/observe_listener.py": (python,),
+    "scripts/observe_reports.py": (python,),
     "scripts/required": (python,),
 }
 

@@ -297,7 +297,8 @@ def observer(cell: Cell, plan: BringUp) -> Profile:
     names = {interface.name: interface.kind for interface in cell.interfaces}
     told = (reading.interface for reading in readings(cell) if names[reading.interface] is InterfaceKind.SERVICE)
     cycles = (f"{node}/statistics/{part}" for node in reporting(cell) for part in ("names", "values"))
-    own = Rights(subscribe=(*cycles, "/diagnostics"), request=(*asked, *told))
+    diagnoses = ("/diagnostics",) if reporting(cell) else ()
+    own = Rights(subscribe=(*cycles, *diagnoses), request=(*asked, *told))
     return Profile("/observe", (Kind.NODE_WITHOUT_PARAMETERS, Kind.OBSERVER), own)
 
 
