@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cellc.compiler.cell.device import Device
 from cellc.compiler.deploy.computers import computers
 from cellc.compiler.deploy.enabling import answers_when_powered, enabled_in, has_drives
 from cellc.compiler.deploy.gate_motion import Values, speed_of
-from cellc.compiler.deploy.observation import readings
 from cellc.compiler.deploy.processes import adapted_devices
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.urdf.hardware import credentials
@@ -91,20 +89,13 @@ def stopping_devices(graph: CellGraph) -> Iterator[Values]:
         safety = device.procedures.safety
         for gate in GateCode:
             stops = [state for state in safety.states if state.stops and state.gate is gate and state.reported]
-            if stops and device.name not in adapted and not (gate is GateCode.G4 and is_read(graph, device)):
+            if stops and device.name not in adapted:
                 echoes = (
                     f"timeout 10 ros2 topic echo --once {field and f'--field {field} '}{shell_word(topic)}"
                     for topic, field in safety.topics
                 )
                 states = ", ".join(f"{state.name} ({state.reported})" for state in stops)
                 yield device.name, states, "\n".join(echoes), gate
-
-
-def is_read(graph: CellGraph, device: Device) -> bool:
-    """Whether the program that compares the graph judges at G4 in which state a device says that it is."""
-    return any(
-        reading.device == device.name and GateCode.G4.value in reading.expected for reading in readings(graph.cell)
-    )
 
 
 def read_states(graph: CellGraph) -> Iterator[Values]:
@@ -129,11 +120,7 @@ def ready_states(graph: CellGraph) -> Iterator[Values]:
     adapted = adapted_devices(graph.cell)
     for device in graph.cell.devices:
         states = (state for state in device.procedures.safety.states if not state.stops and state.reported)
-        if (
-            device.name not in adapted
-            and not is_read(graph, device)
-            and (shown := "; ".join(f"{state.name} ({state.reported})" for state in states))
-        ):
+        if device.name not in adapted and (shown := "; ".join(f"{state.name} ({state.reported})" for state in states)):
             yield device.name, shown
 
 
