@@ -5,10 +5,11 @@ from __future__ import annotations
 import ast
 import json
 import math
+import os
 import platform
 import re
-import shutil
 import sys
+import time
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -545,12 +546,12 @@ def test_an_hour_of_recording_must_fit(tmp_path: Path, monkeypatch: pytest.Monke
     for name in (_STATES, _POSE):
         seen.streams[name].size = 453 * len(seen.streams[name].arrivals)
     # 500 Hz and 10 Hz of 453 byte each, with 31 for the record of MCAP and 16 for its index: 510 * 500 byte/s.
-    free = {"free": 510 * 500 * 3600}
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: SimpleNamespace(**free))
+    free = {"blocks": 510 * 500 * 3600}
+    monkeypatch.setattr(os, "statvfs", lambda _: SimpleNamespace(f_bavail=free["blocks"], f_frsize=1))
     line = space(package, seen, tmp_path, "G4")
     assert (line.part, line.verdict, line.seen) == ("host", PASSED, "0.918 GB free")
     assert "15.3 MB a minute" in line.expected
-    free["free"] -= 1
+    free["blocks"] -= 1
     assert space(package, seen, tmp_path, "G4").verdict == FAILED
     seen.streams.pop(_POSE)
     assert space(package, seen, tmp_path, "G4").verdict == UNKNOWN
@@ -577,6 +578,31 @@ def test_nodes_that_nobody_declared_and_types_that_are_not_installed_are_unknown
         (UNKNOWN, "nodes beside the package", "/joystick"),
         (UNKNOWN, "/object_pose", "geometry_msgs/msg/PoseStamped is not installed here"),
     ]
+
+
+def test_observers_of_several_computers_may_look_at_the_same_time(tmp_path: Path) -> None:
+    package = package_of("ur5e_pick", "real", tmp_path)
+    seen = right(package, "G4")
+    seen.nodes += ["/observe", "/observe"]
+    assert [line for line in comparisons(package, seen, "G4") if line.verdict != PASSED] == []
+
+
+def test_reports_that_are_written_in_the_same_second_are_both_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = package_of("ur5e_pick", "real", tmp_path)
+    seconds = [1764331200.0]
+    clock = SimpleNamespace(
+        strftime=time.strftime,
+        gmtime=lambda: time.gmtime(seconds[0]),
+        sleep=lambda for_s: seconds.append(seconds.pop() + for_s),
+    )
+    monkeypatch.setattr(observe_program, "time", clock)
+    for host in ("control_pc", "planner_pc"):
+        asked = {"gate": "G4", "target": "real", "host": host, "seconds": 1.0}
+        observe_program.leave([Line("graph", "/x", PASSED, "", "")], tmp_path, package, asked)
+    names = sorted(file.name for file in tmp_path.glob("observe-G4-*.json"))
+    assert names == ["observe-G4-20251128T120000Z.json", "observe-G4-20251128T120001Z.json"]
 
 
 def test_what_a_later_gate_starts_is_due_from_then_on(tmp_path: Path) -> None:
@@ -713,7 +739,7 @@ def test_a_diagnosis_goes_to_the_manager_that_it_names(monkeypatch: pytest.Monke
 
 def test_stamp_and_frame_are_read_from_a_serialized_message() -> None:
     store = get_typestore(Stores.ROS2_JAZZY)
-    time, header, joints = (
+    stamps, header, joints = (
         store.types[name]
         for name in (
             "builtin_interfaces/msg/Time",
@@ -721,7 +747,7 @@ def test_stamp_and_frame_are_read_from_a_serialized_message() -> None:
             "sensor_msgs/msg/JointState",
         )
     )
-    stamped = header(stamp=time(sec=1_700_000_000, nanosec=250_000_000), frame_id="camera_frame")
+    stamped = header(stamp=stamps(sec=1_700_000_000, nanosec=250_000_000), frame_id="camera_frame")
     nothing = np.zeros(0)
     message = joints(header=stamped, name=["a"], position=np.ones(1), velocity=nothing, effort=nothing)
     data = bytes(store.serialize_cdr(message, "sensor_msgs/msg/JointState"))

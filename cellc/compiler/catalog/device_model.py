@@ -259,7 +259,7 @@ class DeviceModel(CatalogModel):
         robot: What can be set in the robot's own controller.
         plug: What the device takes from the tool connector of a robot.
         record: Where the record of a real attempt has the state of the device from.
-        readings: What topics and services of the running device say of it, and what the gates expect.
+        readings: What topics and services of the running device report, and what the gates expect.
         commissioning: What people do at the real device in each gate.
         versions: Versions of driver, library, description and firmware that go together.
         mock_cannot_prove: What only the real device shows, one sentence each; it is listed in the audit.

@@ -154,7 +154,7 @@ class Procedures(Part):
 
     Args:
         record: where the record of an attempt has fields from that the real one alone can tell.
-        readings: what its topics and services say of it.
+        readings: what its topics and services report.
         jog: how people move one joint by hand; None where no source says.
         jog_begins, jog_ends: what they do before it, and then, before the driver is started again.
         driver_runs: the driver reads positions meanwhile.

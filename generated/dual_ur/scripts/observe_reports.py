@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import math
-import shutil
+import os
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -127,7 +127,7 @@ def _rate(node: str, rate: float, found: Cycles) -> Line:
 
 
 def _number(text: str | None) -> float:
-    """Return the number of a text; not a number where it is none."""
+    """Return the number of a text; NaN where it has another form."""
     try:
         return float(text or "")
     except ValueError:
@@ -268,7 +268,8 @@ def space(package: Package, seen: Seen, folder: Path, gate: str) -> Line:
     other = len(package.plan["recorded"]) - len(rated)
     sizes = {name: _byte_rate(interfaces[name]["rate_hz"], seen.streams.get(name), seen.listened_s) for name in rated}
     unknown = [name for name, rate in sizes.items() if rate is None and is_published(package, name, gate)]
-    free = shutil.disk_usage(folder).free
+    disk = os.statvfs(folder)
+    free = disk.f_bavail * disk.f_frsize
     needed = sum(rate for rate in sizes.values() if rate is not None) * RECORDED_S
     expected = (
         f"room for an hour of recording, {needed / 60e6:.4g} MB a minute without {other} topics of no stated rate"

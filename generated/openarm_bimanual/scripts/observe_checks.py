@@ -173,7 +173,8 @@ def listed(names: Iterable[str]) -> str:
 
 def nodes(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     """Compare which nodes run: one of a name, and none that the package does not start."""
-    several = [f"{node} runs {number} times" for node, number in Counter(seen.nodes).items() if number > 1]
+    of_cell = Counter(node for node in seen.nodes if not BESIDE.fullmatch(node))  # each host has an observer
+    several = [f"{node} runs {number} times" for node, number in of_cell.items() if number > 1]
     yield judged("graph", "node names", "each once", several)
     known = set(package.plan["nodes"])
     other = {node for node in seen.nodes if owner(node, package.plan) not in known and not BESIDE.fullmatch(node)}
