@@ -540,6 +540,13 @@ def test_what_no_device_says_and_no_manager_reports_is_unknown(tmp_path: Path) -
         assert "is not installed here" in lines[subject].seen
 
 
+def test_of_a_graph_that_is_not_there_nothing_is_said_to_be_right(tmp_path: Path) -> None:
+    package = package_of("ur5e_pick", "real", tmp_path)
+    lines = [line for line in comparisons(package, Seen(listened_s=_FOR_S), "G4") if line.part in ("control", "vendor")]
+    assert len(lines) > 8
+    assert {line.verdict for line in lines} == {UNKNOWN}
+
+
 def test_an_hour_of_recording_must_fit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package = package_of("ur5e_pick", "real", tmp_path)
     seen = right(package, "G4")

@@ -154,8 +154,8 @@ def clocks(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     simulated = [f"{node} takes its time from /clock" for node, answer in asked.items() if _is_simulated(answer)]
     silent = [node for node, answer in asked.items() if answer is None]
     line = judged("control", "use_sim_time", "false at every node", simulated, f"false at {len(asked)} nodes")
-    if silent and not simulated:
-        line = Line("control", "use_sim_time", UNKNOWN, line.expected, f"no answer of {listed(silent)}")
+    if not simulated and (silent or not asked):
+        line = Line("control", "use_sim_time", UNKNOWN, line.expected, f"no answer of {listed(silent or ['any node'])}")
     yield line
 
 
