@@ -183,6 +183,39 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
     "gates {} --sweep 9": _of_a_folder(2, NOTHING_DRAWN),
     "show {}": (*_SPEC, (1, FOLDER)),
     "upgrade {} --ros jazzy": tuple((2, said) for _, said in (*_SPEC, (1, FOLDER))),
+    "view picked --bag {} -o page.html": (
+        (2, NO_BAG),
+        (2, "no such file or folder"),
+        (2, NO_BAG_FILE),
+        (2, "no such file or folder"),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+    ),
+    "view {} --bag good -o page.html": (
+        (2, NOT_BUILT),
+        (2, "there is no such file or folder"),
+        (2, "a bag is read with a package, and there is none"),
+        (2, "there is no such file or folder"),
+        (2, "a bag is read with a package, and there is none"),
+        (2, "a bag is read with a package, and there is none"),
+        (0, "wrote page.html"),
+        (2, "a bag is read with a package, and there is none"),
+        (0, "wrote page.html"),
+    ),
+    "view picked --bag good --against {} -o page.html": (
+        (2, NO_BAG),
+        (2, "`{}` must be a bag, a file of records or a rehearsal of the package; it has `pick_and_place`"),
+        (2, NO_BAG_FILE),
+        (2, "`{}` must be a bag, a file of records or a rehearsal of the package; it has `pick_and_place`"),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+        (2, NO_BAG_FILE),
+        (2, NO_BAG),
+    ),
     "view {} -o page.html": (
         (2, NOT_BUILT),
         (2, "there is no such file or folder"),
@@ -236,6 +269,23 @@ def test_what_is_named_by_mistake_is_told_in_one_line(
     assert "bug of cellc" not in told
     if ran.code == 1 and "error[" in told and given != "arm/device.yaml":
         assert told.count("error[") == 1, told
+
+
+WRITTEN = {"--output", "--sarif", "--records", "--evidence"}
+"""Options that name what is written: test_bad_outputs.py."""
+NAMED = {"import --srdf", "import --controllers", "sweep --journal", "replay --journal", "gates --journal"}
+"""Options whose files belong to a run, or to a robot: their own tests."""
+
+
+def test_every_option_that_names_a_path_to_read_stands_in_the_table() -> None:
+    context = click.Context(cellc)
+    for name in cellc.list_commands(context):
+        command = cellc.get_command(context, name)
+        assert command is not None
+        for option in (each for each in command.params if isinstance(each, click.Option)):
+            call = f"{name} {option.opts[-1]}"
+            if isinstance(option.type, click.Path) and option.opts[-1] not in WRITTEN and call not in NAMED:
+                assert any(row.startswith(f"{name} ") and f"{option.opts[-1]} {{}}" in row for row in ROWS), call
 
 
 def test_every_command_that_takes_a_path_stands_in_the_table() -> None:

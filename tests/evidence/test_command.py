@@ -106,6 +106,14 @@ def test_the_page_is_alone_and_has_a_line_to_sign_for_every_gate(whole: Path) ->
     assert page.text.count("Signature") == 14
 
 
+def test_each_sheet_says_of_which_configuration_it_is_and_how_many_there_are(whole: Path) -> None:
+    text = run("evidence", whole.as_posix(), *PACKAGE, "--format", "html").out
+    manifest = json.loads((generated("ur5e_pick") / "manifest.json").read_text(encoding="utf-8"))
+    foot = text[text.index("@bottom-left") :]
+    assert foot.startswith(f'@bottom-left {{ content: "ur5e_pick, {manifest["configuration_id"]}" }}')
+    assert 'counter(page) " of " counter(pages)' in foot
+
+
 def test_the_same_folder_gives_the_same_bytes(whole: Path) -> None:
     for form in ("text", "json", "html"):
         words = ("evidence", whole.as_posix(), *PACKAGE, "--format", form)

@@ -48,6 +48,7 @@ CALLS = (
     ("gates nothing", 2, "error: nothing: no such folder"),
     ("mock cells --matrix ros=jazzy --cluster tcp://127.0.0.1:1", 2, CLUSTER),
     (f"attempt bag.mcap --package {BUILT}", 2, BAGS),
+    (f"view {BUILT} --bag bag.mcap", 2, BAGS),
     ("attempt --help", 0, "print its record and the layer"),
     (f"evidence {BUILT} --package {BUILT}", 1, "14 gates: 0 complete"),
     ("evidence nothing", 2, "error: nothing: no such folder"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.attempt import PacketStep
@@ -65,6 +65,24 @@ class Comparison:
     measures: tuple[Paired, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Parting:
+    """Where both sides part at a step, numbered from 1.
+
+    Attributes:
+        what: `outcome`, `time`, `error`, or `not made`.
+        words: both sides.
+    """
+
+    number: int
+    step: Step
+    what: str
+    words: str
+
+    def __str__(self) -> str:
+        return f"step {self.number} `{self.step.name}`: {self.words}"
+
+
 def compare(real: Report, rehearsed: Report, name: str) -> Comparison:
     """Compare an attempt with a rehearsal of the same steps."""
     mine, theirs = ([_side(report, each) for each in report.attempts[:-1]] for report in (real, rehearsed))
@@ -73,7 +91,7 @@ def compare(real: Report, rehearsed: Report, name: str) -> Comparison:
         Step(step, mine[at] if at < len(mine) else None, theirs[at] if at < len(theirs) else None)
         for at, step in enumerate(names)
     )
-    parted = tuple(line for number, step in enumerate(steps, start=1) for line in _parted(number, step))
+    parted = tuple(map(str, partings(steps)))
     known = {(each.name, each.of): each for each in rehearsed.measures}
     measures = tuple(Paired(each, known.get((each.name, each.of))) for each in real.measures)
     return Comparison(name, parted, steps, measures)
@@ -95,29 +113,35 @@ def _followed(manager: ContractManager) -> Iterator[str]:
     yield from (name for name, facts in manager.controllers.items() if facts.behavior in TRAJECTORIES)
 
 
-def _parted(number: int, step: Step) -> Iterator[str]:
-    place = f"step {number} `{step.name}`"
+def partings(steps: Sequence[Step]) -> Iterator[Parting]:
+    """Yield where both sides part, in the order of the steps."""
+    for number, step in enumerate(steps, start=1):
+        yield from (Parting(number, step, what, words) for what, words in _parted(step))
+
+
+def _parted(step: Step) -> Iterator[tuple[str, str]]:
     real, rehearsed = step.real, step.rehearsed
     if real is None or rehearsed is None:
-        yield f"{place}: {_outcome(real)}, rehearsed {_outcome(rehearsed)}"
+        yield NOT_MADE, f"{_outcome(real)}, rehearsed {_outcome(rehearsed)}"
         return
     if real.outcome != rehearsed.outcome:
         at = "" if real.at_s is None else f" at {real.at_s:.3f} s"
-        yield f"{place}: outcome {real.outcome}{at}, rehearsed {rehearsed.outcome}"
+        yield "outcome", f"outcome {real.outcome}{at}, rehearsed {rehearsed.outcome}"
     if real.took_s is not None and rehearsed.took_s is not None:
         apart_s = abs(real.took_s - rehearsed.took_s)
         if apart_s > max(_LATER_S, _LATER_SHARE * max(real.took_s, rehearsed.took_s)):
-            yield f"{place}: time {real.took_s:.3f} s, rehearsed {rehearsed.took_s:.3f} s"
+            yield "time", f"time {real.took_s:.3f} s, rehearsed {rehearsed.took_s:.3f} s"
     if real.error is not None and rehearsed.error is not None:
         larger, smaller = max(real.error, rehearsed.error), min(real.error, rehearsed.error)
         if larger > _ERROR_FACTOR * smaller and larger - smaller > _ERROR:
-            yield f"{place}: error {real.error:.3g} rad or m, rehearsed {rehearsed.error:.3g}"
+            yield "error", f"error {real.error:.3g} rad or m, rehearsed {rehearsed.error:.3g}"
 
 
 STEP_NAMES = ("step", "outcome", "rehearsed", "took, s", "rehearsed, s", "error, rad or m", "rehearsed error")
 MEASURE_NAMES = ("figure", "measured", "rehearsed", "stated", "from")
 
 
+NOT_MADE = "not made"
 _NONE = "–"
 """In place of what a step does not have."""
 
@@ -132,7 +156,7 @@ def step_words(step: Step) -> tuple[str, ...]:
 
 
 def _outcome(side: Side | None) -> str:
-    return "not made" if side is None else side.outcome
+    return NOT_MADE if side is None else side.outcome
 
 
 def _number(value: float | None, form: str) -> str:

@@ -149,7 +149,8 @@ class Follower:
     def __init__(self, contract: Contract, sources: Sources) -> None:
         """Begin before the first message."""
         self.followed = Followed(allowed=sources.observations)
-        self._sources = sources
+        self.contract = contract
+        self.sources = sources
         self._cell = frozenset(joint for each in sources.actions.values() for joint in each.joints)
         self._nodes = {*(each.controller for each in sources.actions.values()), *_components(contract)}
         self._now_ns = 0
@@ -175,16 +176,16 @@ class Follower:
         if isinstance(heard, JointSample):
             self._joint_states(log_ns, topic, heard)
         elif isinstance(heard, ControllerSample):
-            self._controller(self._sources.states.get(topic, ""), heard)
+            self._controller(self.sources.states.get(topic, ""), heard)
         elif isinstance(heard, Edges) and topic == "/tf":
             self._edges |= {child: stamp_ns for stamp_ns, child in heard.edges}
-        elif isinstance(heard, ObservedPose) and topic in self._sources.observations:
-            self._observation(log_ns, self._sources.observations[topic][0], heard.stamp_ns)
-        elif isinstance(heard, GoalStates) and topic in self._sources.actions:
-            self._due.append((log_ns, self._sources.actions[topic], heard))
+        elif isinstance(heard, ObservedPose) and topic in self.sources.observations:
+            self._observation(log_ns, self.sources.observations[topic][0], heard.stamp_ns)
+        elif isinstance(heard, GoalStates) and topic in self.sources.actions:
+            self._due.append((log_ns, self.sources.actions[topic], heard))
         elif isinstance(heard, Statuses):
             self._diagnostics(log_ns, heard)
-        elif isinstance(heard, Fields) and topic in self._sources.watched:
+        elif isinstance(heard, Fields) and topic in self.sources.watched:
             self._needs(log_ns, topic, heard)
         elif isinstance(heard, Said) and (heard.level >= _ERROR or heard.node in self._nodes):
             self._say(log_ns, heard)
@@ -297,7 +298,7 @@ class Follower:
                 self._missed[name] = int(values["missed_cycles"])
 
     def _needs(self, log_ns: int, topic: str, heard: Fields) -> None:
-        for watched in self._sources.watched[topic]:
+        for watched in self.sources.watched[topic]:
             holds, field = watched.holds(heard.values), watched.proof.field or ""
             if holds is None:
                 continue

@@ -67,21 +67,9 @@ def _outcome(attempt: Attempt) -> Element:
 
 
 def _time_axis(report: Report) -> TimeAxis:
-    spans = tuple(span for attempt in report.attempts[:-1] if (span := _span(report, attempt)) is not None)
-    marks = () if report.end.finding is None else (_s(report, report.end.finding.at_ns),)
-    return TimeAxis(0.0, max(_s(report, report.end_ns), 1e-3), marks, spans)
-
-
-def _s(report: Report, at_ns: int) -> float:
-    return (at_ns - report.begin_ns) / 1e9
-
-
-def _span(report: Report, attempt: Attempt) -> tuple[float, float] | None:
-    """Return begin and end of an attempt, as far as the bag shows them."""
-    known = [at for at in (attempt.started_ns, attempt.ended_ns, *attempt.stamps.values()) if at is not None]
-    begin = attempt.started_ns if attempt.started_ns is not None else min(known, default=None)
-    end = attempt.ended_ns if attempt.ended_ns is not None else max(known, default=None)
-    return None if begin is None or end is None else (max(0.0, _s(report, begin)), _s(report, end))
+    spans = tuple(span for attempt in report.attempts[:-1] if (span := report.span_s(attempt)) is not None)
+    marks = () if report.end.finding is None else (report.since_begin_s(report.end.finding.at_ns),)
+    return TimeAxis(0.0, max(report.since_begin_s(report.end_ns), 1e-3), marks, spans)
 
 
 def _phases(report: Report, time: TimeAxis) -> Element:
@@ -111,12 +99,12 @@ def _since(begin_ns: int, attempt: Attempt) -> Attempt:
 
 
 def _bars(report: Report, attempt: Attempt) -> Iterator[Bar]:
-    span = _span(report, attempt)
+    span = report.span_s(attempt)
     if span is None:
         return
     begin_s, end_s = span
     good = attempt.outcome is AttemptOutcome.SUCCEEDED
-    goal_s = [_s(report, at) for step, at in attempt.stamps.items() if step.name == "ACCEPTED"]
+    goal_s = [report.since_begin_s(at) for step, at in attempt.stamps.items() if step.name == "ACCEPTED"]
     words = f"{begin_s:.3f} s to {end_s:.3f} s: {attempt.outcome or UNKNOWN}"
     accepted_s = min(max(begin_s, *goal_s), end_s) if goal_s else begin_s
     if accepted_s > begin_s:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from cellc.tools.attempt.bag import BagError, Bags, open_bags
 from cellc.tools.attempt.derive import Deriver
 from cellc.tools.attempt.figures import figures_of
 from cellc.tools.attempt.follow import Followed, Follower
-from cellc.tools.attempt.heard import Decoder
+from cellc.tools.attempt.heard import Decoder, Heard
 from cellc.tools.attempt.measures import MeasureBuilder
 from cellc.tools.attempt.record import Report
 from cellc.tools.attempt.signals import SignalBuilder
@@ -23,6 +23,9 @@ from cellc.tools.attempt.topics import Sources, sources_of
 
 _OFTEN = 5_000
 """Messages after which the progress is shown."""
+
+
+Listen = Callable[[int, Heard], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,12 +48,14 @@ def read_attempt(
     watches: Sequence[Watch],
     task: str | None,
     drawn: Drawn | None = None,
+    listen: Listen | None = None,
 ) -> Report:
     """Read bags as the record of the task that they are of.
 
     Args:
         task: name of a rehearsal whose steps the task made; that which the bag is named after where it is None.
         drawn: what signals and measures need, where they are wanted too.
+        listen: takes each message too, with its arrival in ns from the begin of the bags on.
 
     Raises:
         BagError: they cannot be read, or are of another cell.
@@ -66,7 +71,7 @@ def read_attempt(
         if drawn is not None:
             measures = MeasureBuilder(contract, sources, drawn.tolerances)
             builders = SignalBuilder(contract, sources, drawn.sliding), measures
-        followed, notes = _follow(bags, contract, sources, builders)
+        followed, notes = _follow(bags, Follower(contract, sources), builders, listen)
     notes = (*notes, *_compare_joints(paths[0], contract, followed, sources))
     told = {controller for topic, controller in sources.states.items() if topic in sources.topics}
     name = None if steps is None else steps.name
@@ -145,15 +150,20 @@ def _compare_joints(path: Path, contract: Contract, followed: Followed, sources:
 
 
 def _follow(
-    bags: Bags, contract: Contract, sources: Sources, builders: tuple[SignalBuilder, MeasureBuilder] | None
+    bags: Bags,
+    follower: Follower,
+    builders: tuple[SignalBuilder, MeasureBuilder] | None,
+    listen: Listen | None,
 ) -> tuple[Followed, tuple[str, ...]]:
-    follower, decoder = Follower(contract, sources), Decoder(bags.definitions, contract.distro)
-    for count, raw in enumerate(bags.messages(sources.topics), start=1):
+    decoder = Decoder(bags.definitions, follower.contract.distro)
+    for count, raw in enumerate(bags.messages(follower.sources.topics), start=1):
         heard = decoder.decode(raw)
         if heard is not None:
             follower.take(raw.log_ns, raw.topic, heard)
+            begin_ns = follower.followed.begin_ns
+            if listen is not None:
+                listen(raw.log_ns - begin_ns, heard)
             if builders is not None:
-                begin_ns = follower.followed.begin_ns
                 builders[0].take(raw.log_ns - begin_ns, raw.topic, heard, begin_ns)
                 builders[1].take(raw.log_ns, raw.topic, heard)
         if count % _OFTEN == 0:

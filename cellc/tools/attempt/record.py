@@ -98,6 +98,17 @@ class Report:
         """The attempt that sums up."""
         return self.attempts[-1]
 
+    def since_begin_s(self, at_ns: int) -> float:
+        """Return an instant in s from the begin of the bag on."""
+        return (at_ns - self.begin_ns) / 1e9
+
+    def span_s(self, attempt: Attempt) -> tuple[float, float] | None:
+        """Return begin and end of an attempt, as far as the bag shows them, in s from its begin on."""
+        known = [at for at in (attempt.started_ns, attempt.ended_ns, *attempt.stamps.values()) if at is not None]
+        begin = attempt.started_ns if attempt.started_ns is not None else min(known, default=None)
+        end = attempt.ended_ns if attempt.ended_ns is not None else max(known, default=None)
+        return None if begin is None or end is None else (max(0.0, self.since_begin_s(begin)), self.since_begin_s(end))
+
 
 def to_json(report: Report) -> str:
     """Return the report as JSON, with the word UNKNOWN in each place that the bag does not show."""

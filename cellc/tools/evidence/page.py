@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -14,6 +15,7 @@ from cellc.tools.evidence.folder import Unread
 from cellc.tools.evidence.report import GateState, Piece, Report, Status, named
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'"
+_NO_STYLE = re.compile(r"[^A-Za-z0-9_, -]")
 _CLASSES = {Status.PASSED: "good", Status.COMPLETE: "good", Status.FAILED: "bad", Status.TO_READ: "hint"}
 
 
@@ -30,8 +32,15 @@ def to_html(report: Report) -> str:
         *_beside(report),
         _colophon(),
     )
-    own = own_text(Path(__file__).with_name("page.css"))
+    own = own_text(Path(__file__).with_name("page.css")) + _foot(report)
     return to_page(f"{report.cell}: evidence of the gates", style() + own, tag("body", main), policy=_POLICY)
+
+
+def _foot(report: Report) -> str:
+    """Return the style of the foot of each sheet: a loose one says of which cell and configuration it is."""
+    whose = _NO_STYLE.sub("?", f"{report.cell}, {report.configuration_id}")
+    left, right = f'content: "{whose}"', 'content: counter(page) " of " counter(pages)'
+    return f"@media print {{ @page {{ @bottom-left {{ {left} }} @bottom-right {{ {right} }} }} }}\n"
 
 
 def _header(report: Report) -> Element:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from cellc.contract.diagnostics import Severity, YamlPath
 from cellc.contract.diagnostics.diagnostic import format_path
@@ -13,7 +14,12 @@ from cellc.tools.view.playback import Run
 from cellc.tools.view.scene import Scene, scene_of
 from cellc.tools.view.skeleton import Skeleton
 from cellc.tools.view.standing import Standing
-from cellc.tools.view.subject import Subject, read_subject
+from cellc.tools.view.subject import Subject, ViewError, read_subject
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from cellc.tools.view.attempt import Viewed
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +37,7 @@ class Content:
     Attributes:
         scene: None where nothing of the spec can be linked.
         not_drawn: what the cell names and the drawing does not have, each with the reason.
+        attempt: what was read from bags, where bags were named; its runs are those of the page.
     """
 
     subject: Subject
@@ -38,6 +45,7 @@ class Content:
     runs: tuple[Run, ...]
     not_drawn: tuple[tuple[str, str], ...] = ()
     before: Before | None = None
+    attempt: Viewed | None = None
 
 
 def content_of(subject: Subject, rehearsals: Sequence[str], seed: int) -> Content:
@@ -67,6 +75,32 @@ def content_of(subject: Subject, rehearsals: Sequence[str], seed: int) -> Conten
             update(f"rehearsal {name}")
             runs.append(play(cell, name, skeleton, seed))
     return Content(subject, scene, tuple(runs), absent)
+
+
+def attempt_content(
+    subject: Subject, bags: tuple[Path, ...], task: str | None, against: str | None, seed: int
+) -> Content:
+    """Compute what is shown of an attempt that was recorded in a cell.
+
+    Args:
+        task: rehearsal whose steps the task made; that which the bag is named after where it is None.
+        against: a rehearsal, a bag or a file of records to compare with; the rehearsal of the task where it is None.
+
+    Raises:
+        BagError: a bag cannot be read, or is of another cell.
+        MockError: what it is compared with cannot be run.
+        ViewError: there is no package to read it with.
+    """
+    if subject.standing is None or subject.folder is None:
+        raise ViewError(f"{subject.name}: a bag is read with a package, and there is none; `cellc check` says why")
+    # Readers of bags load where there is one.
+    from cellc.tools.view.attempt import viewed
+
+    skeleton = Skeleton(subject.standing)
+    scene = scene_of(subject.standing, subject.views, skeleton)
+    absent = (*_not_drawn(subject, _shown(subject.standing, scene)), *scene.left_out)
+    attempt = viewed(subject.folder, skeleton, bags, task, against, seed)
+    return Content(subject, scene, attempt.runs, absent, attempt=attempt)
 
 
 def before_of(other: str, path: str) -> Before:

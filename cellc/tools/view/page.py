@@ -18,8 +18,9 @@ from xml.etree.ElementTree import Element
 from cellc.contract.diagnostics.diagnostic import counted
 from cellc.contract.store.regular_file import own_bytes, own_text
 from cellc.mock.report_page.html import Child, pairs, section, tag, to_page
+from cellc.tools.view.attempt_section import attempt_facts, attempt_section
 from cellc.tools.view.content import Content
-from cellc.tools.view.scene import Scene
+from cellc.tools.view.playback import Run
 from cellc.tools.view.sections import (
     absent_section,
     changes_section,
@@ -37,6 +38,7 @@ _LAYERS = (
     ("goals", "goals", True),
     ("cones", "fields of view", False),
     ("before", "its pose before", True),
+    ("ghost", "the ghost beside it", True),
 )
 _LOOKS = ("around", "front", "side", "above")
 _CAPTIONS = {
@@ -60,7 +62,8 @@ def to_html(content: Content, library: str | None) -> str:
     body = tag("body", main, *([data] if scripts else []))
     for text in scripts:
         body.append(_with_text("script", text))
-    return to_page(f"{content.subject.name}: the cell", style, body, policy=_policy(style, scripts))
+    shown = "the cell" if content.attempt is None else "an attempt, played back"
+    return to_page(f"{content.subject.name}: {shown}", style, body, policy=_policy(style, scripts))
 
 
 _ARCHIVE, _TEMPLATE = "resources/templates/viewer.zip", "viewer.html.template"
@@ -135,13 +138,16 @@ def _parts(content: Content, *, drawn: bool) -> Iterator[Element]:
     subject, folder = content.subject, content.subject.folder
     yield _header(content)
     if content.scene is not None and drawn:
-        yield _stage(content.scene, compared=content.before is not None)
+        yield _stage(content)
+    if content.attempt is not None:
+        yield attempt_section(content.attempt)
     if content.not_drawn:
         yield absent_section(content.not_drawn)
     if content.before is not None:
         yield changes_section(content.before.review)
-    if content.runs:
-        yield rehearsals_section(content.runs)
+    rehearsals = _rehearsals(content)
+    if rehearsals:
+        yield rehearsals_section(rehearsals, len(content.runs) - len(rehearsals))
     if subject.findings is not None:
         yield findings_section(subject.findings)
     if folder is not None:
@@ -150,15 +156,23 @@ def _parts(content: Content, *, drawn: bool) -> Iterator[Element]:
         yield gates_section(folder.contract)
 
 
+def _rehearsals(content: Content) -> tuple[Run, ...]:
+    """Return the runs that the mock made: the last ones."""
+    return content.runs if content.attempt is None else content.runs[len(content.runs) - content.attempt.rehearsals :]
+
+
 def _header(content: Content) -> Element:
     subject, folder = content.subject, content.subject.folder
     contract = None if folder is None else folder.contract
-    facts = [] if contract is None else [("configuration", contract.configuration_id), ("ROS 2", contract.distro.value)]
+    facts: list[tuple[str, Child]] = (
+        [] if contract is None else [("configuration", contract.configuration_id), ("ROS 2", contract.distro.value)]
+    )
     facts += [] if subject.findings is None else [("findings", counted(subject.findings.diagnostics))]
+    facts += [] if content.attempt is None else list(attempt_facts(content.attempt))
     notes = [*(() if folder is None else folder.notes), *_drawn_less(content)]
     return tag(
         "header",
-        tag("p", "Robot cell", class_="kicker"),
+        tag("p", "Robot cell" if content.attempt is None else "Attempt, played back from a bag", class_="kicker"),
         tag("h1", subject.name),
         *([] if contract is None else [tag("p", contract.summary, class_="summary")]),
         pairs(facts, "facts"),
@@ -180,11 +194,13 @@ def _drawn_less(content: Content) -> Iterator[str]:
 
 
 def _places(content: Content) -> Iterator[tuple[str, str]]:
+    if content.attempt is not None:
+        yield "attempt", "Attempt"
     if content.not_drawn:
         yield "absent", "Not drawn"
     if content.before is not None:
         yield "changes", "Changes"
-    if content.runs:
+    if _rehearsals(content):
         yield "rehearsals", "Rehearsals"
     if content.subject.findings is not None:
         yield "findings", "Findings"
@@ -200,10 +216,11 @@ def _pictures(pictures: Mapping[str, str]) -> Iterator[Element]:
         yield section(title, tag("figure", tag("div", tag("img", src=source, alt=words), class_="wide")), id_=id_)
 
 
-def _stage(scene: Scene, *, compared: bool) -> Element:
+def _stage(content: Content) -> Element:
     drawing = tag("div", tag("div", class_="labels"), tag("p", class_="picked"), class_="drawing")
+    offered = _offered(content)
     looks = [tag("button", name, type="button", data_look=name) for name in _LOOKS]
-    layers = [_layer(name, words, checked) for name, words, checked in _LAYERS if name in _offered(scene, compared)]
+    layers = [_layer(name, words, checked) for name, words, checked in _LAYERS if name in offered]
     controls = tag(
         "div",
         *_titled("Look", tag("div", *looks, class_="buttons")),
@@ -215,6 +232,7 @@ def _stage(scene: Scene, *, compared: bool) -> Element:
     time = tag(
         "div",
         tag("div", class_="line"),
+        *([tag("div", class_="line ghost")] if "ghost" in offered else []),
         tag("input", type="range", aria_label="time of the rehearsal"),
         tag("div", class_="marks"),
         class_="time",
@@ -226,14 +244,15 @@ def _stage(scene: Scene, *, compared: bool) -> Element:
     return tag("div", drawing, controls, player, id="stage")
 
 
-def _offered(scene: Scene, compared: bool) -> set[str]:
-    before = {"before"} if compared else set()
-    return (
-        {"frames", "links", "names"}
-        | before
-        | ({"goals"} if scene.goals else set())
-        | ({"cones"} if scene.cones else set())
-    )
+def _offered(content: Content) -> set[str]:
+    scene = content.scene
+    there = {
+        "before": content.before is not None,
+        "ghost": any(run.ghost is not None for run in content.runs),
+        "goals": scene is not None and bool(scene.goals),
+        "cones": scene is not None and bool(scene.cones),
+    }
+    return {"frames", "links", "names", *(name for name, is_there in there.items() if is_there)}
 
 
 def _titled(title: str, content: Element) -> tuple[Element, Element]:

@@ -1,26 +1,25 @@
-"""A rehearsal as it ran on the mock: where every group was when, what was done, and which fault began when."""
+"""What the page plays back: where every group was when, what was done when; and a rehearsal as it ran on the mock."""
 
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cellc.contract.attempt import AttemptRecord
-from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.attempt import AttemptRecord, PacketStep
+from cellc.contract.transforms import Pose
 from cellc.mock.cell import MockCell
 from cellc.mock.control import JointStateBlock
 from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.plant import Plant
-from cellc.mock.result import RehearsalResult
 from cellc.tools.view.scene import Numbers, numbers
 from cellc.tools.view.skeleton import Carried, Skeleton
 
-_STEP_NS = 40_000_000
+STEP_NS = 40_000_000
 """Twenty-five pictures a second; between two of them the page goes on a straight line."""
 _MS = 1_000_000
 _STILL = 1e-5
@@ -30,22 +29,61 @@ _Positions = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
+class Mark:
+    """An instant of the time line, and what it is of."""
+
+    at_s: float
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class Moment:
-    """A span of the time line in s: an attempt at a step and its outcome."""
+    """A span of the time line in s: an attempt at a step and its outcome.
+
+    Attributes:
+        phases: the eight steps of its packet that were made, in the order of time.
+        works: from when to when its goal was executed; empty where it had none.
+    """
 
     from_s: float
     until_s: float
     name: str
     outcome: str
     reason: str
+    phases: tuple[Mark, ...]
+    works: Numbers
 
 
 @dataclass(frozen=True, slots=True)
-class FaultMark:
-    """When a fault began, and what it is."""
+class Apart:
+    """Where a run is farthest from another one within one of its moments.
+
+    Attributes:
+        far_m: between the places of the group in both.
+        name: of the group.
+    """
 
     at_s: float
+    far_m: float
     name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Ghost:
+    """Another run that is drawn translucent beside one.
+
+    Attributes:
+        run: its number on the page.
+        shift_s: time of the run at which the other begins.
+        apart: for each moment of the run; empty where one of both has no picture.
+        marks: where both part.
+    """
+
+    run: int
+    name: str
+    shift_s: float
+    apart: tuple[Apart, ...]
+    marks: tuple[Mark, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,26 +96,30 @@ class Track:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A rehearsal to play back.
+    """A rehearsal, or an attempt that was recorded, to play back.
 
     Attributes:
         times: of the pictures, s; none where the cell never started.
         base: seven numbers for each group as the run begins.
         tracks: of the groups that moved.
         reason: why it ended as it did.
+        expected: of a rehearsal, as `passed` and `faults` are.
+        ghost: what an attempt is shown beside.
     """
 
     name: str
     outcome: str
-    expected: str
-    passed: bool
     reason: str
     end_s: float
     times: Numbers
     base: Numbers
     tracks: tuple[Track, ...]
     moments: tuple[Moment, ...]
-    faults: tuple[FaultMark, ...]
+    expected: str = ""
+    passed: bool = True
+    faults: tuple[Mark, ...] = ()
+    recorded: bool = False
+    ghost: Ghost | None = None
 
 
 class _Listener:
@@ -96,8 +138,8 @@ class _Listener:
 
     def joint_states(self, manager: str, controller: str, block: JointStateBlock) -> None:
         rows = self.rows.setdefault((manager, controller), [])
-        slots = block.stamps_ns // _STEP_NS
-        last = rows[-1][0] // _STEP_NS if rows else -1
+        slots = block.stamps_ns // STEP_NS
+        last = rows[-1][0] // STEP_NS if rows else -1
         for index in np.flatnonzero(np.diff(slots, prepend=last)).tolist():
             taken = dict(zip(block.names, block.positions[index].tolist(), strict=True))
             rows.append((int(block.stamps_ns[index]), taken))
@@ -112,18 +154,31 @@ def play(cell: MockCell, name: str, skeleton: Skeleton, seed: int) -> Run:
     heard: list[_Listener] = []
     entry = cell.entry(name)
     result = cell.rehearse(entry, seed=seed, watch=lambda plant: heard.append(_Listener(plant)))
-    if not heard:
-        return _run(entry.faults, result, (), [], 0.0)
-    plant, end_ns = heard[0].plant, heard[0].plant.now_ns
-    joints = _joints(heard[0])
-    world = plant.world
-    handed_over = [placed.from_ns for name in world.objects() for placed in world.placements(name)[1:]]
-    times = _kept(joints, handed_over, end_ns)
-    postures = [
-        tuple(numbers(pose) for pose in skeleton.posture(_at(joints, time_ns), _carried(plant, time_ns)))
-        for time_ns in times
-    ]
-    return _run(entry.faults, result, [time_ns / 1e9 for time_ns in times], postures, end_ns / 1e9)
+    times: list[int] = []
+    postures: list[tuple[Pose, ...]] = []
+    if heard:
+        plant = heard[0].plant
+        joints, world = _joints(heard[0]), plant.world
+        handed_over = [placed.from_ns for name in world.objects() for placed in world.placements(name)[1:]]
+        times = _kept(joints, handed_over, plant.now_ns)
+        postures = [skeleton.posture(_at(joints, time_ns), _carried(plant, time_ns)) for time_ns in times]
+    return replace(
+        run_of(
+            result.name,
+            result.outcome.value,
+            result.reason,
+            [_moment(record) for record in result.attempts[:-1]],
+            [time_ns / 1e9 for time_ns in times],
+            postures,
+            heard[0].plant.now_ns / 1e9 if heard else 0.0,
+        ),
+        expected=result.expected.value,
+        passed=result.passed,
+        faults=tuple(
+            Mark(round(at, 3), f"{fault.kind.value.replace('_', ' ')} {fault.target}")
+            for at, fault in fault_times(entry.faults, result.attempts)
+        ),
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +205,7 @@ def _joints(heard: _Listener) -> list[_Signal]:
 
 def _kept(joints: Sequence[_Signal], handed_over: Sequence[int], end_ns: int) -> list[int]:
     """Return the times of the pictures: a picture between two equal ones is left out."""
-    times = np.arange(0, end_ns + _STEP_NS, _STEP_NS)
+    times = np.arange(0, end_ns + STEP_NS, STEP_NS)
     times[-1] = end_ns
     table = np.array([np.interp(times, joint.stamps_ns, joint.positions) for joint in joints]).reshape(
         len(joints), len(times)
@@ -175,33 +230,44 @@ def _carried(plant: Plant, time_ns: int) -> Carried:
     return carried
 
 
-def _run(
-    faults: Sequence[FaultEntry],
-    result: RehearsalResult,
+def run_of(
+    name: str,
+    outcome: str,
+    reason: str,
+    moments: Sequence[Moment],
     times: Sequence[float],
-    postures: Sequence[Sequence[Numbers]],
+    postures: Sequence[Sequence[Pose]],
     end_s: float,
 ) -> Run:
-    first = postures[0] if postures else ()
-    moving = [number for number in range(len(first)) if any(row[number] != first[number] for row in postures)]
+    """Return a run of pictures at some times, in s; a group that never moves is in the first of them alone."""
+    rows = [tuple(numbers(pose) for pose in posture) for posture in postures]
+    first = rows[0] if rows else ()
+    moving = [number for number in range(len(first)) if any(row[number] != first[number] for row in rows)]
     return Run(
-        name=result.name,
-        outcome=result.outcome.value,
-        expected=result.expected.value,
-        passed=result.passed,
-        reason=result.reason,
+        name=name,
+        outcome=outcome,
+        reason=reason,
         end_s=round(end_s, 3),
         times=tuple(round(time, 3) for time in times),
         base=tuple(value for pose in first for value in pose),
-        tracks=tuple(Track(number, tuple(value for row in postures for value in row[number])) for number in moving),
-        moments=tuple(_moment(record) for record in result.attempts[:-1]),
-        faults=tuple(
-            FaultMark(round(at, 3), f"{fault.kind.value.replace('_', ' ')} {fault.target}")
-            for at, fault in fault_times(faults, result.attempts)
-        ),
+        tracks=tuple(Track(number, tuple(value for row in rows for value in row[number])) for number in moving),
+        moments=tuple(moments),
     )
 
 
+def moment_of(
+    span_s: tuple[float, float], name: str, outcome: str, reason: str, stamps_s: Mapping[PacketStep, float]
+) -> Moment:
+    """Return a moment of a step; an instant outside its span is at its begin or its end."""
+    from_s, until_s = span_s
+    within = {step: round(min(max(at_s, from_s), until_s), 3) for step, at_s in stamps_s.items()}
+    phases = tuple(Mark(at_s, step.value) for step, at_s in sorted(within.items(), key=lambda each: each[1]))
+    ends = [within[step] for step in (PacketStep.ACCEPTED, PacketStep.RETURNED) if step in within]
+    works = tuple(ends) if len(ends) == 2 else ()
+    return Moment(round(from_s, 3), round(until_s, 3), name, outcome, reason, phases, works)
+
+
 def _moment(record: AttemptRecord) -> Moment:
-    from_s, until_s = record.started_ns / 1e9, record.ended_ns / 1e9
-    return Moment(round(from_s, 3), round(until_s, 3), record.step, record.outcome.value, record.fault_code)
+    span_s = record.started_ns / 1e9, record.ended_ns / 1e9
+    stamps_s = {step: at_ns / 1e9 for step, at_ns in record.stamps.items()}
+    return moment_of(span_s, record.step, record.outcome.value, record.fault_code, stamps_s)

@@ -103,8 +103,8 @@ def changes_section(review: Review) -> Element:
 _GRADES = {Grade.SAFE: "good", Grade.REVIEW: "unknown", Grade.DANGEROUS: "bad"}
 
 
-def rehearsals_section(runs: Sequence[Run]) -> Element:
-    """Return how each rehearsal ended, with a button that plays it back."""
+def rehearsals_section(runs: Sequence[Run], first: int = 0) -> Element:
+    """Return how each rehearsal ended, with a button that plays it back; the first one is a run of this number."""
     names = ("", "rehearsal", "outcome", "expected", "faults", "why")
     rows = [
         (
@@ -115,7 +115,7 @@ def rehearsals_section(runs: Sequence[Run]) -> Element:
             "; ".join(f"{fault.name} at {fault.at_s:.2f} s" for fault in run.faults) or "none",
             run.reason or "–",
         )
-        for number, run in enumerate(runs)
+        for number, run in enumerate(runs, start=first)
     ]
     return section("Rehearsals on the mock", cards(names, rows), id_="rehearsals")
 

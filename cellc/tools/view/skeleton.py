@@ -29,6 +29,7 @@ class Skeleton:
     Attributes:
         groups: name of the first link of each group, and of each dynamic frame that the mock places.
         frames: where each frame of the cell is held; dynamic ones that nothing places are left out.
+        links: of the groups, how many are links: the dynamic frames follow them.
     """
 
     def __init__(self, standing: Standing) -> None:
@@ -45,6 +46,7 @@ class Skeleton:
             if frame.simulated_parent in self._links and frame.simulated_pose is not None
         }
         self.groups: tuple[str, ...] = (*roots, *self._placed)
+        self.links = len(roots)
         self._numbers = {name: number for number, name in enumerate(self.groups)}
         self.frames = dict(self._frames(standing.frames))
 

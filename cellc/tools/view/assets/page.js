@@ -62,14 +62,15 @@ class Drawing {
     this.camera.up.set(0, 0, 1);
     this.model = new CellModel(data.scene);
     const before = data.before && (data.before.meshes.length ? data.before : { ...data.before, meshes: data.scene.meshes });
-    this.before = before ? new CellModel(before, { ghost: true }) : null;
+    const other = before || (data.runs.some((run) => run.ghost) ? data.scene : null);
+    this.ghost = other ? new CellModel(other, { ghost: true }) : null;
     const light = new THREE.DirectionalLight("#ffffff", 0.7);
     light.position.set(0.4, 0.8, 1);
     this.camera.add(light);
     this.scene.add(this.camera, this.model.root, new THREE.HemisphereLight("#ffffff", "#8d97a3", 0.6));
-    if (this.before) {
-      this.scene.add(this.before.root);
-      this.before.hideSame(this.model);
+    if (this.ghost) {
+      this.scene.add(this.ghost.root);
+      this.ghost.hideSame(this.model);
     }
     this.labels = new Labels(place.querySelector(".labels"), this.camera);
     for (const name of ["pointerdown", "wheel", "keydown"]) {
@@ -104,7 +105,7 @@ class Drawing {
     const [right, up, back] = [0, 1, 2].map((column) => new THREE.Vector3().setFromMatrixColumn(camera.matrix, column));
     const tangent = Math.tan((camera.fov * Math.PI) / 360);
     const aspect = this.place.clientWidth / Math.max(1, this.place.clientHeight);
-    const corners = [this.model, this.before].flatMap((model) => model?.corners() ?? []);
+    const corners = [this.model, this.ghost].flatMap((model) => model?.corners() ?? []);
     const distances = [[right, tangent * aspect], [up, tangent]].map(([axis, slope]) => {
       const ends = [1, -1].map((sign) => Math.max(...corners.map((corner) => {
         const away = corner.clone().sub(sphere.center);
@@ -159,17 +160,17 @@ class Drawing {
       for (const mark of marks) mark.visible = layers.has(name);
       if (layers.has(name)) labeled.push(...marks);
     }
-    if (this.before) this.before.root.visible = layers.has("before");
+    if (this.ghost) this.ghost.root.visible = layers.has("before") || layers.has("ghost");
     this.labels.set(named ? labeled : []);
     this.request();
   }
 
   pose(name) {
-    for (const model of [this.model, this.before]) {
+    for (const model of [this.model, this.ghost]) {
       const numbers = model?.postures.get(name);
       if (numbers) model.stand(numbers);
     }
-    this.before?.hideSame(this.model);
+    this.ghost?.hideSame(this.model);
     this.request();
   }
 
@@ -191,7 +192,7 @@ class Drawing {
 class Player {
   constructor(place, drawing) {
     this.drawing = drawing;
-    this.line = place.querySelector(".line");
+    [this.line, this.lower] = place.querySelectorAll(".line");
     this.slider = place.querySelector("input");
     this.button = place.querySelector("button");
     this.marks = place.querySelector(".marks");
@@ -202,9 +203,16 @@ class Player {
     this.slider.addEventListener("input", () => { this.stop(); this.go(Number(this.slider.value)); });
     this.button.addEventListener("click", () => (this.playing ? this.stop() : this.play()));
     for (const link of document.querySelectorAll("[data-run]")) {
-      link.addEventListener("click", () => { this.choose(Number(link.dataset.run)); this.play(); });
+      link.addEventListener("click", () => {
+        this.choose(Number(link.dataset.run));
+        if (link.dataset.at) this.go(Number(link.dataset.at));
+        else this.play();
+        stage.scrollIntoView({ block: "nearest" });
+      });
     }
-    this.choose(0, false);
+    const found = dynamicFrames();
+    this.links = data.scene.groups.flatMap((name, number) => (found.has(name) ? [] : [number]));
+    this.choose(0, data.runs[0].recorded);
   }
 
   choose(number, shown = true) {
@@ -212,22 +220,19 @@ class Player {
     this.run = data.runs[number];
     this.choice.value = number;
     this.playback = new Playback(this.run);
+    this.beside = this.run.ghost ? new Playback(data.runs[this.run.ghost.run]) : null;
+    this.marked = [...this.run.faults, ...(this.run.ghost ? this.run.ghost.marks : [])];
     this.from = this.run.moments.length ? Math.max(0, this.run.moments[0].from_s - 0.2) : 0;
     Object.assign(this.slider, { min: this.from, max: this.run.end_s, step: 0.01 });
     this.slider.disabled = this.button.disabled = !this.run.times.length;
-    this.line.replaceChildren();
-    const share = (time) => `${(100 * (time - this.from)) / Math.max(1e-9, this.run.end_s - this.from)}%`;
-    for (const moment of this.run.moments) {
-      const wide = (moment.until_s - moment.from_s) / (this.run.end_s - this.from) > 0.08;
-      const span = make("span", wide ? moment.name : "", this.line);
-      span.className = moment.outcome === "succeeded" ? "step" : "step bad";
-      span.title = `${moment.name}: ${moment.outcome}${moment.reason ? `, ${moment.reason}` : ""}`;
-      span.style.left = share(moment.from_s);
-      span.style.width = `calc(${share(moment.until_s)} - ${share(moment.from_s)})`;
-    }
-    for (const fault of this.run.faults) {
+    this.fill(this.line, this.run.moments, 0);
+    for (const fault of this.marked) {
       const mark = make("i", "", this.line, { className: "fault", title: `${fault.name} at ${fault.at_s.toFixed(2)} s` });
-      mark.style.left = share(Math.max(this.from, fault.at_s));
+      mark.style.left = this.share(Math.max(this.from, fault.at_s));
+    }
+    if (this.lower) {
+      this.lower.hidden = !this.beside;
+      this.fill(this.lower, this.beside ? this.beside.run.moments : [], this.beside ? this.run.ghost.shift_s : 0);
     }
     this.nameFaults();
     this.time = this.from;
@@ -236,11 +241,33 @@ class Player {
     else this.tell();
   }
 
+  share(time) {
+    return `${(100 * (time - this.from)) / Math.max(1e-9, this.run.end_s - this.from)}%`;
+  }
+
+  // Steps of a run on the time line, darker while a controller executes a goal.
+  fill(line, moments, shift) {
+    line.replaceChildren();
+    for (const moment of moments) {
+      const wide = (moment.until_s - moment.from_s) / (this.run.end_s - this.from) > 0.08;
+      const span = make("span", "", line);
+      span.className = { succeeded: "step", UNKNOWN: "step unknown" }[moment.outcome] || "step bad";
+      span.title = `${moment.name}: ${moment.outcome}${moment.reason ? `, ${moment.reason}` : ""}`;
+      span.style.left = this.share(moment.from_s + shift);
+      span.style.width = `calc(${this.share(moment.until_s)} - ${this.share(moment.from_s)})`;
+      if (moment.works.length) {
+        const [begin, end] = moment.works.map((at) => (100 * (at - moment.from_s)) / Math.max(1e-9, moment.until_s - moment.from_s));
+        Object.assign(make("i", "", span, { className: "works" }).style, { left: `${begin}%`, width: `${end - begin}%` });
+      }
+      if (wide) make("b", moment.name, span);
+    }
+  }
+
   // Each under its mark, or a row lower where another name is.
   nameFaults() {
     this.marks.replaceChildren();
     const wide = this.marks.clientWidth || 1, rows = [];
-    for (const fault of this.run.faults) {
+    for (const fault of this.marked) {
       const name = make("span", fault.name, this.marks);
       const at = (wide * (fault.at_s - this.from)) / Math.max(1e-9, this.run.end_s - this.from);
       const late = at + name.offsetWidth > wide;
@@ -279,20 +306,50 @@ class Player {
     this.time = time;
     this.slider.value = time;
     this.playback.show(this.drawing.model, time);
+    if (this.drawing.ghost && !data.before) {
+      // Where nothing is beside a run, the ghost is where the run is, and hidden there.
+      (this.beside || this.playback).show(this.drawing.ghost, time - (this.beside ? this.run.ghost.shift_s : 0));
+      this.drawing.ghost.hideSame(this.drawing.model, 2e-3, 1e-2);
+    }
     this.drawing.request();
     this.tell();
   }
 
   tell() {
-    const { moments, faults, outcome, reason, end_s: end } = this.run;
-    const parts = [`${this.time.toFixed(2)} s`];
-    const now = moments.findLast((one) => one.from_s <= this.time);
-    if (now) parts.push(`step ${moments.indexOf(now) + 1} of ${moments.length}, ${now.name}`);
+    const { faults, outcome, reason, end_s: end, ghost } = this.run;
+    const parts = [`${this.time.toFixed(2)} s`, ...stepAt(this.run, this.time)];
     const active = faults.filter((one) => one.at_s <= this.time).map((one) => one.name);
     if (active.length) parts.push(`fault: ${active.join(", ")}`);
     if (this.time >= end - 0.01) parts.push(reason ? `${outcome}: ${reason}` : outcome);
     this.words.textContent = parts.join(" · ");
+    if (!ghost) return;
+    const other = data.runs[ghost.run], time = this.time - ghost.shift_s;
+    const beside = [`${ghost.name}: ${time.toFixed(2)} s`, ...stepAt(other, time), this.apart()];
+    if (time >= other.end_s - 0.01) beside.splice(1, beside.length - 2, other.outcome);
+    make("span", beside.join(" · "), this.words, { className: "ghost" });
   }
+
+  // Which link is farthest from its ghost now.
+  apart() {
+    const [model, ghost] = [this.drawing.model.groups, this.drawing.ghost.groups];
+    const far = this.links.map((number) => [model[number].position.distanceTo(ghost[number].position), number]);
+    const [most, number] = far.reduce((one, other) => (other[0] > one[0] ? other : one), [0, 0]);
+    return most < 5e-4 ? "together" : `${(1000 * most).toFixed(0)} mm apart at ${data.scene.groups[number]}`;
+  }
+}
+
+function dynamicFrames() {
+  return new Set(data.scene.frames.filter((one) => one.kind === "dynamic").map((one) => one.name));
+}
+
+// Step and phase of a run at a time, in words.
+function stepAt({ moments }, time) {
+  const number = moments.findLastIndex((one) => one.from_s <= time);
+  if (number < 0) return [];
+  const { name, phases, until_s: until } = moments[number];
+  const words = [`step ${number + 1} of ${moments.length}, ${name}`];
+  const phase = phases.findLast((one) => one.at_s <= time);
+  return phase && time <= until + 0.005 ? [...words, phase.name.slice(2)] : words;
 }
 
 function start() {
@@ -333,7 +390,7 @@ function legend(drawing) {
     if (kind) make("small", kind, entry);
   };
   devices.forEach((name, number) => add(drawing.model.colors.get(name), name, alike ? "" : kinds[number]));
-  if (drawing.before) add(GHOST_COLOR, "its pose before");
+  if (drawing.ghost) add(GHOST_COLOR, data.before ? "its pose before" : `ghost: ${data.runs[0].ghost.name}`);
   if (alike) make("small", `all drawn as ${kinds[0]}`, place);
 }
 

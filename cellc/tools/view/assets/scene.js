@@ -44,7 +44,7 @@ class CellModel {
     if (data.poses.length) this.stand(data.poses[0].groups);
     this.root.updateMatrixWorld(true);
     this.box = new THREE.Box3();
-    for (const body of this.bodies) this.box.expandByObject(body);
+    for (const body of this.near()) this.box.expandByObject(body);
     if (this.box.isEmpty()) this.box.setFromCenterAndSize(new THREE.Vector3(), new THREE.Vector3(1, 1, 1));
     this.sphere = this.box.getBoundingSphere(new THREE.Sphere());
     this.layers = ghost ? {} : {
@@ -59,7 +59,9 @@ class CellModel {
     const meshed = shape.kind === "mesh";
     const geometry = meshed ? this.meshes[shape.size[0]] : makeGeometry[shape.kind](shape.size);
     const color = ghost ? GHOST_COLOR : this.colors.get(shape.owner) || new THREE.Color(SCENE_COLOR);
-    const look = { color, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost };
+    // Where both surfaces are in one place, that of the ghost is behind.
+    const look = { color, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost, polygonOffset: ghost,
+      polygonOffsetFactor: 4, polygonOffsetUnits: 4 };
     const body = new THREE.Mesh(geometry, meshed
       ? new THREE.MeshPhongMaterial({ ...look, flatShading: true, specular: 0 })
       : new THREE.MeshLambertMaterial(look));
@@ -67,6 +69,7 @@ class CellModel {
       body.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 30),
         new THREE.LineBasicMaterial({ color: color.clone().multiplyScalar(0.4), transparent: true, opacity: 0.6 })));
     }
+    body.userData.owner = shape.owner;
     body.userData.words = shape.owner ? `${shape.owner}: ${shape.link}` : shape.link;
     placeAt(body, shape.pose);
     this.groups[shape.group].add(body);
@@ -83,10 +86,18 @@ class CellModel {
     });
   }
 
-  // Of all bodies that are seen, and where frames and goals stand; what is far off leaves the rest large.
+  // All bodies but those that are far larger than the devices together, such as a floor.
+  near() {
+    const devices = new THREE.Box3(), box = new THREE.Box3(), size = new THREE.Vector3();
+    for (const body of this.bodies) if (body.userData.owner) devices.expandByObject(body);
+    const most = devices.isEmpty() ? Infinity : 3 * devices.getSize(size).length();
+    return this.bodies.filter((body) => box.setFromObject(body).getSize(size).length() < most);
+  }
+
+  // Of the bodies that are seen, and where frames and goals stand; what is far off leaves the rest large.
   corners() {
     this.root.updateMatrixWorld(true);
-    const all = this.bodies.filter((body) => body.visible).flatMap((body) => {
+    const all = this.near().filter((body) => body.visible).flatMap((body) => {
       if (!body.geometry.boundingBox) body.geometry.computeBoundingBox();
       const { min, max } = body.geometry.boundingBox;
       return [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => new THREE.Vector3(
@@ -147,8 +158,8 @@ class CellModel {
     return mark;
   }
 
-  // Of the poses before, only those that differ now are shown.
-  hideSame(other) {
+  // Of a ghost, only what is elsewhere is shown, by so many m or rad.
+  hideSame(other, far = 2e-4, turned = 2e-3) {
     const key = (body, number) => `${body.userData.words} ${number}`;
     const known = new Map(other.bodies.map((body, number) => [key(body, number - other.firstOf(body)), body]));
     const [spot, place] = [new THREE.Vector3(), new THREE.Vector3()];
@@ -156,8 +167,8 @@ class CellModel {
     for (const model of [this, other]) model.root.updateMatrixWorld(true);
     this.bodies.forEach((body, number) => {
       const now = known.get(key(body, number - this.firstOf(body)));
-      body.visible = !now || body.getWorldPosition(spot).distanceTo(now.getWorldPosition(place)) > 2e-4
-        || body.getWorldQuaternion(turn).angleTo(now.getWorldQuaternion(way)) > 2e-3;
+      body.visible = !now || body.getWorldPosition(spot).distanceTo(now.getWorldPosition(place)) > far
+        || body.getWorldQuaternion(turn).angleTo(now.getWorldQuaternion(way)) > turned;
     });
   }
 
