@@ -197,12 +197,12 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
     "view {} --bag good -o page.html": (
         (2, NOT_BUILT),
         (2, "there is no such file or folder"),
-        (2, "a bag is read with a package, and there is none"),
+        (2, "a bag needs the package of its cell"),
         (2, "there is no such file or folder"),
-        (2, "a bag is read with a package, and there is none"),
-        (2, "a bag is read with a package, and there is none"),
+        (2, "a bag needs the package of its cell"),
+        (2, "a bag needs the package of its cell"),
         (0, "wrote page.html"),
-        (2, "a bag is read with a package, and there is none"),
+        (2, "a bag needs the package of its cell"),
         (0, "wrote page.html"),
     ),
     "view picked --bag good --against {} -o page.html": (

@@ -34,7 +34,7 @@ def attempt_section(viewed: Viewed) -> Element:
 
 
 def attempt_facts(viewed: Viewed) -> Iterator[tuple[str, Child]]:
-    """Yield what stands at the head of the page."""
+    """Yield facts for the head of the page."""
     report = viewed.report
     length_s = report.since_begin_s(report.end_ns)
     yield "outcome", tag("dd", outcome_words(report.end.outcome))
@@ -61,8 +61,8 @@ def _parted(viewed: Viewed, comparison: Comparison) -> Iterator[Element]:
     ghost = viewed.runs[0].ghost
     words = f"Against {comparison.name}"
     if ghost is not None:
-        words += ", drawn translucent where it is 2 mm or more elsewhere. Both are in step at the acceptance of the first goal"
-        words += f"; the attempt is {seconds(ghost.shift_s)} later on its clock." if ghost.shift_s else "."
+        words += ", drawn translucent where it is 2 mm or more elsewhere. Both are in step at the acceptance of the "
+        words += f"first goal{_shifted(ghost.shift_s)}."
         farthest = max(ghost.apart, key=lambda each: each.far_m, default=None)
         if farthest is not None and farthest.far_m:
             words += f" Farthest apart: {_far(farthest)}."
@@ -71,6 +71,11 @@ def _parted(viewed: Viewed, comparison: Comparison) -> Iterator[Element]:
         yield tag("ul", *(tag("li", line) for line in lines), class_="parted")
     else:
         yield tag("p", "They part nowhere: same outcomes, times and errors.")
+
+
+def _shifted(shift_s: float) -> str:
+    """Return by how much the clocks of both differ."""
+    return f", {seconds(abs(shift_s))} {'later' if shift_s > 0 else 'earlier'} in the attempt" if shift_s else ""
 
 
 def _far(apart: Apart) -> str:
@@ -91,7 +96,7 @@ def _compared(viewed: Viewed, comparison: Comparison) -> Element:
 
 
 def _outcome(words: str) -> Element:
-    """Return an outcome of one side, or what stands in its place."""
+    """Return an outcome of one side, or a word in its place."""
     known = {each.value: each for each in AttemptOutcome}
     return outcome_words(known[words]) if words in known else tag("span", words, class_="unknown")
 

@@ -18,7 +18,7 @@ _LONGEST_NS = 48 * 3600 * 1_000_000_000
 _STILL = 1e-4
 """rad or m by which a joint must leave the last picture to be drawn again: encoders never rest."""
 _FARTHEST = 1e6
-"""rad or m beyond which a position is none."""
+"""rad or m beyond which a position is not drawn."""
 
 _Positions = NDArray[np.float64]
 

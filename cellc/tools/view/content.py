@@ -92,7 +92,7 @@ def attempt_content(
         ViewError: there is no package to read it with.
     """
     if subject.standing is None or subject.folder is None:
-        raise ViewError(f"{subject.name}: a bag is read with a package, and there is none; `cellc check` says why")
+        raise ViewError(f"{subject.name}: a bag needs the package of its cell, and errors keep it from being made")
     # Readers of bags load where there is one.
     from cellc.tools.view.attempt import viewed
 

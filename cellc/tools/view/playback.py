@@ -30,7 +30,7 @@ _Positions = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """An instant of the time line, and what it is of."""
+    """An instant of the time line with its name."""
 
     at_s: float
     name: str
