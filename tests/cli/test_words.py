@@ -47,6 +47,7 @@ def test_rehearsals_of_the_folder_are_completed() -> None:
 def test_rehearsals_of_the_package_of_a_bag_are_completed(option: str) -> None:
     package = generated("minimal").as_posix()
     assert _completed(["attempt", "bag.mcap", "--package", package, option], "") == ["ready"]
+    assert _completed(["view", package, "--bag", "bag.mcap", option], "") == ["ready"]
 
 
 def test_the_rehearsal_of_a_run_is_completed_first_where_a_campaign_disturbs_several(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import shutil
 import subprocess
@@ -184,6 +185,20 @@ def test_records_are_compared_with_and_are_no_ghost(rehearsed: Path, tmp_path: P
     ran, page = viewed(rehearsed / "no_part.mcap", tmp_path, "--against", records.as_posix())
     assert ran.out.splitlines()[1:] == [f"no ghost: {records.as_posix()} has no joint states"]
     assert "They part nowhere" in page.text
+
+
+def test_steps_without_an_instant_keep_their_place(tmp_path: Path) -> None:
+    folder = tmp_path / "evidence"
+    assert run("mock", PICK, "--rehearsal", "jogged_and_restarted", "--evidence", folder.as_posix()).code == 0
+    bag = folder / "jogged_and_restarted.mcap"
+    report = json.loads(run("attempt", bag.as_posix(), "--package", PICK, "--format", "json").out)
+    _, page = viewed(bag, tmp_path)
+    moments = page.data["runs"][0]["moments"]
+    assert [moment["name"] for moment in moments] == [attempt["step"] for attempt in report["attempts"][:-1]]
+    assert "UNKNOWN" in [attempt["started_ns"] for attempt in report["attempts"]]
+    times = [at_s for moment in moments for at_s in (moment["from_s"], moment["until_s"])]
+    assert times == sorted(times)
+    assert len(page.data["runs"][0]["ghost"]["apart"]) == len(moments)
 
 
 def test_a_cut_off_bag_is_played_as_far_as_it_goes(rehearsed: Path, tmp_path: Path) -> None:

@@ -68,7 +68,7 @@ def _parted(viewed: Viewed, comparison: Comparison) -> Iterator[Element]:
             words += f" Farthest apart: {_far(farthest)}."
     yield hint(words)
     if lines:
-        yield tag("ul", *(tag("li", line) for line in lines), class_="parted")
+        yield tag("ul", *(tag("li", cut(line)) for line in lines), class_="parted")
     else:
         yield tag("p", "They part nowhere: same outcomes, times and errors.")
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from cellc.contract.attempt import PacketStep
 from cellc.tools.attempt.compare import NOT_MADE, Comparison, Parting, partings
-from cellc.tools.attempt.record import UNKNOWN, Attempt, Report
+from cellc.tools.attempt.record import UNKNOWN, Report
 from cellc.tools.view.bag_motion import Pictures
 from cellc.tools.view.playback import STEP_NS, Apart, Ghost, Mark, Moment, Run, moment_of, run_of
 from cellc.tools.view.skeleton import Skeleton
@@ -27,7 +27,7 @@ def bag_run(name: str, report: Report, pictures: Pictures, skeleton: Skeleton) -
     """Return a bag as the page plays it back; times are counted from its begin."""
     end, finding = report.end, report.end.finding
     end_s = max(pictures.end_ns, 0) / 1e9
-    moments = [moment for each in report.attempts[:-1][:MOST_STEPS] for moment in _moment(report, each)]
+    moments = list(_moments(report))
     run = run_of(
         name,
         UNKNOWN if end.outcome is None else end.outcome.value,
@@ -45,15 +45,16 @@ def cut(text: str) -> str:
     return text if len(text) <= _LONGEST_TEXT else f"{text[:_LONGEST_TEXT]} …"
 
 
-def _moment(report: Report, attempt: Attempt) -> Iterator[Moment]:
-    """Yield a step; none where the bag shows no instant of it."""
-    span_s = report.span_s(attempt)
-    if span_s is None:
-        return
-    outcome = UNKNOWN if attempt.outcome is None else attempt.outcome.value
-    reason = "" if attempt.finding is None else cut(f"{attempt.finding.layer}: {attempt.finding.message}")
-    stamps_s = {step: report.since_begin_s(at_ns) for step, at_ns in attempt.stamps.items()}
-    yield moment_of((span_s[0], max(span_s)), cut(attempt.step), outcome, reason, stamps_s)
+def _moments(report: Report) -> Iterator[Moment]:
+    """Yield each step; one that the bag shows no instant of is at the end of the step before, and takes no time."""
+    last_s = 0.0
+    for attempt in report.attempts[:-1][:MOST_STEPS]:
+        from_s, until_s = report.span_s(attempt) or (last_s, last_s)
+        outcome = UNKNOWN if attempt.outcome is None else attempt.outcome.value
+        reason = "" if attempt.finding is None else cut(f"{attempt.finding.layer}: {attempt.finding.message}")
+        stamps_s = {step: report.since_begin_s(at_ns) for step, at_ns in attempt.stamps.items()}
+        last_s = max(from_s, until_s)
+        yield moment_of((from_s, last_s), cut(attempt.step), outcome, reason, stamps_s)
 
 
 def beside(run: Run, number: int, other: Run, skeleton: Skeleton, comparison: Comparison) -> Run:
