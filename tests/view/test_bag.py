@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-import json
 import math
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from cellc.mock.folder import read_folder
 from cellc.tools.attempt.heard import JointSample
+from cellc.tools.attempt.read import read_attempt
 from cellc.tools.view.bag_motion import MOST_PICTURES, PictureBuilder
+from cellc.tools.view.bag_run import bag_run
+from cellc.tools.view.skeleton import Skeleton
+from cellc.tools.view.standing import of_package
 from tests.attempt.hand_made import MS, SUCCEEDED, HandMade, arrived, protective_stop
 from tests.cells import generated
 from tests.cli.run import Ran, run
@@ -187,18 +192,18 @@ def test_records_are_compared_with_and_are_no_ghost(rehearsed: Path, tmp_path: P
     assert "They part nowhere" in page.text
 
 
-def test_steps_without_an_instant_keep_their_place(tmp_path: Path) -> None:
-    folder = tmp_path / "evidence"
-    assert run("mock", PICK, "--rehearsal", "jogged_and_restarted", "--evidence", folder.as_posix()).code == 0
-    bag = folder / "jogged_and_restarted.mcap"
-    report = json.loads(run("attempt", bag.as_posix(), "--package", PICK, "--format", "json").out)
-    _, page = viewed(bag, tmp_path)
-    moments = page.data["runs"][0]["moments"]
-    assert [moment["name"] for moment in moments] == [attempt["step"] for attempt in report["attempts"][:-1]]
-    assert "UNKNOWN" in [attempt["started_ns"] for attempt in report["attempts"]]
-    times = [at_s for moment in moments for at_s in (moment["from_s"], moment["until_s"])]
-    assert times == sorted(times)
-    assert len(page.data["runs"][0]["ghost"]["apart"]) == len(moments)
+def test_a_step_without_an_instant_keeps_its_place(tmp_path: Path) -> None:
+    folder = read_folder(generated("ur5e_pick"))
+    paths = [arrived().write(tmp_path / "bag")]
+    report = read_attempt(paths, folder.contract, folder.rehearsals, folder.watches, None)
+    (made, end), standing = report.attempts, of_package(folder)
+    unseen = replace(made, step="wait", started_ns=None, ended_ns=None, trace=())
+    asked = replace(report, attempts=(made, unseen, made, end))
+    run_ = bag_run("x", asked, PictureBuilder(()).pictures(), Skeleton(standing))
+    spans = [(moment.name, moment.from_s, moment.until_s) for moment in run_.moments]
+    # By hand: planned 100 ms after the begin, the planner ended at 505 ms.
+    move = (made.step, 0.1, 0.505)
+    assert spans == [move, ("wait", 0.505, 0.505), move]
 
 
 def test_a_cut_off_bag_is_played_as_far_as_it_goes(rehearsed: Path, tmp_path: Path) -> None:
