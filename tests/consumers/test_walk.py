@@ -56,7 +56,7 @@ def test_table_says_what_the_sections_say_and_leads_to_them(cell: str, distro: s
         titles = re.findall(r"^#+ (.*)$", texts[page], re.MULTILINE)
         assert [re.sub(r"[^a-z0-9 -]", "", title.lower()).replace(" ", "-") for title in titles].count(anchor) == 1
         assert f"Passed when {shows}." in section
-        assert f"Signed by: `{owner}`. **Stop on:** " in section
+        assert f"Signed by: owner `{owner}`. **Stop on:** " in section
         assert command == "manual" or command.strip("`") in section
 
 
@@ -64,7 +64,7 @@ def test_table_says_what_the_sections_say_and_leads_to_them(cell: str, distro: s
 def test_every_gate_leaves_evidence_of_its_own(cell: str, distro: str) -> None:
     files = []
     for code, text in sections(cell, distro).items():
-        (file,) = re.findall(r"^Evidence: `(.+?)`\. Signed by: `.+`\. \*\*Stop on:\*\* \S", text, re.MULTILINE)
+        (file,) = re.findall(r"^Evidence: `(.+?)`\. Signed by: owner `.+`\. \*\*Stop on:\*\* \S", text, re.MULTILINE)
         assert file.startswith(f"{code}-")
         assert set(_KEPT.findall(text)) <= {file}
         files.append(file)
@@ -83,7 +83,7 @@ def test_contract_has_as_data_what_each_gate_leaves_and_who_signs(cell: str, dis
         assert [file["name"] for file in left if file["kind"] == "notes"] == (
             [] if closed else re.findall(r"^Evidence: `(.+?)`\. ", text, re.MULTILINE)
         )
-        assert f"Signed by: `{stated[code]['signed_by']}`." in text
+        assert f"Signed by: owner `{stated[code]['signed_by']}`." in text
         typed = commands(text)
         looks = [
             re.search(r"(?: --for (\d+))? --evidence \"\$E\"(?: --host (\w+))?$", line)

@@ -99,10 +99,18 @@ def notes(folder: Path, cell: str) -> None:
     (folder / "G0-inventory.md").write_text(f"{stated}\n+ uname -r\n6.8.1-1015-realtime\n", encoding="utf-8")
 
 
+def ticked(folder: Path, cell: str) -> None:
+    """Leave copies of the checklists with every line ticked."""
+    for page in ("promotion", "network"):
+        text = (generated(cell) / f"gates/{page}.md").read_text(encoding="utf-8")
+        (folder / f"{page}.md").write_text(text.replace("- [ ]", "- [x]"), encoding="utf-8")
+
+
 def complete(folder: Path) -> Path:
     """Leave in a folder all that the gates of ur5e_pick ask for."""
     folder.mkdir()
     notes(folder, "ur5e_pick")
+    ticked(folder, "ur5e_pick")
     for gate in SECONDS:
         observe(folder, "ur5e_pick", gate)
     (folder / "G6-bag").mkdir()

@@ -35,11 +35,14 @@ def test_a_folder_is_read_from_end_to_end_where_people_call_it(tmp_path: Path) -
     folder = tmp_path / "evidence/attempt-001"
     folder.mkdir(parents=True)
     notes(folder, "ur5e_pick")
+    for page in (tmp_path / "generated/ur5e_pick/gates").glob("*.md"):
+        ticked = page.read_text(encoding="utf-8").replace("- [ ]", "- [x]")
+        (folder / page.name).write_text(ticked, encoding="utf-8")
     observe(folder, "ur5e_pick", "G3", wrong=lambda seen: seen.nodes.append("/task"))
     ran = _cellc("evidence", "evidence/attempt-001", folder=tmp_path)  # the evidence names its cell
     assert (ran.returncode, ran.stderr) == (1, "")
     lines = ran.stdout.splitlines()
-    assert "G2 Mock: complete, to be signed by controls" in lines
+    assert "G2 Mock: complete, to be signed by the owner controls" in lines
     assert "G3 Network: FAILED" in lines
     assert "  signed by: network" in lines
     assert "  FAILED     node names: /task runs 2 times (expected: each once)" in lines

@@ -13,7 +13,7 @@ import pytest
 
 from tests.cells import generated
 from tests.cli.run import Ran, run
-from tests.evidence.attempts import JOINTS, complete, first_goal, manifest, observe
+from tests.evidence.attempts import JOINTS, complete, first_goal, manifest, observe, ticked
 
 PACKAGE = ("--package", generated("ur5e_pick").as_posix())
 _GATES = [f"G{number}" for number in range(8)] + [f"L{number}" for number in range(1, 7)]
@@ -48,7 +48,7 @@ def test_all_that_the_checklists_ask_for_is_complete_and_names_who_signs(whole: 
     signing: dict[str, str] = {}
     for page in ("promotion", "network"):
         text = (generated("ur5e_pick") / f"gates/{page}.md").read_text(encoding="utf-8")
-        owners = re.findall(r"Signed by: `(.+?)`\.", text)
+        owners = re.findall(r"Signed by: owner `(.+?)`\.", text)
         signing.update(zip(re.findall(r"^## ([GL]\d) ", text, re.MULTILINE), owners, strict=True))
     assert {code: gate["signed_by"] for code, gate in gates.items()} == signing
     assert {gate["status"] for gate in gates.values()} == {"complete"}
@@ -229,6 +229,7 @@ def test_rehearsals_that_were_kept_count_for_the_mock_gate(folder: Path) -> None
     assert [each["path"] for each in report["refused"]] == ["runs/evidence.json"]
     of_minimal = ("--package", generated("minimal").as_posix(), "--gate", "G2", "--format", "json")
     (folder / "G2-mock.md").write_text("passed  ready: succeeded\n", encoding="utf-8")
+    ticked(folder, "minimal")
     gate = json.loads(run("evidence", folder.as_posix(), *of_minimal).out)["gates"][0]
     assert (gate["status"], gate["notes"]) == ("complete", ["1 of 1 rehearsals ended as expected: runs/evidence.json"])
     (runs / "ready.kpis.json").write_text("{}", encoding="utf-8")
@@ -269,8 +270,32 @@ def test_a_filled_in_checklist_says_what_is_ticked_and_signed(folder: Path) -> N
     (finding,) = gates["L3"]["findings"]
     keys = "check that each enclave in use has its keys. `security/policy.xml` lists the enclaves."
     assert finding["text"] == f"network.md: 2 lines not ticked: If access control is enforced, {keys}"
-    assert gates["G0"]["page"] == ""
+    assert gates["G0"]["page"] == "promotion.md: 15 of 15 lines ticked; result: blank"
     assert ran.code == 1
+
+
+def test_a_gate_without_a_ticked_copy_of_its_checklist_is_not_complete(folder: Path) -> None:
+    (folder / "promotion.md").unlink()
+    _, _, gates = states(folder)
+    (finding,) = gates["G1"]["findings"]
+    boxes = (generated("ur5e_pick") / "gates/promotion.md").read_text(encoding="utf-8")
+    number = boxes.split("## G1 ")[1].split("## G2 ")[0].count("- [ ]")
+    assert (gates["G1"]["status"], finding["text"]) == (
+        "UNKNOWN",
+        f"no copy of gates/promotion.md with {number} lines ticked",
+    )
+    assert gates["L2"]["status"] == "complete"
+
+
+def test_what_a_program_compared_is_not_found_a_second_time_in_its_printed_lines(folder: Path) -> None:
+    observe(folder, "ur5e_pick", "G4", at="20261128T111500Z", wrong=lambda seen: seen.nodes.append("/task"))
+    line = "FAILED  graph      node names: /task runs 2 times (expected: each once)"
+    (folder / "G4-transitions.md").write_text(f"{line}\nFAILED  log        a fault of the driver\n", encoding="utf-8")
+    _, _, gates = states(folder)
+    assert [finding["text"] for finding in gates["G4"]["findings"]] == [
+        "node names: /task runs 2 times (expected: each once)",
+        "G4-transitions.md says FAILED of log        a fault of the driver",
+    ]
 
 
 def test_people_may_write_behind_a_line_of_the_checklist(folder: Path) -> None:

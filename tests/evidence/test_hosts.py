@@ -14,7 +14,7 @@ from cellc.contract.observation import ObservedTarget
 from cellc.tools.evidence.join import responsible
 from tests.cells import built, generated
 from tests.cli.run import run
-from tests.evidence.attempts import observe
+from tests.evidence.attempts import observe, ticked
 
 _HOSTS = ("control_pc", "planner_pc")
 _TRAJECTORY = "/arm_trajectory/follow_joint_trajectory"
@@ -42,6 +42,7 @@ def _observed(folder: Path, *, control: Callable[[Seen], object] = _right, plann
             (folder / host).mkdir()
             observe(folder / host, "fr3_hand", "G3", host=host, wrong=wrong)
     (folder / "G3-freshness.md").write_text("done\n", encoding="utf-8")
+    ticked(folder, "fr3_hand")
     words = ("--package", generated("fr3_hand").as_posix(), "--gate", "G3", "--format", "json")
     ran = run("evidence", folder.as_posix(), *words)
     report = json.loads(ran.out)

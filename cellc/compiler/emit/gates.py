@@ -24,16 +24,16 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         (PROMOTION_CHECKLIST, texts.pages["promotion"], plan.promotion),
         (NETWORK_CHECKLIST, texts.pages["network"], plan.network),
     ):
-        title, text = f"# {graph.cell.name}: {page.title}", f"{page.text} {texts.usage}"
+        usage = texts.usage.replace("{cell}", graph.cell.name)
+        title, text = f"# {graph.cell.name}: {page.title}", f"{page.text} {usage}"
         blocks = [markdown_comment(plan.header.text), title, text, *(_gate(gate, texts.result) for gate in gates)]
         yield Artifact(path, "\n\n".join(blocks) + "\n")
 
 
 def _gate(gate: Gate, result: str) -> str:
     passed = f"*{gate.state[0].upper()}{gate.state[1:]}.* Passed when {markdown(gate.shows)}."
-    signed = (
-        f"Evidence: `{gate.evidence}`. Signed by: {code(gate.owner)}. **Stop on:** {markdown('; '.join(gate.stop))}."
-    )
+    stop = markdown("; ".join(gate.stop))
+    signed = f"Evidence: `{gate.evidence}`. Signed by: owner {code(gate.owner)}. **Stop on:** {stop}."
     checks = "\n".join(line for check in gate.checks for line in _check(check, gate.evidence)).rstrip("\n")
     measured = ". ".join(f"{markdown(text[0].upper() + text[1:])}: ________" for text in gate.measured)
     blocks = (f"## {gate.code} {gate.title}", passed, checks, signed, measured, result)

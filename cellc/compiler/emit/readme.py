@@ -138,7 +138,7 @@ def _gates(graph: CellGraph, plan: Deployment) -> Iterator[str]:
     yield _table(NETWORK_CHECKLIST, plan.network)
     number = len(plan.questions)
     if number:
-        yield f"**Open questions in the spec: {number}.** Each stops gate G0. See [{_OPEN}](#{_ANCHOR})."
+        yield f"**Open questions in the spec: {number}.** Each stops the gate that checks it, most of them G0. See [{_OPEN}](#{_ANCHOR})."
 
 
 def _table(file: str, gates: tuple[Gate, ...]) -> str:
@@ -155,13 +155,16 @@ def _row(file: str, gate: Gate) -> tuple[str, ...]:
 
 def _shell_of(cell: Cell) -> str:
     """Return the setup of a shell: the built package, the host's environment, the folder of the attempt."""
-    environments = [f"source generated/{cell.name}/middleware/{host}.sh  # on {host}" for host in cell.hosts]
+    environments = [
+        f"source generated/{cell.name}/middleware/{host}.sh  # on {host}; sets the ROS domain" for host in cell.hosts
+    ]
     return _fenced(
         (
             *_sources(cell),
             "rosdep install --from-paths generated --ignore-src  # once",
             f"colcon build --base-paths generated --packages-select {cell.name}  # once",
             "source install/setup.bash",
+            'export PATH="$PATH:$PWD/.venv/bin"  # where cellc is installed; behind ROS, which has its own xacro',
             *environments,
             *_servers(cell),
             'export E=evidence/attempt-001 && mkdir -p "$E"  # a new folder for each attempt',

@@ -105,7 +105,7 @@ class GateResult:
         """By what it is signed, in words."""
         if not self.signed:
             return f"not signed: {self.configuration_id}, the folder differs from its manifest"
-        return f"signed by result: {self.configuration_id}, seed {self.seed}, {self.signature}"
+        return f"digest of the result: {self.configuration_id}, seed {self.seed}, {self.signature}"
 
 
 def passed(text: str, evidence: Iterable[str]) -> GateCheck:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from cellc.contract.frozen import dataclass
 from cellc.contract.observation import ObservedTarget
-from cellc.tools.evidence.records import UNKNOWN, ObservedLine, ObserveRecord
+from cellc.tools.evidence.records import SEEN, UNKNOWN, ObservedLine, ObserveRecord
 
 _SOURCES, _SINKS = ("publishers", "server"), ("subscribers", "clients")
 PASSED, FAILED = "PASSED", "FAILED"
@@ -32,7 +32,8 @@ class JoinedLine:
 def joined(reports: Mapping[str, ObserveRecord], plan: ObservedTarget) -> Iterator[JoinedLine]:
     """Yield each line of any report once.
 
-    It is PASSED only if it passes on every host that is responsible for it, and on no other host fails.
+    It is PASSED only if it passes on every host that is responsible for it, and on no other host fails. What is seen
+    and compared with nothing fails nowhere.
 
     Args:
         reports: the newest of each host.
@@ -48,9 +49,10 @@ def _joined(
     key: tuple[str, str], found: Mapping[str, ObservedLine], own_hosts: tuple[str, ...], reporting: tuple[str, ...]
 ) -> JoinedLine:
     own = [found[host].verdict if host in found else UNKNOWN for host in own_hosts]
+    passed = (PASSED, SEEN)
     contradicted = {PASSED, FAILED} <= {line.verdict for line in found.values()}
     verdict = FAILED if FAILED in own else UNKNOWN if UNKNOWN in own or contradicted else PASSED
-    shown = {host: line for host, line in found.items() if line.verdict != PASSED or contradicted}
+    shown = {host: line for host, line in found.items() if line.verdict not in passed or contradicted}
     several = len(reporting) > 1
     seen = [f"{host} says {line.verdict}, {line.seen}" if several else line.seen for host, line in shown.items()]
     silent = (host for host in reporting if host in own_hosts and host not in found)

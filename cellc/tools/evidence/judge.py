@@ -29,14 +29,15 @@ def judged(gate: GateEvidence, package: Package, found: Sorted) -> GateState:
         closed = "must not be passed: nothing of the catalog moves this cell on the real target"
         return GateState(gate, (), (Finding(Status.UNKNOWN, closed),))
     pieces = tuple(_piece(file, gate, package, found) for file in gate.files)
-    findings = [*_lines(gate, package, found), *_noted(gate, package, found), *_broken(pieces, found)]
+    compared = list(_lines(gate, package, found))
+    findings = [*compared, *_noted(gate, package, found, compared), *_broken(pieces, found)]
     notes = list(_earlier(gate, found))
     if gate.gate is GateCode.G0:
         notes += _deviations(found)
     if gate.gate is GateCode.G2:
         of_mock, said = of_runs(found.indices)
         findings, notes = [*findings, *of_mock], [*notes, *said]
-    page, open_ = _filled(found.pages.get(gate.gate, ()))
+    page, open_ = _filled(found.pages.get(gate.gate, ()), gate.gate, package.pages.get(gate.gate))
     return GateState(gate, pieces, (*_some(findings), *open_), tuple(notes), page)
 
 
@@ -147,8 +148,8 @@ def _lines(gate: GateEvidence, package: Package, found: Sorted) -> Iterator[Find
             yield Finding(Status(line.verdict), f"{line.subject}: {word}{line.seen} (expected: {line.expected})")
 
 
-def _noted(gate: GateEvidence, package: Package, found: Sorted) -> Iterator[Finding]:
-    """Yield what notes say that a person must not sign over."""
+def _noted(gate: GateEvidence, package: Package, found: Sorted, compared: Sequence[Finding]) -> Iterator[Finding]:
+    """Yield what notes say that a person must not sign over, but for what is found in the report of a program too."""
     own = package.identity.configuration_id
     for file in gate.files:
         texts = found.notes.get(file.name, ())
@@ -156,11 +157,20 @@ def _noted(gate: GateEvidence, package: Package, found: Sorted) -> Iterator[Find
             last: dict[str, str] = {}
             for said in _VERDICT.finditer(text):
                 last[said[2].partition(": ")[0].strip()] = said[1]
-            failed = [subject for subject, verdict in last.items() if verdict == FAILED]
+            failed = [
+                subject
+                for subject, verdict in last.items()
+                if verdict == FAILED and not any(line.text.startswith(_of_line(subject)) for line in compared)
+            ]
             yield from (Finding(Status.FAILED, f"{item.path} says FAILED of {subject}") for subject in failed)
             yield from (Finding(Status.UNKNOWN, f"{item.path} also names configuration {each}") for each in others)
         if gate.gate is GateCode.G0 and texts and not any(own is not None and own in text for _, text, _ in texts):
             yield Finding(Status.UNKNOWN, f"{file.name} does not have the configuration ID {own}")
+
+
+def _of_line(subject: str) -> str:
+    """Return the subject of a printed comparison as its finding begins, without the part of the graph before it."""
+    return f"{subject.partition(' ')[2].strip() or subject}: "
 
 
 def _broken(pieces: tuple[Piece, ...], found: Sorted) -> Iterator[Finding]:
@@ -191,10 +201,14 @@ def _deviations(found: Sorted) -> Iterator[str]:
             yield f"{item.path}: and {len(lines) - _SHOWN} more"
 
 
-def _filled(copies: Sequence[tuple[str, Section]]) -> tuple[str, tuple[Finding, ...]]:
+def _filled(
+    copies: Sequence[tuple[str, Section]], gate: str, printed: Section | None
+) -> tuple[str, tuple[Finding, ...]]:
     """Return what the last copy of the checklist says of a gate, in words, and what is open in it."""
     if not copies:
-        return "", ()
+        lines = count(0 if printed is None else len(printed.boxes), "line")
+        page = "network.md" if gate.startswith("L") else "promotion.md"
+        return "", (Finding(Status.UNKNOWN, f"no copy of gates/{page} with {lines} ticked"),)
     path, section = copies[-1]
     ticked = len(section.boxes) - len(section.open)
     signed = ", ".join(text for text in (section.result, section.name, section.date) if text)

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 
 from cellc.contract.frozen import dataclass
 
-UNKNOWN = "UNKNOWN"
+UNKNOWN, SEEN = "UNKNOWN", "SEEN"
 CONFIGURATION = re.compile(r"\bcfg-[0-9a-f]{12}\b")
 """An id as `manifest.json` has it, in the notes of people."""
 _CELL = re.compile(r'^[ \t]*"cell": "([a-z][a-z0-9_]{1,63})",?[ \t]*$', re.MULTILINE)
@@ -25,7 +25,7 @@ class ObservedLine(_Record):
 
     part: str
     subject: str
-    verdict: Literal["PASSED", "FAILED", "UNKNOWN"]
+    verdict: Literal["PASSED", "FAILED", "UNKNOWN", "SEEN"]
     expected: str
     seen: str
 

@@ -78,7 +78,7 @@ class GateState:
     @property
     def said(self) -> str:
         """The status in words."""
-        complete = f"complete, to be signed by {self.evidence.signed_by}"
+        complete = f"complete, to be signed by the owner {self.evidence.signed_by}"
         return complete if self.status is Status.COMPLETE else str(self.status)
 
 

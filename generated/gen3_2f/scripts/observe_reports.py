@@ -18,6 +18,7 @@ from observe_checks import (
     CLAIMED_FROM,
     FAILED,
     PASSED,
+    SEEN,
     SLOW,
     UNKNOWN,
     Cycles,
@@ -221,6 +222,10 @@ def _below(element: Element, above: str) -> Iterator[tuple[str, str]]:
         yield from _below(child, place)
 
 
+ANY = "any"
+"""What a reading is expected to be of which nothing is stated at a gate: it is shown, and compared with nothing."""
+
+
 def devices(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     """Compare what devices say of themselves with what the gate expects; what it does not expect is a figure."""
     for reading in package.plan["readings"]:
@@ -229,7 +234,7 @@ def devices(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
             continue
         names = _expected(reading, gate)
         pinned = package.contract["version_tuple"].get(reading.get("version"), UNKNOWN).rpartition(" ")[2]
-        expected = " or ".join(names) or (pinned if pinned != UNKNOWN else "any")
+        expected = " or ".join(names) or (pinned if pinned != UNKNOWN else ANY)
         subject, kind = f"{name}, {reading['name']}", package.contract["interfaces"][name]["type"]
         found = seen.readings[name].values if name in seen.readings else []
         if not found:
@@ -240,7 +245,10 @@ def devices(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
         other = [text for text in shown if names and text not in names]
         if pinned != UNKNOWN and "version" in reading:
             other = [text for text in shown if f"{text}.".startswith(f"{pinned}.") is False]
-        yield judged("vendor", subject, expected, other, " to ".join(shown))
+        if expected == ANY:
+            yield Line("vendor", subject, SEEN, expected, " to ".join(shown))
+        else:
+            yield judged("vendor", subject, expected, other, " to ".join(shown))
 
 
 def _expected(reading: Any, gate: str) -> Sequence[str]:

@@ -18,6 +18,8 @@ from typing import Any
 from xml.etree.ElementTree import Element
 
 PASSED, FAILED, UNKNOWN = "PASSED", "FAILED", "UNKNOWN"
+SEEN = "SEEN"
+"""Of a figure that nothing is compared with: a person reads it."""
 # Programs that people start beside a cell, and nodes that libraries add: they serve and command nothing of a cell.
 BESIDE = re.compile(
     r".*/(_.*|observe|bring_up\w*|rosbag2_\w+|tf2_\w+|transform_listener_impl_\w+|launch_ros_\d+|rviz\w*)"
@@ -198,7 +200,8 @@ def endpoints(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
             wanted, there = sides[side], {end.node for end in ends if not BESIDE.fullmatch(end.node)}
             needed = {node for node, since in wanted.items() if since <= gate}
             problems = [f"{node} is missing" for node in sorted(needed - there)]
-            problems += [f"{node} is not declared" for node in sorted(there - wanted.keys())]
+            noun = words.removesuffix("s")
+            problems += [f"{node} is not a declared {noun}" for node in sorted(there - wanted.keys())]
             problems += [problem for end in ends if end.node in wanted for problem in _other_kind(interface, side, end)]
             yield judged("graph", f"{name}, {words}", listed(needed), problems, listed(there))
         unmatched = [problem for writer in found[0] for reader in found[1] for problem in _unmatched(writer, reader)]

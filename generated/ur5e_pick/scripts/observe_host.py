@@ -138,7 +138,7 @@ def kernel(stated: Mapping[str, Any]) -> Iterator[Line]:
     if stated["controls"]:
         soft, _ = resource.getrlimit(resource.RLIMIT_RTPRIO)
         enough = soft == resource.RLIM_INFINITY or soft >= LOOP_PRIORITY or os.geteuid() == 0
-        shown = "unlimited" if soft == resource.RLIM_INFINITY else str(soft)
+        shown = "unlimited" if soft == resource.RLIM_INFINITY else f"{soft}{' as root' if os.geteuid() == 0 else ''}"
         yield Line("host", "rtprio", PASSED if enough else FAILED, f"at least {LOOP_PRIORITY}", shown)
 
 

@@ -29,6 +29,8 @@ from xml.etree import ElementTree
 from cellc.compiler.emit.launch.observe_checks import (
     FAILED,
     PASSED,
+    SEEN,
+    UNKNOWN,
     End,
     Ends,
     Line,
@@ -337,14 +339,16 @@ def main(arguments: Sequence[str]) -> int:
             lines.append(space(package, seen, read.evidence, read.gate))
         listened_s = seen.listened_s
     for line in lines:
-        text = f"{line.verdict:8}{line.part:11}{line.subject}: {line.seen}"
-        print(text if line.verdict == PASSED else f"{text} (expected: {line.expected})".replace("\n", " "), flush=True)
+        expected = "" if line.verdict in (PASSED, SEEN) else f" (expected: {line.expected})"
+        text = f"{line.verdict:8}{line.part:11}{line.subject}: {line.seen}{expected}"
+        print(text.replace("\n", " "), flush=True)
     if read.evidence is not None:
         asked = {"gate": read.gate, "target": read.target, "host": host, "seconds": listened_s}
         leave(lines, read.evidence, package, asked)
     failed = sum(line.verdict == FAILED for line in lines)
-    unknown = sum(line.verdict not in (FAILED, PASSED) for line in lines)
-    print(f"{len(lines)} compared: {failed} failed, {unknown} unknown", flush=True)
+    unknown, read_off = (sum(line.verdict == each for line in lines) for each in (UNKNOWN, SEEN))
+    shown = f", {read_off} to be read" if read_off else ""
+    print(f"{len(lines) - read_off} compared: {failed} failed, {unknown} unknown{shown}", flush=True)
     return 1 if failed or unknown else 0
 
 
