@@ -138,7 +138,8 @@ def _gates(graph: CellGraph, plan: Deployment) -> Iterator[str]:
     yield _table(NETWORK_CHECKLIST, plan.network)
     number = len(plan.questions)
     if number:
-        yield f"**Open questions in the spec: {number}.** Each stops the gate that checks it, most of them G0. See [{_OPEN}](#{_ANCHOR})."
+        stops = "Each stops the gate that checks it, most of them G0."
+        yield f"**Open questions in the spec: {number}.** {stops} See [{_OPEN}](#{_ANCHOR})."
 
 
 def _table(file: str, gates: tuple[Gate, ...]) -> str:
