@@ -195,13 +195,23 @@ def test_recording_has_a_complete_profile_for_each_topic_that_it_records(cell: s
         interface = contract(cell, distro)["interfaces"].get(topic)
         if interface is None:
             # qos.md 2: rcl_action's status is latched with the last one, its feedback and any other topic keeps ten.
-            # /rosout keeps a thousand (rcl, logging_rosout.h); a controller of at most 1 kHz has a second of states.
-            keeps = 1000 if topic == "/rosout" or topic.endswith("/controller_state") else 10
-            assert profile["depth"] == (1 if topic.endswith("/_action/status") else keeps)
+            # /rosout keeps a thousand (rcl, logging_rosout.h); a manager of at most 1 kHz has a second of states.
+            keeps = 1000 if topic == "/rosout" or topic.endswith(("/controller_state", "/statistics/values")) else 10
+            assert profile["depth"] == (1 if topic.endswith(("/_action/status", "/statistics/names")) else keeps)
             continue
         # One queue for all publishers (rosbag2 pull request 1960), a second of samples, and never less than tf2's own.
         offered = sum(end["qos"]["depth"] for end in interface["sources"])
         assert profile["depth"] == max(100, offered, math.ceil(interface["rate_hz"] or 0))
+
+
+@every_build
+def test_cycles_of_managers_are_recorded_where_the_release_publishes_them(cell: str, distro: str) -> None:
+    """ros2_control@4.46.0 controller_manager/src/controller_manager.cpp:639,684; 2.54.0 (Humble) publishes none."""
+    profiles = safe_load(build(cell, distro).texts["config/recording_qos.yaml"])
+    cycles = {topic: profile["durability"] for topic, profile in profiles.items() if "/statistics/" in topic}
+    managers = {manager["node"] for manager in contract(cell, distro)["managers"].values()}
+    expected = {} if distro == "humble" else {f"{node}/statistics/names": "transient_local" for node in managers}
+    assert cycles == expected | {name.replace("/names", "/values"): "volatile" for name in expected}
 
 
 @every_build

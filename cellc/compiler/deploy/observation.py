@@ -10,16 +10,13 @@ from cellc.compiler.deploy.computers import computers
 from cellc.compiler.deploy.ends import ends_on
 from cellc.compiler.deploy.processes import launch_hosts
 from cellc.compiler.deploy.readiness import components_of
-from cellc.compiler.deploy.recording import recorded_topics
+from cellc.compiler.deploy.recording import recorded_topics, reporting
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import observe_enclave
 from cellc.contract.bring_up import CLAIM_WATCH, BringUp, ControllerProof, HardwareProof, LifecycleProof, ManagedState
 from cellc.contract.entities import HardwareState, Target
 from cellc.contract.observation import Observation, ObservedEnds, ObservedManager, ObservedReading, ObservedTarget
 from cellc.contract.vocabulary import BringUpPhase, Feature, features
-
-_CYCLES = "~/statistics/values"
-"""Topic below a controller manager with what each of its cycles took."""
 
 
 def observation(graph: CellGraph, plan: BringUp) -> Observation:
@@ -73,12 +70,6 @@ def _on(graph: CellGraph, plan: BringUp, target: Target) -> ObservedTarget:
         late_joints=() if target == "mock" else tuple(sorted(_late_joints(cell))),
         readings=() if target == "mock" else tuple(readings(cell)),
     )
-
-
-def reporting(cell: Cell) -> tuple[str, ...]:
-    """Return the controller managers that publish what their cycles take: not those of every release do."""
-    published = {node.full_name: node.endpoints.publishes for node in cell.nodes}
-    return tuple(manager.node for manager in cell.managers if _CYCLES in published.get(manager.node, ()))
 
 
 def readings(cell: Cell) -> Iterator[ObservedReading]:

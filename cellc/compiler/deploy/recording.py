@@ -47,10 +47,23 @@ def recorded_topics(cell: Cell) -> dict[str, Qos]:
         topics[f"{action.name}/_action/status"] = replace(DEFAULT, durability="transient_local", depth=1)
     for name in _controller_states(cell):
         topics.setdefault(name, replace(DEFAULT, depth=1000))
+    for manager in reporting(cell):  # values without their names say nothing
+        topics[f"{manager}/statistics/names"] = replace(DEFAULT, durability="transient_local", depth=1)
+        topics[f"{manager}/statistics/values"] = replace(DEFAULT, depth=1000)
     topics.setdefault("/rosout", replace(DEFAULT, durability="transient_local", depth=1000))
     for name in ("/diagnostics", *cell.recording.topics):
         topics.setdefault(name, DEFAULT)
     return topics
+
+
+_CYCLES = "~/statistics/values"
+"""Topic below a controller manager with what each of its cycles took."""
+
+
+def reporting(cell: Cell) -> tuple[str, ...]:
+    """Return the controller managers that publish what their cycles take: not those of every release do."""
+    published = {node.full_name: node.endpoints.publishes for node in cell.nodes}
+    return tuple(manager.node for manager in cell.managers if _CYCLES in published.get(manager.node, ()))
 
 
 def _controller_states(cell: Cell) -> Iterator[str]:

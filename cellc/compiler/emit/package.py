@@ -16,7 +16,8 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import SOURCES, plans
 from cellc.compiler.deploy.first_goal import first_goals, programs
-from cellc.compiler.deploy.observation import readings, reporting
+from cellc.compiler.deploy.observation import readings
+from cellc.compiler.deploy.recording import reporting
 from cellc.compiler.deploy.versions import installed_parts
 from cellc.compiler.deploy.watches import watches
 from cellc.compiler.formats.urdf.hardware import share_folders

@@ -17,9 +17,9 @@ from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import InnerNode, Node, NodeEndpoints, NodeSource
 from cellc.compiler.deploy.files import plans
-from cellc.compiler.deploy.observation import nodes_on, readings, reporting
+from cellc.compiler.deploy.observation import nodes_on, readings
 from cellc.compiler.deploy.processes import bring_up_nodes, description_nodes, motion_clients
-from cellc.compiler.deploy.recording import recorded_topics
+from cellc.compiler.deploy.recording import recorded_topics, reporting
 from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.bring_up import CLAIM_WATCH, BringUp, TopicProof
 from cellc.contract.entities import TARGETS
