@@ -209,7 +209,8 @@ def test_cycles_of_managers_are_recorded_where_the_release_publishes_them(cell: 
     """ros2_control@4.46.0 controller_manager/src/controller_manager.cpp:639,684; 2.54.0 (Humble) publishes none."""
     profiles = safe_load(build(cell, distro).texts["config/recording_qos.yaml"])
     cycles = {topic: profile["durability"] for topic, profile in profiles.items() if "/statistics/" in topic}
-    managers = {manager["node"] for manager in contract(cell, distro)["managers"].values()}
+    observed = json.loads(build(cell, distro).texts["config/observe.json"])
+    managers = set(observed["real"]["states"])
     expected = {} if distro == "humble" else {f"{node}/statistics/names": "transient_local" for node in managers}
     assert cycles == expected | {name.replace("/names", "/values"): "volatile" for name in expected}
 
