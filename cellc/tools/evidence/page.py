@@ -93,7 +93,7 @@ def _gate(gate: GateState) -> Element:
         blanks = ("Result", f"Name, for {stated.signed_by}", "Date, time", "Signature")
         parts.append(tag("div", *(tag("p", blank, class_="blank") for blank in blanks), class_="signed"))
     else:
-        parts.append(hint(f"To be signed by {stated.signed_by} once it is complete."))
+        parts.append(hint(f"To be signed by the owner {stated.signed_by} once it is complete."))
     return tag("section", *parts, id=stated.gate, class_="of-gate")
 
 

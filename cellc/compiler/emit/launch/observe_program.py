@@ -340,7 +340,7 @@ def main(arguments: Sequence[str]) -> int:
         listened_s = seen.listened_s
     for line in lines:
         expected = "" if line.verdict in (PASSED, SEEN) else f" (expected: {line.expected})"
-        text = f"{line.verdict:8}{line.part:11}{line.subject}: {line.seen}{expected}"
+        text = f"{line.verdict:8}{line.part:12}{line.subject}: {line.seen}{expected}"
         print(text.replace("\n", " "), flush=True)
     if read.evidence is not None:
         asked = {"gate": read.gate, "target": read.target, "host": host, "seconds": listened_s}
