@@ -243,7 +243,22 @@ def test_accepted_versions_are_shown_to_who_signs(folder: Path) -> None:
     line = "2026-11-28T09:00:00Z vm accepted by Ann: arm.sdk must be ur_client_library 2.14.1, is 2.15.0"
     (folder / "versions.txt").write_text(f"{line}\n", encoding="utf-8")
     _, _, gates = states(folder)
-    assert gates["G0"]["notes"] == [f"versions.txt: {line}"]
+    assert gates["G0"]["notes"][0] == f"versions.txt: {line}"
+
+
+def test_versions_that_are_unknown_are_shown_to_who_signs(folder: Path) -> None:
+    _, _, gates = states(folder)
+    pins = json.loads((generated("ur5e_pick") / "manifest.json").read_text(encoding="utf-8"))["version_tuple"]
+    unknown = [part for part, version in pins.items() if version == "UNKNOWN"]
+    assert "arm.serial" in unknown
+    assert gates["G0"]["notes"] == [f"stop: {len(unknown)} parts of the version tuple UNKNOWN: {', '.join(unknown)}"]
+
+
+def test_a_rehearsal_that_the_mock_printed_as_failed_fails_its_gate(folder: Path) -> None:
+    printed = "passed  ready: succeeded (expected succeeded)\nfailed  slipped: timeout (expected grip_failure)\n"
+    (folder / "G2-mock.md").write_text(f"{printed}failed on the first try, repeated\n", encoding="utf-8")
+    (finding,) = states(folder)[2]["G2"]["findings"]
+    assert (finding["status"], finding["text"]) == ("FAILED", "G2-mock.md says FAILED of slipped")
 
 
 def _filled(folder: Path, code: str, *, ticked: bool, result: str = "") -> None:

@@ -19,7 +19,8 @@ from cellc.tools.evidence.sort import Package, Sorted, records_of
 
 _SHOWN = 20
 """Findings of one kind that a gate names; the others are counted."""
-_VERDICT = re.compile(r"^[ \t]*(passed|PASSED|FAILED)[ \t]+(\S[^\n]*)$", re.MULTILINE)
+_VERDICT = re.compile(r"^[ \t]*(passed|PASSED|FAILED|failed(?=[ \t]{2}))[ \t]+(\S[^\n]*)$", re.MULTILINE)
+"""As programs print them; `failed` behind a single blank is prose."""
 _MESSAGES = re.compile(r"^  message_count: (\d{1,18})$", re.MULTILINE)
 
 
@@ -34,6 +35,7 @@ def judged(gate: GateEvidence, package: Package, found: Sorted) -> GateState:
     notes = list(_earlier(gate, found))
     if gate.gate is GateCode.G0:
         notes += _deviations(found)
+        notes += _unknown(package.unknown)
     if gate.gate is GateCode.G2:
         of_mock, said = of_runs(found.indices)
         findings, notes = [*findings, *of_mock], [*notes, *said]
@@ -156,7 +158,7 @@ def _noted(gate: GateEvidence, package: Package, found: Sorted, compared: Sequen
         for item, text, others in texts:
             last: dict[str, str] = {}
             for said in _VERDICT.finditer(text):
-                last[said[2].partition(": ")[0].strip()] = said[1]
+                last[said[2].partition(": ")[0].strip()] = said[1].upper()
             failed = [
                 subject
                 for subject, verdict in last.items()
@@ -191,6 +193,11 @@ def _earlier(gate: GateEvidence, found: Sorted) -> Iterator[str]:
                 yield f"{item.path} is an earlier run, in which {count(failed, 'line')} failed"
             elif isinstance(record, ObserveRecord):
                 seen.add(record.host)
+
+
+def _unknown(parts: Sequence[str]) -> Iterator[str]:
+    if parts:
+        yield f"stop: {count(len(parts), 'part')} of the version tuple UNKNOWN: {', '.join(parts)}"
 
 
 def _deviations(found: Sorted) -> Iterator[str]:

@@ -16,7 +16,7 @@ from cellc.mock.folder import read_folder, read_text
 from cellc.tools.evidence.checklist import PAGES, Section, sections_of
 from cellc.tools.evidence.folder import EvidenceError, Item, listed
 from cellc.tools.evidence.judge import judged
-from cellc.tools.evidence.records import Identity, Named
+from cellc.tools.evidence.records import UNKNOWN, Identity, Named
 from cellc.tools.evidence.report import Report
 from cellc.tools.evidence.sort import Package, sort
 
@@ -69,7 +69,8 @@ def package_of(folder: Path) -> tuple[Contract, Package]:
     for page in PAGES:
         pages.update(sections_of(read_text(folder, page)))
     identity = Identity(contract.cell, contract.configuration_id)
-    return contract, Package(identity, contract.gates.evidence, plan, pages)
+    unknown = tuple(part for part, version in contract.version_tuple.items() if version == UNKNOWN)
+    return contract, Package(identity, contract.gates.evidence, plan, pages, unknown)
 
 
 def cell_of(folder: Path) -> str:

@@ -37,12 +37,14 @@ class Package:
 
     Attributes:
         pages: sections of both checklists, by gate.
+        unknown: parts of the version tuple that are UNKNOWN.
     """
 
     identity: Identity
     gates: tuple[GateEvidence, ...]
     plan: ObservedTarget
     pages: Mapping[str, Section]
+    unknown: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
