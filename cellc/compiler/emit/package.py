@@ -121,8 +121,8 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
         names |= set(_FIRST_GOAL)
     if any(watches(cell)):
         names |= set(_WATCH)
-    told = {reading.interface for reading in readings(cell)}
-    names |= {interface.type.partition("/")[0] for interface in cell.interfaces if interface.name in told}
+    read = {reading.interface for reading in readings(cell)}
+    names |= {interface.type.partition("/")[0] for interface in cell.interfaces if interface.name in read}
     if reporting(cell):
         names |= set(_CYCLES)
     if cell.managers:

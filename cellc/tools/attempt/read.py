@@ -73,7 +73,7 @@ def read_attempt(
             builders = SignalBuilder(contract, sources, drawn.sliding), measures
         followed, notes = _follow(bags, Follower(contract, sources), builders, listen)
     notes = (*notes, *_compare_joints(paths[0], contract, followed, sources))
-    told = {controller for topic, controller in sources.states.items() if topic in sources.topics}
+    reported = {controller for topic, controller in sources.states.items() if topic in sources.topics}
     name = None if steps is None else steps.name
     attempts = Deriver(contract, followed, stem, name).attempts(() if steps is None else steps.steps)
     return Report(
@@ -89,7 +89,7 @@ def read_attempt(
         followed.end.at_ns,
         None if builders is None else builders[0].signals(followed.end.at_ns - followed.begin_ns),
         () if builders is None else builders[1].measures(followed),
-        {goal.goal_id: goal.worst_error for goal in followed.goals if goal.action.controller in told},
+        {goal.goal_id: goal.worst_error for goal in followed.goals if goal.action.controller in reported},
     )
 
 

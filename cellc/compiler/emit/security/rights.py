@@ -295,10 +295,10 @@ def observer(cell: Cell, plan: BringUp) -> Profile:
     running = {name for target in TARGETS for name, _ in nodes_on(cell, plan, target) if "*" not in name}
     asked = (f"{name}/get_parameters" for name in sorted(running))
     names = {interface.name: interface.kind for interface in cell.interfaces}
-    told = (reading.interface for reading in readings(cell) if names[reading.interface] is InterfaceKind.SERVICE)
+    queried = (reading.interface for reading in readings(cell) if names[reading.interface] is InterfaceKind.SERVICE)
     cycles = (f"{node}/statistics/{part}" for node in reporting(cell) for part in ("names", "values"))
     diagnoses = ("/diagnostics",) if reporting(cell) else ()
-    own = Rights(subscribe=(*cycles, *diagnoses), request=(*asked, *told))
+    own = Rights(subscribe=(*cycles, *diagnoses), request=(*asked, *queried))
     return Profile("/observe", (Kind.NODE_WITHOUT_PARAMETERS, Kind.OBSERVER), own)
 
 
