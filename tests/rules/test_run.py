@@ -42,6 +42,19 @@ def test_rule_runs_where_what_it_assumes_absent_is_absent() -> None:
     assert codes(rule("effect", 1, ("cause",)), rule("cause", None)) == ["effect"]
 
 
+def test_rule_that_gives_way_says_nothing_of_a_value_that_another_reports() -> None:
+    def check(graph: CellGraph) -> Iterator[Finding]:
+        for key in ("a", "b"):
+            yield Finding("found", Span("cell.yaml", 1, 1, 1, 2), (key,), "do that")
+
+    def of_one(graph: CellGraph) -> Iterator[Finding]:
+        yield next(check(graph))
+
+    general, special = Rule("general", "FRM", Severity.ERROR, check, (), True), Rule("b", "FRM", Severity.ERROR, of_one)
+    assert codes(general) == ["general", "general"]
+    assert codes(general, special) == codes(special, general) == ["b", "general"]
+
+
 def test_assumptions_are_followed_through_chains() -> None:
     # `middle` is skipped, so `last` has nothing to hide it.
     chain = (rule("last", 3, ("middle",)), rule("middle", 2, ("cause",)), rule("cause", 1))

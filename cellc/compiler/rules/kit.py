@@ -69,6 +69,7 @@ class Rule:
         code: names the defect in kebab case and reads well after "allow".
         family: short name, such as FRM.
         assumes: codes whose absence this rule builds on; it is skipped where one of them was reported.
+        gives_way: what it finds is left out where another rule reports the same value.
     """
 
     code: str
@@ -76,6 +77,7 @@ class Rule:
     severity: Severity
     check: Check
     assumes: tuple[str, ...] = ()
+    gives_way: bool = False
 
     @property
     def page(self) -> CodePage:
@@ -83,11 +85,11 @@ class Rule:
         return page_of(self.code)
 
 
-def rule(severity: Severity, assumes: tuple[str, ...] = ()) -> Callable[[Check], Rule]:
+def rule(severity: Severity, assumes: tuple[str, ...] = (), *, gives_way: bool = False) -> Callable[[Check], Rule]:
     """Make a check the rule of its name, in the family of its folder."""
 
     def make(check: Check) -> Rule:
-        return Rule(check.__name__.replace("_", "-"), _family(check), severity, check, assumes)
+        return Rule(check.__name__.replace("_", "-"), _family(check), severity, check, assumes, gives_way)
 
     return make
 

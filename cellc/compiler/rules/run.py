@@ -37,15 +37,20 @@ ALL_RULES: tuple[Rule, ...] = tuple(
 def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Diagnostic, ...]:
     """Return what every rule finds, sorted by place.
 
-    A rule is skipped where a code that it assumes absent was reported, so that one cause gives one finding.
+    A rule is skipped where a code that it assumes absent was reported, so that one cause gives one finding. A rule that
+    gives way says nothing of a value that another one reports.
     """
     diagnostics: list[Diagnostic] = []
+    general: list[Diagnostic] = []
     reported: set[str] = set()
     for rule in _assumed_first(rules):
         if reported.isdisjoint(rule.assumes):
             found = list(_diagnostics(rule, graph))
-            diagnostics += found
+            (general if rule.gives_way else diagnostics).extend(found)
             reported.update(diagnostic.code for diagnostic in found)
+    if general:
+        told = {diagnostic.yaml_path for diagnostic in diagnostics}
+        diagnostics += (diagnostic for diagnostic in general if diagnostic.yaml_path not in told)
     return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
 
 

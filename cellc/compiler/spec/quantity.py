@@ -252,6 +252,8 @@ LONGEST_S = 1e6  # eleven days: no budget, timeout or step of a cell is longer
 SLOWEST_HZ = 1e-4  # once in three hours; the mock plays nothing slower
 
 Length = Annotated[Quantity, QuantityType((LENGTH,), "162 mm", least=0.0)]
+# Of a surface that points were read on: what is farther away is not on it.
+Fit = Annotated[Quantity, QuantityType((LENGTH,), "2 mm", least=0.0, most=0.05)]
 Way = Annotated[Quantity, QuantityType((LENGTH,), "-6 mm")]
 # What is divided by, or stepped in: a map of cells without an edge, a loop without a period, has no end.
 Edge = Annotated[Quantity, QuantityType((LENGTH,), "25 mm", least=1e-3)]
@@ -308,8 +310,10 @@ JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 
 JointTolerances = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0.2 rad", mixed=True)]
 Edges = Annotated[QuantityVector, QuantityType((LENGTH,), "80 120 0 mm", size=3, least=0.0)]
 Position = Annotated[QuantityVector, QuantityType((LENGTH,), "0 0 162 mm", size=3)]
-FieldAngle = Annotated[Quantity, QuantityType((ANGLE,), "69 deg", least=0.0)]
-RollPitchYaw = Annotated[QuantityVector, QuantityType((ANGLE,), "0 90 0 deg", size=3)]
+# One turn, rounded as people write it: more is an angle in degrees that is read in radians.
+_TURN = 6.3
+FieldAngle = Annotated[Quantity, QuantityType((ANGLE,), "69 deg", least=0.0, most=_TURN)]
+RollPitchYaw = Annotated[QuantityVector, QuantityType((ANGLE,), "0 90 0 deg", size=3, least=-_TURN, most=_TURN)]
 
 
 # Unit of the spec → other spellings, in lower case. Left out: `mhz`, which may be a millihertz, and `min` for minute of

@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Union
 from pydantic import Discriminator, Field, StringConstraints, Tag
 
 from cellc.compiler.spec.base import FrameReference
-from cellc.compiler.spec.quantity import Edge, Length, Position, RollPitchYaw
+from cellc.compiler.spec.quantity import Edge, Fit, Position, RollPitchYaw
 from cellc.contract.stated import StatedModel
 
 
@@ -98,7 +98,7 @@ class TouchedPoints(StatedModel):
         min_length=4,
         max_length=1000,
     )
-    within: Length = Field(
+    within: Fit = Field(
         ..., description="Largest distance that a point may have from the fitted surface.", examples=["2 mm"]
     )
     free: Position | None = Field(

@@ -7,8 +7,10 @@ from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import DeviceJoint
+from cellc.compiler.graph.commissioning import chain_of
+from cellc.compiler.rules.bounds import Bound, Figure, outside
 from cellc.compiler.rules.described import described
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule, rules
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule, rules
 from cellc.compiler.rules.tolerances import stated
 from cellc.contract.vocabulary import TRAJECTORIES
 
@@ -160,3 +162,58 @@ def _unmet(speeds: Mapping[str, float], controller: Controller, rate_hz: float) 
         missed = [bounds[joint] for joint, figure in (figures or {}).items() if 0.0 < figure.value < bounds[joint]]
         if missed:
             yield key, max(missed), "one update at full speed" if key == "path_tolerance" else "what arms repeat"
+
+
+_TIMES_ALLOWED, _MISSED_M = 10.0, 0.3
+"""At rest joints are far within their tolerances, and seldom all to one side."""
+
+
+def _misses(graph: CellGraph) -> Iterator[Figure]:
+    """Yield how far the tip of a group can be from its goal with one joint at its goal tolerance."""
+    uncertainty = graph.cell.uncertainty
+    allowed = {} if uncertainty is None else uncertainty.tolerances_m
+    for group in graph.cell.groups:
+        own = {
+            goal.name: allowed[goal.name]
+            for goal in graph.cell.goals
+            if goal.group == group.name and goal.name in allowed
+        }
+        loosest = max(own, key=lambda name: own[name], default="")
+        most = _TIMES_ALLOWED * own[loosest] if own else _MISSED_M
+        because = f"ten times the tolerance of goal `{loosest}`" if own else ""
+        places = [("uncertainty", "tolerances", loosest)] if own else []
+        related = tuple(Related("the tip may be so far from it", graph.cell.locate(*place)) for place in places)
+        arms = chain_of(graph, group).arms
+        for controller in graph.cell.controllers:
+            figures = controller.goal_tolerance or {}
+            ways = {name: figures[name].value * arms[name] for name in arms if name in figures}
+            if controller.behavior in TRAJECTORIES and ways:
+                path = (*controller.path, "goal_tolerance")
+                yield Figure(path, max(ways.values()), most=most, because=because, related=related)
+
+
+def _of_adapters(graph: CellGraph) -> Iterator[Figure]:
+    for device in graph.cell.devices:
+        adapter = device.control.adapter
+        if adapter is not None and adapter.path_tolerance is not None:
+            tolerance, path = adapter.path_tolerance, (*device.path, "adapter", "path_tolerance")
+            yield Figure(path, tolerance.value, _HELD, _WIDEST_RAD, unit="m" if tolerance.linear else "rad")
+
+
+_PLACES = ("control.controllers.*", "managers.*.controllers.*")
+BOUNDS = (
+    Bound(
+        tuple(f"{place}.goal_tolerance{by}" for place in _PLACES for by in ("", ".*")),
+        "the way of the tip that still counts as its goal",
+        "mm",
+        "the size of a part",
+        _misses,
+    ),
+    Bound(("devices.*.adapter.path_tolerance",), "`path_tolerance`", "rad", "what a path may be left by", _of_adapters),
+)
+
+
+@rule(Severity.WARNING, assumes=("unit-of-another-joint", "group-without-joints", "frame-cycle"), gives_way=True)
+def implausible_tolerance(graph: CellGraph) -> Findings:
+    """Yield tolerances of joints that let the tip be anywhere."""
+    yield from outside(graph, BOUNDS)

@@ -2,9 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from cellc.compiler.cell.robot import Moments6, Payload
 from cellc.compiler.graph.frame_tree import ModelJoint, ModelLink
 from cellc.compiler.rules.excuses import spared
-from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Related, Severity, did_you_mean, rule
+from cellc.compiler.rules.kit import (
+    CellGraph,
+    Finding,
+    Findings,
+    Related,
+    Severity,
+    YamlPath,
+    did_you_mean,
+    found,
+    rule,
+)
+from cellc.contract.transforms import identity
 from cellc.robot.description.model import Inertial
 
 
@@ -36,6 +50,24 @@ def impossible_inertia(graph: CellGraph) -> Findings:
         if part.link.inertial is not None and (reason := _impossible(part.link.inertial)):
             message = f"link `{part.link.name}` has an impossible inertia tensor: {reason}"
             yield Finding(message, part.span, part.path)
+    for device in graph.cell.devices:
+        for path, inertial in _carried(device.robot.payload):
+            if reason := _impossible(inertial):
+                message = f"the {path[-1]} of `{device.name}` has an impossible inertia tensor: {reason}"
+                yield found(graph, (*device.path, *path, "inertia"), message)
+
+
+def _carried(payload: Payload | None) -> Iterator[tuple[YamlPath, Inertial]]:
+    """Yield what an arm is set to carry and the part of it that a service sets, where a tensor is stated."""
+    if payload is not None and payload.inertia is not None:
+        yield ("payload",), _body(payload.mass_kg, payload.inertia)
+    if payload is not None and payload.load is not None:
+        yield ("payload", "load"), _body(payload.load.mass_kg, payload.load.inertia)
+
+
+def _body(mass_kg: float, tensor: Moments6) -> Inertial:
+    ixx, iyy, izz, ixy, ixz, iyz = tensor
+    return Inertial(pose=identity(), mass=mass_kg, ixx=ixx, ixy=ixy, ixz=ixz, iyy=iyy, iyz=iyz, izz=izz)
 
 
 def _impossible(inertial: Inertial) -> str:
