@@ -318,6 +318,8 @@ PROMOTION_GATES = tuple(code for code in GateCode if code.startswith("G"))
 """Gates of the first bring-up, in order."""
 NETWORK_GATES = tuple(code for code in GateCode if code.startswith("L"))
 """Gates from layer to layer of a cell that runs, in order."""
+GATE_ORDER = (*PROMOTION_GATES[:3], *NETWORK_GATES, *PROMOTION_GATES[3:])
+"""All gates as they are passed: the network (G3) layer by layer."""
 
 
 RobotSetting = Literal[

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.cells import ROOT, generated
+from tests.cells import ROOT
 from tests.cli.run import run
-from tests.evidence.attempts import complete, notes, observe
+from tests.evidence.attempts import complete, notes, observe, package
 
-PACKAGE = ("--package", generated("ur5e_pick").as_posix())
+PACKAGE = ("--package", package("ur5e_pick").as_posix())
 
 
 @pytest.fixture(name="whole", scope="module")
@@ -31,7 +31,7 @@ def _cellc(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_a_folder_is_read_from_end_to_end_where_people_call_it(tmp_path: Path) -> None:
-    shutil.copytree(generated("ur5e_pick"), tmp_path / "generated/ur5e_pick")
+    shutil.copytree(package("ur5e_pick"), tmp_path / "generated/ur5e_pick")
     folder = tmp_path / "evidence/attempt-001"
     folder.mkdir(parents=True)
     notes(folder, "ur5e_pick")
@@ -42,14 +42,19 @@ def test_a_folder_is_read_from_end_to_end_where_people_call_it(tmp_path: Path) -
     ran = _cellc("evidence", "evidence/attempt-001", folder=tmp_path)  # the evidence names its cell
     assert (ran.returncode, ran.stderr) == (1, "")
     lines = ran.stdout.splitlines()
-    assert "G2 Mock: complete, to be signed by the owner controls" in lines
+    assert "G0 Manifest: UNKNOWN" in lines
+    assert "G2 Mock: complete, but not to be signed yet: G0 is UNKNOWN" in lines
     assert "G3 Network: FAILED" in lines
     assert "  signed by: network" in lines
     assert "  FAILED     node names: /task runs 2 times (expected: each once)" in lines
     assert "  missing    observe-G4-*.json" in lines
-    assert lines[-1] == "14 gates: 5 complete, 1 FAILED, 8 UNKNOWN. cellc signs nothing and promotes nothing."
+    assert lines[-1].startswith(
+        "14 gates: 0 complete, 5 waiting for earlier gates, 1 FAILED, 8 UNKNOWN. cellc signs nothing"
+    )
+    observe(folder, "ur5e_pick", "G0")
     passed = _cellc("evidence", "evidence/attempt-001", "--gate", "G2", "-o", "out", folder=tmp_path)
     assert passed.returncode == 0
+    assert passed.stdout.splitlines()[2] == "G2 Mock: complete, to be signed by the owner controls"
     assert sorted(each.name for each in (tmp_path / "out").iterdir()) == [
         "ur5e_pick.evidence.html",
         "ur5e_pick.evidence.json",
@@ -111,7 +116,7 @@ def test_the_page_is_alone_and_has_a_line_to_sign_for_every_gate(whole: Path) ->
 
 def test_each_sheet_says_of_which_configuration_it_is_and_how_many_there_are(whole: Path) -> None:
     text = run("evidence", whole.as_posix(), *PACKAGE, "--format", "html").out
-    manifest = json.loads((generated("ur5e_pick") / "manifest.json").read_text(encoding="utf-8"))
+    manifest = json.loads((package("ur5e_pick") / "manifest.json").read_text(encoding="utf-8"))
     foot = text[text.index("@bottom-left") :]
     assert foot.startswith(f'@bottom-left {{ content: "ur5e_pick, {manifest["configuration_id"]}" }}')
     assert 'counter(page) " of " counter(pages)' in foot
@@ -131,7 +136,7 @@ def test_the_same_folder_gives_the_same_bytes(whole: Path) -> None:
         (("{empty}", "--package", "nothing"), "nothing: no such folder; name one that `cellc build` wrote"),
         (("{empty}", *PACKAGE, "--gate", "G9"), "'G9' is not one of"),
         (("{empty}", *PACKAGE, "--format", "pdf"), "'pdf' is not one of"),
-        ((), "Missing argument 'DIR'"),
+        ((), "Missing argument 'DIR...'"),
     ],
 )
 def test_a_wrong_call_is_2(words: tuple[str, ...], said: str, tmp_path: Path) -> None:
@@ -140,21 +145,21 @@ def test_a_wrong_call_is_2(words: tuple[str, ...], said: str, tmp_path: Path) ->
 
 
 def test_a_package_that_was_edited_judges_nothing(whole: Path, tmp_path: Path) -> None:
-    package = Path(shutil.copytree(generated("ur5e_pick"), tmp_path / "ur5e_pick"))
-    (package / "gates/promotion.md").write_text("", encoding="utf-8")
-    ran = run("evidence", whole.as_posix(), "--package", package.as_posix())
+    edited = Path(shutil.copytree(package("ur5e_pick"), tmp_path / "ur5e_pick"))
+    (edited / "gates/promotion.md").write_text("", encoding="utf-8")
+    ran = run("evidence", whole.as_posix(), "--package", edited.as_posix())
     assert (ran.code, "gates/promotion.md" in ran.err) == (2, True)
 
 
 def test_a_package_of_an_older_cellc_states_no_evidence(
     whole: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    package = Path(shutil.copytree(generated("ur5e_pick"), tmp_path / "ur5e_pick"))
-    contract = json.loads((package / "contract.json").read_text(encoding="utf-8"))
+    edited = Path(shutil.copytree(package("ur5e_pick"), tmp_path / "ur5e_pick"))
+    contract = json.loads((edited / "contract.json").read_text(encoding="utf-8"))
     del contract["gates"]["evidence"]
-    (package / "contract.json").write_text(json.dumps(contract), encoding="utf-8")
+    (edited / "contract.json").write_text(json.dumps(contract), encoding="utf-8")
     monkeypatch.setattr("cellc.mock.folder.differences", lambda *_: ((), (), contract["configuration_id"]))
-    ran = run("evidence", whole.as_posix(), "--package", package.as_posix())
+    ran = run("evidence", whole.as_posix(), "--package", edited.as_posix())
     assert (ran.code, "an older cellc built it, which states no evidence; build it again" in ran.err) == (2, True)
 
 

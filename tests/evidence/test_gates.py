@@ -13,9 +13,9 @@ import pytest
 
 from tests.cells import generated
 from tests.cli.run import Ran, run
-from tests.evidence.attempts import JOINTS, complete, first_goal, manifest, observe, ticked
+from tests.evidence.attempts import JOINTS, complete, first_goal, manifest, observe, package, ticked
 
-PACKAGE = ("--package", generated("ur5e_pick").as_posix())
+PACKAGE = ("--package", package("ur5e_pick").as_posix())
 _GATES = [f"G{number}" for number in range(8)] + [f"L{number}" for number in range(1, 7)]
 _OWN = manifest("ur5e_pick")["configuration_id"]
 _OTHER = "cfg-0123456789ab"
@@ -47,7 +47,7 @@ def test_all_that_the_checklists_ask_for_is_complete_and_names_who_signs(whole: 
     assert list(gates) == _GATES
     signing: dict[str, str] = {}
     for page in ("promotion", "network"):
-        text = (generated("ur5e_pick") / f"gates/{page}.md").read_text(encoding="utf-8")
+        text = (package("ur5e_pick") / f"gates/{page}.md").read_text(encoding="utf-8")
         owners = re.findall(r"Signed by: owner `(.+?)`\.", text)
         signing.update(zip(re.findall(r"^## ([GL]\d) ", text, re.MULTILINE), owners, strict=True))
     assert {code: gate["signed_by"] for code, gate in gates.items()} == signing
@@ -196,7 +196,7 @@ _FOREIGN: dict[str, tuple[Callable[[Path], object], str, str]] = {
         f"is of configuration {_OTHER}, this package is {_OWN}",
     ),
     "checklist of another cell": (
-        lambda folder: shutil.copy(generated("minimal") / "gates/promotion.md", folder),
+        lambda folder: shutil.copy(package("minimal") / "gates/promotion.md", folder),
         "promotion.md",
         "is no copy of gates/promotion.md of this package: G0 differs",
     ),
@@ -224,10 +224,10 @@ def test_a_first_goal_without_its_package_names_no_configuration(folder: Path) -
 
 def test_rehearsals_that_were_kept_count_for_the_mock_gate(folder: Path) -> None:
     runs = folder / "runs"
-    assert run("mock", generated("minimal").as_posix(), "--evidence", runs.as_posix()).code == 0
+    assert run("mock", package("minimal").as_posix(), "--evidence", runs.as_posix()).code == 0
     _, report, _ = states(folder)
     assert [each["path"] for each in report["refused"]] == ["runs/evidence.json"]
-    of_minimal = ("--package", generated("minimal").as_posix(), "--gate", "G2", "--format", "json")
+    of_minimal = ("--package", package("minimal").as_posix(), "--gate", "G2", "--format", "json")
     (folder / "G2-mock.md").write_text("passed  ready: succeeded\n", encoding="utf-8")
     ticked(folder, "minimal")
     gate = json.loads(run("evidence", folder.as_posix(), *of_minimal).out)["gates"][0]
@@ -246,12 +246,56 @@ def test_accepted_versions_are_shown_to_who_signs(folder: Path) -> None:
     assert gates["G0"]["notes"][0] == f"versions.txt: {line}"
 
 
-def test_versions_that_are_unknown_are_shown_to_who_signs(folder: Path) -> None:
-    _, _, gates = states(folder)
+def test_versions_that_are_unknown_stop_the_manifest_and_every_gate_after_it(tmp_path: Path) -> None:
+    ran = run("evidence", tmp_path.as_posix(), "--package", generated("ur5e_pick").as_posix(), "--format", "json")
     pins = json.loads((generated("ur5e_pick") / "manifest.json").read_text(encoding="utf-8"))["version_tuple"]
     unknown = [part for part, version in pins.items() if version == "UNKNOWN"]
     assert "arm.serial" in unknown
-    assert gates["G0"]["notes"] == [f"stop: {len(unknown)} parts of the version tuple UNKNOWN: {', '.join(unknown)}"]
+    said = f"{len(unknown)} parts of the version tuple UNKNOWN: {', '.join(unknown)}; enter them in the spec"
+    gate = json.loads(ran.out)["gates"][0]
+    assert (gate["status"], gate["findings"][0]["status"]) == ("UNKNOWN", "UNKNOWN")
+    assert gate["findings"][0]["text"].startswith(said)
+
+
+def test_a_gate_waits_for_those_before_it_in_the_order_of_the_checklists(folder: Path) -> None:
+    """README of a package: from top to bottom, and the network (G3) layer by layer."""
+    observe(folder, "ur5e_pick", "L4", at="20261128T120000Z", wrong=lambda seen: seen.streams.clear())
+    (folder / "G1-model.md").unlink()
+    ran, report, gates = states(folder, "--gate", "G3", "--gate", "L3")
+    assert (ran.code, report["complete"]) == (1, False)
+    assert {code: gate["status"] for code, gate in gates.items()} == {"G3": "complete", "L3": "complete"}
+    assert gates["L3"]["waits_for"] == [{"gate": "G1", "status": "UNKNOWN"}]
+    assert gates["G3"]["waits_for"] == [{"gate": "G1", "status": "UNKNOWN"}, {"gate": "L4", "status": "FAILED"}]
+    page = run("evidence", folder.as_posix(), *PACKAGE, "--gate", "G3", "--format", "html").out
+    assert ("complete, but not to be signed yet: G1 is UNKNOWN, L4 is FAILED" in page, "Signature" in page) == (
+        True,
+        False,
+    )
+    text = run("evidence", folder.as_posix(), *PACKAGE, "--gate", "G3").out
+    assert "1 gate: 0 complete, 1 waiting for earlier gates, 0 FAILED, 0 UNKNOWN." in text
+
+
+def test_an_attempt_that_repeats_a_gate_is_read_after_the_earlier_one(folder: Path) -> None:
+    observe(folder, "ur5e_pick", "G3", at="20261128T120000Z", wrong=lambda seen: seen.nodes.append("/perception"))
+    again = folder.with_name("attempt-002")
+    again.mkdir()
+    shutil.copy(package("ur5e_pick") / "gates/promotion.md", again)
+    both = ("evidence", folder.as_posix(), again.as_posix(), *PACKAGE)
+    assert run(*both).code == 1  # nothing of it is in the second: a copied checklist that is blank counts for nothing
+    observe(again, "ur5e_pick", "G3", at="20261128T130000Z")
+    (again / "G3-freshness.md").write_text("done\n", encoding="utf-8")
+    assert run(*both).code == 1  # its lines are not ticked
+    ticked(again, "ur5e_pick")
+    for page in again.glob("*.md"):  # those of the other gates stay blank
+        sections = re.split(r"^(?=## )", page.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        blank = [each if each.startswith("## G3") else each.replace("- [x]", "- [ ]") for each in sections]
+        page.write_text("".join(blank), encoding="utf-8")
+    ran = run(*both, "--format", "json")
+    report = json.loads(ran.out)
+    assert (ran.code, report["folders"]) == (0, [folder.as_posix(), again.as_posix()])
+    (gate,) = (gate for gate in report["gates"] if gate["gate"] == "G3")
+    assert gate["files"][1]["paths"] == [f"{again.as_posix()}/observe-G3-20261128T130000Z.json"]
+    assert run("evidence", again.as_posix(), folder.as_posix(), *PACKAGE).code == 1  # the last one counts
 
 
 def test_a_rehearsal_that_the_mock_printed_as_failed_fails_its_gate(folder: Path) -> None:
@@ -263,7 +307,7 @@ def test_a_rehearsal_that_the_mock_printed_as_failed_fails_its_gate(folder: Path
 
 def _filled(folder: Path, code: str, *, ticked: bool, result: str = "") -> None:
     """Fill in the checklist of one gate, and tick nothing of the others."""
-    page = (generated("ur5e_pick") / "gates/network.md").read_text(encoding="utf-8")
+    page = (package("ur5e_pick") / "gates/network.md").read_text(encoding="utf-8")
     before, section = page.split(f"## {code} ")
     section, *after = section.split("\n## ")
     if ticked:
@@ -279,13 +323,16 @@ def test_a_filled_in_checklist_says_what_is_ticked_and_signed(folder: Path) -> N
     ran, report, gates = states(folder)
     assert report["refused"] == []
     assert gates["L2"]["status"] == "complete"
-    assert gates["L2"]["page"] == "network.md: 6 of 6 lines ticked; result: passed, Ann, 2026-11-28 09:00"
+    number = (package("ur5e_pick") / "gates/network.md").read_text(encoding="utf-8").split("## L2 ")[1]
+    boxes = number.split("## L3 ")[0].count("- [ ]")
+    assert gates["L2"]["page"] == f"network.md: {boxes} of {boxes} lines ticked; result: passed, Ann, 2026-11-28 09:00"
     assert gates["L3"]["status"] == "UNKNOWN"
     assert gates["L3"]["page"] == "network.md: 0 of 2 lines ticked; result: blank"
     (finding,) = gates["L3"]["findings"]
     keys = "check that each enclave in use has its keys. `security/policy.xml` lists the enclaves."
     assert finding["text"] == f"network.md: 2 lines not ticked: If access control is enforced, {keys}"
-    assert gates["G0"]["page"] == "promotion.md: 15 of 15 lines ticked; result: blank"
+    boxes = (package("ur5e_pick") / "gates/promotion.md").read_text(encoding="utf-8").split("## G1 ")[0].count("- [ ]")
+    assert gates["G0"]["page"] == f"promotion.md: {boxes} of {boxes} lines ticked; result: blank"
     assert ran.code == 1
 
 
@@ -293,7 +340,7 @@ def test_a_gate_without_a_ticked_copy_of_its_checklist_is_not_complete(folder: P
     (folder / "promotion.md").unlink()
     _, _, gates = states(folder)
     (finding,) = gates["G1"]["findings"]
-    boxes = (generated("ur5e_pick") / "gates/promotion.md").read_text(encoding="utf-8")
+    boxes = (package("ur5e_pick") / "gates/promotion.md").read_text(encoding="utf-8")
     number = boxes.split("## G1 ")[1].split("## G2 ")[0].count("- [ ]")
     assert (gates["G1"]["status"], finding["text"]) == (
         "UNKNOWN",
@@ -319,6 +366,22 @@ def test_people_may_write_behind_a_line_of_the_checklist(folder: Path) -> None:
     page.write_text(re.sub(r"(- \[x\] .*)", r"\1 done at 9:12", page.read_text(encoding="utf-8")), encoding="utf-8")
     _, report, gates = states(folder)
     assert (report["refused"], gates["L2"]["page"]) == ([], "network.md: 6 of 6 lines ticked; result: blank")
+
+
+def test_a_line_that_does_not_apply_is_marked_with_its_reason(folder: Path) -> None:
+    page = folder / "network.md"
+    keys = "- [x] If access control is enforced, check that each enclave in use has its keys."
+    text = page.read_text(encoding="utf-8")
+    assert text.count(keys) == 1
+    page.write_text(text.replace(keys, keys.replace("[x]", "[-]")), encoding="utf-8")
+    _, _, gates = states(folder)
+    (finding,) = gates["L3"]["findings"]
+    assert finding["text"].startswith("network.md: 1 line marked as not applying without a reason behind: If access")
+    assert gates["L3"]["page"] == "network.md: 1 of 2 lines ticked, 1 do not apply; result: blank"
+    line = next(line for line in text.splitlines() if line.startswith(keys))
+    reasoned = f"{line.replace('[x]', '[-]')} Not enforced here."
+    page.write_text(text.replace(line, reasoned), encoding="utf-8")
+    assert states(folder)[2]["L3"]["status"] == "complete"
 
 
 def test_what_cannot_be_read_beside_what_can_is_named(folder: Path) -> None:

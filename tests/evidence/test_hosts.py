@@ -12,9 +12,9 @@ import pytest
 from cellc.compiler.emit.launch.observe_checks import Seen
 from cellc.contract.observation import ObservedTarget
 from cellc.tools.evidence.join import responsible
-from tests.cells import built, generated
+from tests.cells import built
 from tests.cli.run import run
-from tests.evidence.attempts import observe, ticked
+from tests.evidence.attempts import observe, package, ticked
 
 _HOSTS = ("control_pc", "planner_pc")
 _TRAJECTORY = "/arm_trajectory/follow_joint_trajectory"
@@ -43,7 +43,7 @@ def _observed(folder: Path, *, control: Callable[[Seen], object] = _right, plann
             observe(folder / host, "fr3_hand", "G3", host=host, wrong=wrong)
     (folder / "G3-freshness.md").write_text("done\n", encoding="utf-8")
     ticked(folder, "fr3_hand")
-    words = ("--package", generated("fr3_hand").as_posix(), "--gate", "G3", "--format", "json")
+    words = ("--package", package("fr3_hand").as_posix(), "--gate", "G3", "--format", "json")
     ran = run("evidence", folder.as_posix(), *words)
     report = json.loads(ran.out)
     assert (ran.code == 0) == report["complete"]
@@ -98,7 +98,7 @@ def test_a_host_that_is_none_of_the_cell_is_refused(tmp_path: Path) -> None:
     place = tmp_path / "planner_pc/observe-G3-20261128T101500Z.json"
     record = json.loads(place.read_text(encoding="utf-8"))
     place.write_text(json.dumps({**record, "host": "laptop"}), encoding="utf-8")
-    ran = run("evidence", tmp_path.as_posix(), "--package", generated("fr3_hand").as_posix(), "--format", "json")
+    ran = run("evidence", tmp_path.as_posix(), "--package", package("fr3_hand").as_posix(), "--format", "json")
     assert json.loads(ran.out)["refused"] == [
         {
             "path": "planner_pc/observe-G3-20261128T101500Z.json",

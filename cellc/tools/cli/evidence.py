@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.argument("folders", metavar="DIR...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(
     "--package",
     metavar="FOLDER",
@@ -48,20 +48,22 @@ if TYPE_CHECKING:
 )
 @limit_option
 def evidence(
-    folder: Path, package: str | None, gates: tuple[str, ...], output_format: str, output: Path | None
+    folders: tuple[Path, ...], package: str | None, gates: tuple[str, ...], output_format: str, output: Path | None
 ) -> None:
-    """List for every gate the evidence in DIR, what is missing, and who signs.
+    """List for every gate the evidence in each DIR, what is missing, and who signs.
 
-    DIR is the folder of one attempt, `$E` of the checklists; folders below it may be of other computers. Evidence of
-    another cell, configuration or host is refused. Reports of several hosts are joined. Nothing is signed. Exit 0 if
-    all that is asked for is there and passed, else 1.
+    DIR is the folder of one attempt, `$E` of the checklists; folders below it may be of other computers. Where an
+    attempt repeats gates, name the earlier attempts before it: of each gate, the last one counts. Evidence of another
+    cell, configuration or host is refused. Reports of several hosts are joined. Nothing is signed. Exit 0 if all that
+    is asked for is there and passed, after the gates before it, else 1.
 
     \b
     cellc evidence evidence/attempt-001
+    cellc evidence evidence/attempt-001 evidence/attempt-002
     cellc evidence evidence/attempt-001 --gate G3 --gate L4 --package generated/bench
     cellc evidence evidence/attempt-001 --format html > handover.html
     """
-    report = _read(folder, package, tuple(map(GateCode, gates)))
+    report = _read(folders, package, tuple(map(GateCode, gates)))
     _tell(report, output_format)
     if output is not None:
         _write(report, output)
@@ -69,14 +71,14 @@ def evidence(
         raise click.exceptions.Exit(1)
 
 
-def _read(folder: Path, package: str | None, gates: tuple[GateCode, ...]) -> Report:
+def _read(folders: tuple[Path, ...], package: str | None, gates: tuple[GateCode, ...]) -> Report:
     from cellc.mock.errors import MockError
     from cellc.tools.evidence.folder import EvidenceError
     from cellc.tools.evidence.read import cell_of, report_of
 
     try:
-        named = os.path.join("generated", cell_of(folder)) if package is None else package
-        return report_of(folder, Path(named), gates)
+        named = os.path.join("generated", cell_of(folders)) if package is None else package
+        return report_of(folders, Path(named), gates)
     except (EvidenceError, MockError) as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None

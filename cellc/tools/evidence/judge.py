@@ -35,12 +35,23 @@ def judged(gate: GateEvidence, package: Package, found: Sorted) -> GateState:
     notes = list(_earlier(gate, found))
     if gate.gate is GateCode.G0:
         notes += _deviations(found)
-        notes += _unknown(package.unknown)
+        findings += _unknown(package.unknown)
     if gate.gate is GateCode.G2:
         of_mock, said = of_runs(found.indices)
         findings, notes = [*findings, *of_mock], [*notes, *said]
     page, open_ = _filled(found.pages.get(gate.gate, ()), gate.gate, package.pages.get(gate.gate))
     return GateState(gate, pieces, (*_some(findings), *open_), tuple(notes), page)
+
+
+def is_begun(gate: GateEvidence, found: Sorted) -> bool:
+    """Return whether a folder has anything of a gate: evidence, or a line of its checklist that is filled in."""
+    names = {file.name for file in gate.files}
+    if gate.gate is GateCode.G2 and found.indices:
+        return True
+    there = (found.notes, found.records, found.bags, found.broken)
+    return any(names & kind.keys() for kind in there) or any(
+        section.is_begun for _, section in found.pages.get(gate.gate, ())
+    )
 
 
 def _some(findings: list[Finding]) -> Iterator[Finding]:
@@ -106,8 +117,9 @@ def _observed(package: Package, file: GateFile, found: Sorted) -> Piece:
     status = Status.FAILED if FAILED in verdicts else Status.UNKNOWN if UNKNOWN in verdicts else Status.PASSED
     if not newest.lines:
         status, said = Status.UNKNOWN, f"{said}: nothing was compared"
-    elif newest.seconds < least_s * 0.99 and status is not Status.FAILED:
-        status, said = Status.UNKNOWN, f"{said}; {least_s:.0f} s must be observed"
+    elif newest.seconds < least_s * 0.99:
+        said = f"{said}; {least_s:.0f} s must be observed"
+        status = Status.FAILED if status is Status.FAILED else Status.UNKNOWN
     return Piece(file, status, said, tuple(item.path for item, _ in reports), _ids(reports))
 
 
@@ -195,9 +207,10 @@ def _earlier(gate: GateEvidence, found: Sorted) -> Iterator[str]:
                 seen.add(record.host)
 
 
-def _unknown(parts: Sequence[str]) -> Iterator[str]:
+def _unknown(parts: Sequence[str]) -> Iterator[Finding]:
     if parts:
-        yield f"stop: {count(len(parts), 'part')} of the version tuple UNKNOWN: {', '.join(parts)}"
+        those = f"{count(len(parts), 'part')} of the version tuple UNKNOWN: {', '.join(parts)}"
+        yield Finding(Status.UNKNOWN, f"{those}; enter them in the spec and build again")
 
 
 def _deviations(found: Sorted) -> Iterator[str]:
@@ -217,10 +230,15 @@ def _filled(
         page = "network.md" if gate.startswith("L") else "promotion.md"
         return "", (Finding(Status.UNKNOWN, f"no copy of gates/{page} with {lines} ticked"),)
     path, section = copies[-1]
-    ticked = len(section.boxes) - len(section.open)
+    ticked, apart = (sum(mark == each for _, mark in section.boxes) for each in ("x", "-"))
     signed = ", ".join(text for text in (section.result, section.name, section.date) if text)
-    said = f"{path}: {ticked} of {count(len(section.boxes), 'line')} ticked; result: {signed or 'blank'}"
+    beside = f", {apart} do not apply" if apart else ""
+    said = f"{path}: {ticked} of {count(len(section.boxes), 'line')} ticked{beside}; result: {signed or 'blank'}"
     findings = list[Finding]()
+    bare = () if printed is None else section.without_reason(printed)
+    if bare:
+        those = f"{count(len(bare), 'line')} marked as not applying without a reason behind: {bare[0]}"
+        findings.append(Finding(Status.UNKNOWN, f"{path}: {those}"))
     if section.open:
         findings.append(
             Finding(Status.UNKNOWN, f"{path}: {count(len(section.open), 'line')} not ticked: {section.open[0]}")

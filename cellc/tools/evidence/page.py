@@ -44,9 +44,10 @@ def _foot(report: Report) -> str:
 
 
 def _header(report: Report) -> Element:
-    counted = ((str(report.number(status)), status) for status in (Status.COMPLETE, Status.FAILED, Status.UNKNOWN))
-    verdict = (tag("span", f"{number} {status}", class_=_class(status)) for number, status in counted if number != "0")
-    facts = [("configuration", report.configuration_id), ("folder", report.folder)]
+    verdict = (
+        tag("span", f"{number} {word}", class_=_class(status)) for status, number, word in report.numbers() if number
+    )
+    facts = [("configuration", report.configuration_id), ("folder", ", ".join(report.folders))]
     facts += [("hosts", ", ".join(report.hosts))] if report.hosts else []
     return tag(
         "header",
@@ -68,7 +69,7 @@ def _table(report: Report) -> Element:
     rows = [
         (
             tag("a", f"{gate.evidence.gate} {gate.evidence.title}", href=f"#{gate.evidence.gate}"),
-            tag("span", str(gate.status), class_=_class(gate.status)),
+            tag("span", _short_of(gate), class_=_class(_shade(gate))),
             gate.evidence.signed_by,
             _short(gate.missing),
             str(len(gate.findings) or "–"),
@@ -81,7 +82,7 @@ def _table(report: Report) -> Element:
 
 def _gate(gate: GateState) -> Element:
     stated = gate.evidence
-    head = tag("h2", f"{stated.gate} {stated.title} ", tag("span", gate.said, class_=_class(gate.status)))
+    head = tag("h2", f"{stated.gate} {stated.title} ", tag("span", gate.said, class_=_class(_shade(gate))))
     rows = [_piece(piece) for piece in gate.pieces]
     parts: list[Child] = [head, tag("p", f"{stated.shows[0].upper()}{stated.shows[1:]}." if stated.shows else "")]
     parts += [cards(("status", "file", "what it says"), rows)] if rows else []
@@ -89,7 +90,7 @@ def _gate(gate: GateState) -> Element:
     further = (*gate.notes, *([gate.page] if gate.page else []))
     parts += [tag("ul", *(tag("li", note) for note in further), class_="plain-list")] if further else []
     parts += [hint(f"To be recorded: {'; '.join(stated.measured)}.")] if stated.measured else []
-    if gate.status is Status.COMPLETE:
+    if gate.is_ready:
         blanks = ("Result", f"Name, for {stated.signed_by}", "Date, time", "Signature")
         parts.append(tag("div", *(tag("p", blank, class_="blank") for blank in blanks), class_="signed"))
     else:
@@ -139,6 +140,15 @@ def _colophon() -> Element:
         "people read the evidence, and sign."
     )
     return tag("footer", tag("p", words))
+
+
+def _shade(gate: GateState) -> Status:
+    return Status.UNKNOWN if gate.waits_for and gate.status is Status.COMPLETE else gate.status
+
+
+def _short_of(gate: GateState) -> str:
+    after = f", after {', '.join(code for code, _ in gate.waits_for)}" if gate.waits_for else ""
+    return f"{gate.status}{after}" if gate.status is Status.COMPLETE else str(gate.status)
 
 
 def _class(status: Status) -> str:

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.frozen import dataclass
 from cellc.contract.gates import GateEvidence, GateFile
-from cellc.contract.vocabulary import Term
+from cellc.contract.vocabulary import GateCode, Term
 from cellc.tools.evidence.folder import Unread
 
 
@@ -54,6 +54,7 @@ class GateState:
     Attributes:
         notes: what a person should know who signs.
         page: what a filled-in checklist reports of it, in words; empty without one.
+        waits_for: gates before it that are not complete, each with its status.
     """
 
     evidence: GateEvidence
@@ -61,6 +62,7 @@ class GateState:
     findings: tuple[Finding, ...]
     notes: tuple[str, ...] = ()
     page: str = ""
+    waits_for: tuple[tuple[GateCode, Status], ...] = ()
 
     @property
     def status(self) -> Status:
@@ -78,8 +80,16 @@ class GateState:
     @property
     def said(self) -> str:
         """The status in words."""
-        complete = f"complete, to be signed by the owner {self.evidence.signed_by}"
-        return complete if self.status is Status.COMPLETE else str(self.status)
+        if self.status is not Status.COMPLETE:
+            return str(self.status)
+        first = ", ".join(f"{code} is {status}" for code, status in self.waits_for)
+        signed = f"to be signed by the owner {self.evidence.signed_by}"
+        return f"complete, but not to be signed yet: {first}" if first else f"complete, {signed}"
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether it is complete, and so is every gate before it."""
+        return self.status is Status.COMPLETE and not self.waits_for
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,13 +97,13 @@ class Report:
     """All gates that were asked for.
 
     Attributes:
-        folder: as the user named it.
+        folders: as the user named them.
         refused: evidence of another cell, configuration or host, each with what is another's.
         unread: what is in the folder and cannot be read.
         beside: files that no gate asks for.
     """
 
-    folder: str
+    folders: tuple[str, ...]
     cell: str
     summary: str
     configuration_id: str
@@ -106,12 +116,19 @@ class Report:
 
     @property
     def complete(self) -> bool:
-        """Whether all that was asked for is there and passed, and nothing else is in the way."""
-        return not self.refused and not self.unread and all(gate.status is Status.COMPLETE for gate in self.gates)
+        """Whether all that was asked for is there and passed, after all before it, and nothing else is in the way."""
+        return not self.refused and not self.unread and all(gate.is_ready for gate in self.gates)
 
-    def number(self, status: Status) -> int:
-        """Return how many gates have a status."""
-        return sum(gate.status is status for gate in self.gates)
+    def numbers(self) -> tuple[tuple[Status, int, str], ...]:
+        """Return how many gates have each status, with a word; complete ones that wait for others are apart."""
+        ready, waiting = (
+            sum(gate.status is Status.COMPLETE and gate.is_ready is each for gate in self.gates)
+            for each in (True, False)
+        )
+        failed, unknown = (sum(gate.status is each for gate in self.gates) for each in (Status.FAILED, Status.UNKNOWN))
+        apart = ((Status.UNKNOWN, waiting, "waiting for earlier gates"),) if waiting else ()
+        counted = ((Status.FAILED, failed, str(Status.FAILED)), (Status.UNKNOWN, unknown, str(Status.UNKNOWN)))
+        return ((Status.COMPLETE, ready, str(Status.COMPLETE)), *apart, *counted)
 
 
 def named(file: GateFile) -> str:
@@ -126,7 +143,7 @@ def to_json(report: Report) -> str:
             "format": 1,
             "cell": report.cell,
             "configuration_id": report.configuration_id,
-            "folder": report.folder,
+            "folders": list(report.folders),
             "hosts": list(report.hosts),
             "complete": report.complete,
             "gates": [_gate(gate) for gate in report.gates],
@@ -150,6 +167,7 @@ def _gate(gate: GateState) -> dict[str, object]:
         "findings": [asdict(finding) for finding in gate.findings],
         "notes": list(gate.notes),
         "page": gate.page,
+        "waits_for": [{"gate": code, "status": status} for code, status in gate.waits_for],
     }
 
 

@@ -19,7 +19,7 @@ _WIDTH = 11
 
 def render_text(report: Report) -> Iterator[Line]:
     """Yield what a terminal shows."""
-    yield f"{report.cell}, {report.configuration_id}: {report.folder}"
+    yield f"{report.cell}, {report.configuration_id}: {', '.join(report.folders)}"
     for gate in report.gates:
         yield ""
         yield from _gate(gate)
@@ -30,16 +30,15 @@ def render_text(report: Report) -> Iterator[Line]:
         yield ""
         yield f"{count(len(report.beside), 'file')} that no gate asks for: {', '.join(report.beside[:10])}"
     yield ""
-    numbers = ", ".join(
-        f"{report.number(status)} {status}" for status in (Status.COMPLETE, Status.FAILED, Status.UNKNOWN)
-    )
+    numbers = ", ".join(f"{number} {word}" for _, number, word in report.numbers())
     yield f"{count(len(report.gates), 'gate')}: {numbers}. cellc signs nothing and promotes nothing."
 
 
 def _gate(gate: GateState) -> Iterator[Line]:
     stated = gate.evidence
-    yield (Styled(f"{stated.gate} {stated.title}", Style.BOLD), ": ", _word(gate.status, gate.said))
-    if gate.status is not Status.COMPLETE:
+    shade = Status.UNKNOWN if gate.waits_for and gate.status is Status.COMPLETE else gate.status
+    yield (Styled(f"{stated.gate} {stated.title}", Style.BOLD), ": ", _word(shade, gate.said))
+    if not gate.is_ready:
         yield f"  signed by: {stated.signed_by}"
     yield from map(_piece, gate.pieces)
     for finding in gate.findings:
