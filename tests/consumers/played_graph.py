@@ -60,7 +60,15 @@ class Played:
         self.nodes: dict[str, Node] = {}
         self.says: list[tuple[float, Any]] = []
         self.kept: list[Any] = []
-        names = [name for name in self.plan["nodes"] if wrong != f"missing:{name}"]
+        early = {
+            node
+            for sides in self.plan["ends"].values()
+            for nodes in sides.values()
+            for node, since in nodes.items()
+            if since < "G6" or wrong == f"early:{node}"  # nothing is claimed and nothing moves in what is played
+        }
+        later = {node for sides in self.plan["ends"].values() for nodes in sides.values() for node in nodes} - early
+        names = [name for name in self.plan["nodes"] if wrong != f"missing:{name}" and name not in later]
         for name in [*names, *(["/stranger"] if wrong == "stranger" else [])]:
             self.join(name)
         if wrong == "twin":
@@ -154,7 +162,7 @@ class Played:
 
     def publish(self, name: str, interface: Any, kind: Any, publisher: Any) -> None:
         """Say what a topic with a rate says, in its rate, and once what a device says of itself."""
-        if any(reading["interface"] == name for reading in self.plan["readings"]):
+        if any(reading["interface"] == name for reading in self.plan.get("readings", ())):
             publisher.publish(self.tell(name, None, kind()))
             self.kept.append(publisher)
         if interface.get("rate_hz") is None or self.wrong == f"silent:{name}":
@@ -190,7 +198,7 @@ class Played:
 
     def tell(self, name: str, _: Any, message: Any) -> Any:
         """Fill a message or an answer with what a device says of itself at G4, or with something else."""
-        for reading in self.plan["readings"]:
+        for reading in self.plan.get("readings", ()):
             if reading["interface"] == name:
                 due = [names for since, names in sorted(reading.get("expected", {}).items()) if since <= "G4"]
                 values = [reading["values"][due[-1][0]]] if due else [1.0]
@@ -250,7 +258,7 @@ class Played:
         if self.wrong.startswith("twice:"):
             other = stamped(child_frame_id=self.wrong.partition(":")[2])
             other.header.frame_id, other.transform.rotation.w = "world", 1.0
-            self.nodes["/task"].create_publisher(kind, "/tf_static", latched).publish(kind(transforms=[other]))
+            self.nodes["/perception"].create_publisher(kind, "/tf_static", latched).publish(kind(transforms=[other]))
 
     def managers(self) -> None:
         """Answer for controller managers and managed nodes."""

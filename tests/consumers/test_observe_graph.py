@@ -25,6 +25,7 @@ _WRONGS = {
     "missing:/joint_states": "/joint_states, publishers",
     "second_publisher": "/joint_states, publishers",
     "qos:/joint_states": "/joint_states, publishers",
+    "early:/task": "nodes of later gates",
     "stranger": "nodes beside the package",
     "twin": "node names",
     "silent:/object_pose": "/object_pose",
@@ -74,7 +75,7 @@ _WRONGS = {
     "slow_manager": "/controller_manager, update rate",
     "irregular": "/controller_manager, update rate",
     "overrun": "/controller_manager, missed cycles",
-    "hash:/object_pose": "type hashes",
+    "hash:/camera/color/image_raw": "type hashes",
     "says:/arm_io/safety_mode": "/arm_io/safety_mode, safety state",
     "says:/arm_io/robot_mode": "/arm_io/robot_mode, robot mode",
     "says:/arm_software/get_robot_software_version": (
@@ -123,7 +124,7 @@ def _is_absent(kind: str) -> bool:
 
 
 def _observed(package: Path, wrong: str, evidence: Path) -> tuple[int, dict[str, str]]:
-    """Return the exit status, and the verdict of each subject that did not pass."""
+    """Return the exit status, and the verdict of each subject that did not pass, but for mere figures."""
     env = {**os.environ, "ROS_DOMAIN_ID": str(10 + os.getpid() % 90), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     player = [sys.executable, str(_PLAYED), str(package), "real", wrong]
     with subprocess.Popen(player, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=env, text=True) as played:
@@ -134,7 +135,9 @@ def _observed(package: Path, wrong: str, evidence: Path) -> tuple[int, dict[str,
         played.communicate("")
     (report,) = evidence.glob("*.json")
     lines = json.loads(report.read_text(encoding="utf-8"))["lines"]
-    return ended.returncode, {line["subject"]: line["verdict"] for line in lines if line["verdict"] != "PASSED"}
+    return ended.returncode, {
+        line["subject"]: line["verdict"] for line in lines if line["verdict"] not in ("PASSED", "SEEN")
+    }
 
 
 def test_the_right_graph_passes(package: Path, tmp_path: Path) -> None:

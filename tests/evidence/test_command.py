@@ -46,7 +46,7 @@ def test_a_folder_is_read_from_end_to_end_where_people_call_it(tmp_path: Path) -
     assert "G2 Mock: complete, but not to be signed yet: G0 is UNKNOWN" in lines
     assert "G3 Network: FAILED" in lines
     assert "  signed by: network" in lines
-    assert "  FAILED     node names: /task runs 2 times (expected: each once)" in lines
+    assert "  FAILED     nodes of later gates: /task runs, and G7 starts it (expected: none runs)" in lines
     assert "  missing    observe-G4-*.json" in lines
     assert lines[-1].startswith(
         "14 gates: 0 complete, 5 waiting for earlier gates, 1 FAILED, 8 UNKNOWN. cellc signs nothing"

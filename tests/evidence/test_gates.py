@@ -351,11 +351,11 @@ def test_a_gate_without_a_ticked_copy_of_its_checklist_is_not_complete(folder: P
 
 def test_what_a_program_compared_is_not_found_a_second_time_in_its_printed_lines(folder: Path) -> None:
     observe(folder, "ur5e_pick", "G4", at="20261128T111500Z", wrong=lambda seen: seen.nodes.append("/task"))
-    line = "FAILED  graph      node names: /task runs 2 times (expected: each once)"
+    line = "FAILED  graph      nodes of later gates: /task runs, and G7 starts it (expected: none runs)"
     (folder / "G4-transitions.md").write_text(f"{line}\nFAILED  log        a fault of the driver\n", encoding="utf-8")
     _, _, gates = states(folder)
     assert [finding["text"] for finding in gates["G4"]["findings"]] == [
-        "node names: /task runs 2 times (expected: each once)",
+        "nodes of later gates: /task runs, and G7 starts it (expected: none runs)",
         "G4-transitions.md says FAILED of log        a fault of the driver",
     ]
 

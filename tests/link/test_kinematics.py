@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import subprocess
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -75,6 +77,30 @@ def test_gates_compare_the_file_and_read_what_the_driver_says_of_it(tmp_path: Pa
     assert "grep -hF -e 'Calibration checked successfully'" in gates
     nominal = artifacts_of("ur5e_pick")["gates/network.md"]  # at the end of L2: the robot is powered for it
     assert "ros2 launch ur_calibration calibration_correction.launch.py robot_ip:=192.168.56.101" in nominal
+
+
+@pytest.mark.parametrize(
+    ("log", "said"),
+    [
+        (None, "FAILED  log         arm: none of these lines"),
+        ("ros2_control_node", "FAILED  log         arm: none of these lines"),
+        ("Calibration checked successfully.", "PASSED  log         arm: Calibration checked successfully."),
+        (
+            "Calibration checked successfully.\nThe calibration parameters of the connected robot don't match",
+            "FAILED  log         arm: The calibration parameters of the connected robot don't match",
+        ),
+    ],
+)
+def test_what_the_log_says_has_a_verdict_of_its_own(log: str | None, said: str, tmp_path: Path) -> None:
+    """Texts: ur_robot_driver@3.8.0 ur_robot_driver/src/hardware_interface.cpp, on_configure."""
+    page = emitted(tmp_path, _spec(tmp_path))["gates/promotion.md"]
+    block = page[page.index("    log=$(") :].partition("  } 2>&1")[0]
+    if log is not None:
+        (tmp_path / "logs/a launch").mkdir(parents=True)
+        (tmp_path / "logs/a launch/launch.log").write_text(f"ros2_control_node\n{log}\n", encoding="utf-8")
+    env = {**os.environ, "ROS_LOG_DIR": (tmp_path / "logs").as_posix()}
+    ran = subprocess.run(["bash", "-c", block], env=env, capture_output=True, text=True, check=False)
+    assert ran.stdout.splitlines()[-1] == said
 
 
 def test_nominal_kinematics_keep_the_real_cell_closed_until_a_file_is_named(tmp_path: Path) -> None:

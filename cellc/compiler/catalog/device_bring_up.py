@@ -171,7 +171,8 @@ class CommissioningStep(CatalogModel):
     Attributes:
         gate: Gate of bring-up in which the step is done, such as ``G4``.
         does: What the person does, in full sentences; placeholders such as ``{address}`` are filled.
-        log: Texts to look for in the log of the driver; of the lines that hold one of them, the newest counts.
+        log: Texts to look for in the log of the driver. Of the lines that hold one of them, the newest counts, and it
+            must hold the first.
         run: Commands that only read; ``{address}`` in them becomes a word of the shell.
         after_release: Whether the step comes after the release of the gate: what must be seen then, or what is first
             done with it.

@@ -176,7 +176,10 @@ def _by_vendors(
     for device in graph.cell.devices:
         for step in device.procedures.commissioning:
             if (step.after_release, step.powers, step.moves) == (after_release, powers, moves):
-                commands = (*(_addressed(device, command) for command in step.run), *_of_this_launch(step.log))
+                commands = (
+                    *(_addressed(device, command) for command in step.run),
+                    *_of_this_launch(device.name, step.log),
+                )
                 yield device.name, step.does, "\n".join(commands), step.gate, step.sets or ""
 
 
@@ -185,17 +188,20 @@ def _addressed(device: Device, command: str) -> str:
     return command.replace("{address}", shell_word(address))
 
 
-def _of_this_launch(lines: tuple[str, ...]) -> Iterator[str]:
-    """Yield commands that print the last line with one of these texts in the log of the newest hardware launch.
+def _of_this_launch(device: str, lines: tuple[str, ...]) -> Iterator[str]:
+    """Yield commands that compare the last line with one of these texts in the log of the newest hardware launch.
 
     Each launch has a folder of its own below that of the logs. An earlier run's line would be taken for this one's, so
-    that no line is an answer too, and the name of the file, with its time, is printed above it.
+    that no line fails too, and the name of the file, with its time, is printed above the verdict.
     """
     if lines:
         wanted = " ".join(f"-e {shell_word(line)}" for line in lines)
         managers = 'grep -lF -e ros2_control_node "$(printenv ROS_LOG_DIR || echo ~/.ros/log)"/*/launch.log'
-        newest = f"{managers} | xargs -r -d '\\n' ls -t | head -n 1 | xargs -r -d '\\n'"
-        yield from (f"{newest} ls -l", f"{newest} grep -hF {wanted} | tail -n 1")
+        yield f"log=$({managers} | xargs -r -d '\\n' ls -t | head -n 1); ls -l \"$log\""
+        yield f'line=$(grep -hF {wanted} "$log" | tail -n 1)'
+        verdicts = (f"{verdict}  log         {device}: " for verdict in ("PASSED", "FAILED"))
+        passed, failed = (f'echo "{text}${{line:-none of these lines}}"' for text in verdicts)
+        yield f'case "$line" in *{shell_word(lines[0])}*) {passed} ;; *) {failed} ;; esac'
 
 
 def _nominal_devices(graph: CellGraph) -> Iterator[Values]:

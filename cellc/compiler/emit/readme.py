@@ -168,7 +168,9 @@ def _shell_of(cell: Cell) -> str:
             'export PATH="$PATH:$PWD/.venv/bin"  # where cellc is installed; behind ROS, which has its own xacro',
             *environments,
             *_servers(cell),
-            'export E=evidence/attempt-001 && mkdir -p "$E"  # a new folder for each attempt',
+            "mkdir -p evidence/attempt-001  # once; for each further attempt the next number",
+            "export E=$(ls -d evidence/attempt-* | tail -n 1)  # the newest attempt",
+            f'cp -n generated/{cell.name}/gates/*.md "$E"  # checklists to tick',
         )
     )
 

@@ -7,7 +7,7 @@ import math
 import re
 from array import array
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from itertools import pairwise
@@ -175,9 +175,21 @@ def nodes(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
     of_cell = Counter(node for node in seen.nodes if not BESIDE.fullmatch(node))  # each host has an observer
     several = [f"{node} runs {number} times" for node, number in of_cell.items() if number > 1]
     yield judged("graph", "node names", "each once", several)
+    yield judged("graph", "nodes of later gates", "none runs", list(_early(package, of_cell, gate)))
     known = set(package.plan["nodes"])
     other = {node for node in seen.nodes if owner(node, package.plan) not in known and not BESIDE.fullmatch(node)}
     yield Line("graph", "nodes beside the package", UNKNOWN if other else PASSED, "none", listed(other))
+
+
+def _early(package: Package, running: Collection[str], gate: str) -> Iterator[str]:
+    """Yield the nodes that run before the gate in which they are started: motion clients above all."""
+    since: dict[str, str] = {}
+    for sides in package.plan["ends"].values():
+        for node, start in (*sides["sources"].items(), *sides["sinks"].items()):
+            since[node] = min(start, since.get(node, start))
+    yield from (
+        f"{node} runs, and {start} starts it" for node, start in since.items() if start > gate and node in running
+    )
 
 
 def owner(node: str, plan: Any) -> str:
@@ -256,7 +268,9 @@ def streams(package: Package, seen: Seen, gate: str) -> Iterator[Line]:
         problems += [f"{stream.backward} stamps before an earlier one"] if stream.backward and alone else []
         frame = interface.get("frame") or ""
         problems += [f"frame {each}, expected {frame}" for each in sorted(stream.frames - {frame}) if frame]
-        yield judged("flow", name, expected, problems, f"{rate:.4g} Hz, {gaps(stream)}, at most {oldest:.4g} s old")
+        figures = f"{rate:.4g} Hz, {gaps(stream)}, at most {oldest:.4g} s old"
+        line = judged("flow", name, expected, problems, figures)
+        yield replace(line, seen=f"{line.seen}; in all {figures}") if problems else line
 
 
 def is_published(package: Package, name: str, gate: str) -> bool:

@@ -55,6 +55,7 @@ POLL_S = 0.01  # at 1 kHz a tenth of the queue fills in it
 PARTS = {"G0": "", "L1": "", "L3": "graph", "L4": "flow", "L5": "tf"}  # of the graph; other gates ask for all
 HOST_PARTS = {"G0": "versions", "L1": "host", "L3": "environment", "L5": "clock"}  # of this computer
 DAY_S = 86400.0
+ORDER = (PASSED, SEEN, UNKNOWN, FAILED)  # in which lines are printed: what stops a gate is last
 TRIES = 10  # to write a report under the second in which it is written
 NO_HASH = "INVALID"  # what rclpy shows where the other end carries none
 
@@ -290,6 +291,19 @@ def seconds(text: str) -> float:
     return value
 
 
+def folder(text: str) -> Path:
+    """Return a folder that is there.
+
+    Raises:
+        argparse.ArgumentTypeError: it is not, or no name is given, as where ``$E`` is not set in a shell.
+    """
+    if not text or not Path(text).is_dir():
+        raise argparse.ArgumentTypeError(
+            f"must be a folder that is there, got '{escaped(text)}'; is E set in this shell?"
+        )
+    return Path(text)
+
+
 def host_of(hosts: Mapping[str, Any], named: str | None, refuse: Callable[[str], object]) -> str:
     """Return the host of the cell that this computer is; its own name where the cell runs in one place."""
     own = platform.node()
@@ -322,7 +336,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--gate", choices=(*PARTS, "G3", "G4", "G7"), default="G4", help="default: G4")
     parser.add_argument("--target", choices=("real", "mock"), default="real", help="hardware (default: real)")
     parser.add_argument("--for", type=seconds, default=30.0, dest="for_s", metavar="SECONDS", help="default: 30")
-    parser.add_argument("--evidence", type=Path, metavar="FOLDER", help="folder of this attempt's evidence")
+    parser.add_argument("--evidence", type=folder, metavar="FOLDER", help="folder of this attempt's evidence")
     parser.add_argument("--host", metavar="NAME", help="this computer, as the spec names it (default: its own name)")
     read = parser.parse_args(arguments)
     try:
@@ -338,7 +352,7 @@ def main(arguments: Sequence[str]) -> int:
         if read.evidence is not None and read.gate not in PARTS:
             lines.append(space(package, seen, read.evidence, read.gate))
         listened_s = seen.listened_s
-    for line in lines:
+    for line in sorted(lines, key=lambda line: ORDER.index(line.verdict)):
         expected = "" if line.verdict in (PASSED, SEEN) else f" (expected: {line.expected})"
         text = f"{line.verdict:8}{line.part:12}{line.subject}: {line.seen}{expected}"
         print(text.replace("\n", " "), flush=True)

@@ -140,7 +140,7 @@ def _overruns(node: str, rate: float, found: Cycles, seen: Seen) -> Line:
     if not found.times_us:
         return Line("control", subject, UNKNOWN, expected, f"nothing on {node}/statistics/values")
     over = sum(time_us > 1e6 / rate for time_us in found.times_us)
-    shown = f"{over} of {len(found.times_us)} cycles, the longest {max(found.times_us) / 1e3:.4g} ms"
+    shown = f"{over} of {len(found.times_us)} cycles took longer, the longest {max(found.times_us) / 1e3:.4g} ms"
     return judged("control", subject, expected, [shown] if over > OVERRUN * len(found.times_us) else [], shown)
 
 
