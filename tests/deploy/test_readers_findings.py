@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+import subprocess
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -239,10 +240,24 @@ def test_each_motor_of_an_openarm_has_its_own_firmware(motor: str, firmware: str
     assert _in_order(gates["G5"], "Switch its 24 V supply on", "trip the stop", "Read left.firmware at the device")
 
 
-def test_a_repeated_gate_gets_an_evidence_folder_of_its_own() -> None:
-    assert (
-        "mkdir evidence/attempt-002 && export E=evidence/attempt-002" in built("ur5e_pick").texts["gates/promotion.md"]
-    )
+def test_a_repeated_gate_gets_an_evidence_folder_of_its_own_which_each_new_shell_finds(tmp_path: Path) -> None:
+    texts = built("ur5e_pick").texts
+    assert "`mkdir evidence/attempt-002`, then set up each shell again" in texts["gates/promotion.md"]
+    for page in ("promotion", "network"):
+        place = tmp_path / f"generated/ur5e_pick/gates/{page}.md"
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text("printed", encoding="utf-8")
+    setup = texts["README.md"].partition("## Set up each shell")[2].partition("```sh\n")[2].partition("```")[0]
+    lines = [line for line in setup.splitlines() if "evidence/attempt" in line or '"$E"' in line]
+    for newest in ("attempt-001", "attempt-002"):
+        (tmp_path / "evidence" / newest).mkdir(parents=True)
+        script = "\n".join([*lines, 'echo "$E"'])
+        ran = subprocess.run(["bash", "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert ran.stdout == f"evidence/{newest}\n"
+        (tmp_path / "evidence" / newest / "promotion.md").write_text("ticked", encoding="utf-8")
+        subprocess.run(["bash", "-c", script], cwd=tmp_path, capture_output=True, check=False)
+        kept = [(tmp_path / "evidence" / newest / f"{page}.md").read_text("utf-8") for page in ("promotion", "network")]
+        assert kept == ["ticked", "printed"]
 
 
 @pytest.mark.parametrize("cell", _WALKED)

@@ -58,6 +58,7 @@ _AFTER_A_PIPE = (
     "head -n ",
     "tail -n ",
     'tee -a "$E/',
+    "tee /dev/stderr",
     "xargs -r -d '\\n' grep ",
     "xargs -r -d '\\n' ls -l",
     "xargs -r -d '\\n' ls -t",
@@ -211,7 +212,7 @@ def test_calibration_is_read_off_a_robot_that_is_powered_into_a_file_whose_folde
     artifacts = artifacts_of("ur5e_pick")
     layer = artifacts["gates/network.md"].split("\n## L2")[1].split("\n## ")[0]
     assert 'target_filename:="$(pwd)"/cells/ur5e_pick/arm_calibration.yaml' in layer
-    assert "robot powered on, brakes closed" in layer
+    assert "robot powered on and idle with its brakes closed, its drives disabled" in layer
     assert "ros2 launch ur_calibration" not in artifacts["gates/promotion.md"]
     assert "<exec_depend>ur_calibration</exec_depend>" in artifacts["package.xml"]
 

@@ -89,10 +89,9 @@ def test_the_checklist_of_the_mock_asks_for_the_sweep_of_each_rate_that_is_expec
         cell: (ROOT / "generated" / cell / "gates/promotion.md").read_text(encoding="utf-8").split("## G2 ")[1]
         for cell in ("ur5e_pick", "minimal")
     }
-    asked = (
-        "generated/ur5e_pick --sweep 10000`. pick_and_place must succeed in at least 99 % of its runs, with confidence"
-    )
-    assert asked in sections["ur5e_pick"].split("\n## ")[0]
+    section = sections["ur5e_pick"].split("\n## ")[0]
+    assert "pick_and_place succeeds in at least 99 % of its runs, with confidence 0.95" in section
+    assert '  cellc gates generated/ur5e_pick --sweep 10000 2>&1 | tee -a "$E/G2-mock.md"\n' in section
     assert "--sweep" not in sections["minimal"].split("\n## ")[0]
 
 

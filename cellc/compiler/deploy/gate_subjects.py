@@ -192,16 +192,17 @@ def _of_this_launch(device: str, lines: tuple[str, ...]) -> Iterator[str]:
     """Yield commands that compare the last line with one of these texts in the log of the newest hardware launch.
 
     Each launch has a folder of its own below that of the logs. An earlier run's line would be taken for this one's, so
-    that no line fails too, and the name of the file, with its time, is printed above the verdict.
+    that no line fails too, and the name of the file, with its time, is printed above it.
     """
     if lines:
         wanted = " ".join(f"-e {shell_word(line)}" for line in lines)
         managers = 'grep -lF -e ros2_control_node "$(printenv ROS_LOG_DIR || echo ~/.ros/log)"/*/launch.log'
-        yield f"log=$({managers} | xargs -r -d '\\n' ls -t | head -n 1); ls -l \"$log\""
-        yield f'line=$(grep -hF {wanted} "$log" | tail -n 1)'
-        verdicts = (f"{verdict}  log         {device}: " for verdict in ("PASSED", "FAILED"))
-        passed, failed = (f'echo "{text}${{line:-none of these lines}}"' for text in verdicts)
-        yield f'case "$line" in *{shell_word(lines[0])}*) {passed} ;; *) {failed} ;; esac'
+        newest = f"{managers} | xargs -r -d '\\n' ls -t | head -n 1 | xargs -r -d '\\n'"
+        passed, failed = (
+            f"echo '{verdict}  log         {device}: last line above'" for verdict in ("PASSED", "FAILED")
+        )
+        verdict = f"grep -qF {shell_word(lines[0])} && {passed} || {failed}"
+        yield from (f"{newest} ls -l", f"{newest} grep -hF {wanted} | tail -n 1 | tee /dev/stderr | {verdict}")
 
 
 def _nominal_devices(graph: CellGraph) -> Iterator[Values]:

@@ -33,7 +33,7 @@ class Section:
         return tuple(text for text, mark in self.boxes if mark == " ")
 
     @property
-    def is_begun(self) -> bool:
+    def is_started(self) -> bool:
         """Whether anything is filled in."""
         return len(self.open) < len(self.boxes) or bool(self.result)
 

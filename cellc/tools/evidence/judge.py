@@ -43,14 +43,14 @@ def judged(gate: GateEvidence, package: Package, found: Sorted) -> GateState:
     return GateState(gate, pieces, (*_some(findings), *open_), tuple(notes), page)
 
 
-def is_begun(gate: GateEvidence, found: Sorted) -> bool:
+def is_started(gate: GateEvidence, found: Sorted) -> bool:
     """Return whether a folder has anything of a gate: evidence, or a line of its checklist that is filled in."""
     names = {file.name for file in gate.files}
     if gate.gate is GateCode.G2 and found.indices:
         return True
     there = (found.notes, found.records, found.bags, found.broken)
     return any(names & kind.keys() for kind in there) or any(
-        section.is_begun for _, section in found.pages.get(gate.gate, ())
+        section.is_started for _, section in found.pages.get(gate.gate, ())
     )
 
 

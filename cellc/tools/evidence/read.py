@@ -17,7 +17,7 @@ from cellc.mock.errors import MockError
 from cellc.mock.folder import read_folder, read_text
 from cellc.tools.evidence.checklist import PAGES, Section, sections_of
 from cellc.tools.evidence.folder import EvidenceError, Item, Unread, listed
-from cellc.tools.evidence.judge import is_begun, judged
+from cellc.tools.evidence.judge import is_started, judged
 from cellc.tools.evidence.records import UNKNOWN, Identity, Named
 from cellc.tools.evidence.report import GateState, Report, Status
 from cellc.tools.evidence.sort import Package, Sorted, sort
@@ -67,7 +67,7 @@ def report_of(folders: Sequence[Path], generated: Path, codes: Collection[GateCo
 
 def _last(gate: GateEvidence, attempts: Sequence[Sorted]) -> Sorted:
     """Return the last attempt that has anything of a gate."""
-    return next((found for found in reversed(attempts) if is_begun(gate, found)), attempts[-1])
+    return next((found for found in reversed(attempts) if is_started(gate, found)), attempts[-1])
 
 
 def _in_order(states: Sequence[GateState]) -> Iterator[GateState]:
