@@ -122,10 +122,10 @@ def test_what_is_read_is_kept_and_what_is_started_is_not(cell: str, distro: str)
         for block in _BLOCK.findall(text):
             assert ("| tee -a" in block) != bool(re.search(r"^  ros2 (launch|bag record)", block)), block
             # What a command says of its failure is evidence too: nothing reaches the file without it.
-            if "| tee" in block:
+            if "| tee -a" in block:
                 # What the gate itself has recorded, and the report that the observer writes beside it.
                 written = re.sub(r'"\$E/G\d-bag"| --evidence "\$E"| -o "\$E"', "", block)
-                assert len(_KEPT.findall(block)) == block.count("| tee") == written.count("$E"), block
+                assert len(_KEPT.findall(block)) == block.count("| tee -a") == written.count("$E"), block
                 assert not re.search("[<>]", _KEPT.sub("", block)), block
 
 
