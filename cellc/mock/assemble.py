@@ -66,8 +66,15 @@ def joint_state_feeds(
     return tuple(
         JointStateFeed(history, stream_edge(contract, network, topics.get(broadcaster, ""), broadcaster, node))
         for (_, broadcaster), history in control.histories.items()
-        if hears(contract, topics.get(broadcaster, ""), broadcaster, node)
+        if _reads(contract, topics.get(broadcaster, ""), broadcaster, node)
     )
+
+
+def _reads(contract: Contract, topic: str, broadcaster: str, node: str) -> bool:
+    """Tell whether joint states reach a node: by their QoS, and on a topic of their own only if it subscribes to it."""
+    declared = contract.interfaces.get(topic)
+    apart = declared is not None and topic != "/joint_states" and node not in {sink.node for sink in declared.sinks}
+    return not apart and hears(contract, topic, broadcaster, node)
 
 
 def watch_deadlines(contract: Contract, control: ControlStack, network: Network) -> None:

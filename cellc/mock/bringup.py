@@ -25,6 +25,7 @@ from cellc.mock.proofs import Proofs
 from cellc.mock.result import StageEvidence
 from cellc.mock.tf.buffer import Transform
 from cellc.mock.tf.sources import LATEST
+from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 
 _LEVELS = ("WARN", "ERROR", "FATAL")
 
@@ -175,8 +176,18 @@ def configure(plant: Plant) -> Waiting[StageEvidence]:
         server.adapter.connect()
         facts.append(f"the adapter of `{device}` is connected and {server.adapter.phase.value}")
     if not problems:
-        plant.control.subscribe_joint_states()
+        plant.control.subscribe_joint_states(_read_locally(plant))
     return StageEvidence("configure", tuple(facts), tuple(problems))
+
+
+def _read_locally(plant: Plant) -> set[str]:
+    """Return the broadcasters with a topic of joint states of their own in the contract."""
+    topics = plant.contract.interfaces.items()
+    states = (interface for name, interface in topics if interface.type == JOINT_STATE_TYPE and name != _COMMON)
+    return {source.node for interface in states for source in interface.sources}
+
+
+_COMMON = "/joint_states"
 
 
 def observe(plant: Plant, plan: PlanTaker) -> Waiting[StageEvidence]:

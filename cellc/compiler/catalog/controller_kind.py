@@ -1,6 +1,7 @@
 """A neutral controller kind: its plugin in each distribution, what it claims and serves, and its parameters."""
 
 import re
+from collections.abc import Iterator, Mapping
 from typing import Literal
 
 from pydantic import Field
@@ -107,6 +108,8 @@ class ControllerTopic(CatalogModel):
         direction: Whether the controller publishes the topic or subscribes to it.
         qos: Profile of the endpoint: a name such as ``system_default``, or its settings.
         only: Distributions that have the topic; empty for all.
+        given: Parameters of the controller with the values for which it has the topic; empty for any.
+        rate: Parameter with the rate of the messages in Hz; that of the controller if absent.
     """
 
     name: GraphName
@@ -114,6 +117,8 @@ class ControllerTopic(CatalogModel):
     direction: Literal["publish", "subscribe"]
     qos: QosUse
     only: tuple[DistroName, ...] = ()
+    given: dict[Text, ParameterFact] = Field(default_factory=dict)
+    rate: Text | None = None
 
 
 class ControllerService(CatalogModel):
@@ -158,6 +163,19 @@ class ControllerKind(CatalogModel):
     def parameters_in(self, distro: Distro) -> dict[str, ParameterFacts]:
         """Return the parameters that the distribution declares, as it declares them."""
         return {name: facts.as_in(distro) for name, facts in self.parameters.items() if facts.declared_in(distro)}
+
+    def topics_with(self, parameters: Mapping[str, object], distro: Distro) -> Iterator[ControllerTopic]:
+        """Yield the topics that a controller has in a distribution with the parameters that it gets."""
+        here = self.parameters_in(distro)
+
+        def value(name: str) -> object:
+            return parameters.get(name, here[name].default if name in here else None)
+
+        for topic in self.topics:
+            if (not topic.only or distro in topic.only) and all(
+                name not in here or value(name) == wanted for name, wanted in topic.given.items()
+            ):
+                yield topic
 
     def parameter(self, name: str, distro: Distro) -> ParameterFacts | None:
         """Return the declaration of a parameter by the name that a user writes, or None."""

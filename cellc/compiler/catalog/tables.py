@@ -178,6 +178,11 @@ class KnownEndpoint(CatalogModel):
     overridable: bool = False
     source: Text
 
+    @property
+    def is_of_a_program(self) -> bool:
+        """Whether `node` names a package, or a program in it; words for what has the end have spaces."""
+        return " " not in self.node
+
 
 class QosTable(CatalogTable):
     """``catalog/qos_profiles.yaml``."""

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated
 
+from cellc.compiler.catalog import controller_kind
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.cell.entity import ELSEWHERE, Entity
 from cellc.compiler.cell.hardware import Effect
@@ -48,6 +49,22 @@ class OnReal:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ControllerTopic:
+    """A topic that a controller has with its parameters: its full name in the cell, and which end it is.
+
+    Args:
+        declared: its entry in the catalog, such as the profile of its end.
+        rate_hz: rate that a parameter sets; None where it publishes in each of its cycles, or on change.
+    """
+
+    name: str
+    type: str
+    publishes: bool
+    declared: controller_kind.ControllerTopic
+    rate_hz: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Controller(Entity):
     """A controller with its plugin for the cell's distribution.
 
@@ -65,6 +82,7 @@ class Controller(Entity):
         state_interfaces: full names that it reads.
         package: the ROS package of its plugin.
         declared: what the catalog says of its kind: parameters, topics, services.
+        own_topics: those of the kind that it has with its parameters.
         calls: full name of a service that it answers → what a call does in the world.
         plugin_parameters: names of parameters that the plugin of a device's own controller has besides.
         parameters: everything that goes to its node, dots for nesting, in the types that it declares.
@@ -83,6 +101,7 @@ class Controller(Entity):
     stand_in: StandIn | None = None
     package: Annotated[str, ELSEWHERE] = ""
     declared: Annotated[ControllerKind | None, ELSEWHERE] = None
+    own_topics: Annotated[tuple[ControllerTopic, ...], ELSEWHERE] = ()
     calls: Annotated[Mapping[str, Effect], ELSEWHERE] = field(default_factory=dict)
     plugin_parameters: Annotated[frozenset[str], ELSEWHERE] = frozenset()
     device: str | None = None

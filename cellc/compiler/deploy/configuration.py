@@ -39,7 +39,7 @@ _NOT_RESTED_ON = frozenset(
 """Fields of a cell that leave evidence as it is."""
 _NOT_OF_AN_ENTITY = frozenset(
     {
-        *("span", "places", "declared", "owner"),
+        *("span", "places", "declared", "own_topics", "owner"),
         *("endpoints", "inside", "version_rows", "commissioning", "mock_cannot_prove"),  # the catalog's
         "vendor_mounts",  # the catalog's
         "vendor_description",  # its shapes are those of the links

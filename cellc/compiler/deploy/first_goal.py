@@ -18,7 +18,7 @@ from cellc.compiler.deploy.files import (
 )
 from cellc.compiler.deploy.processes import motion_clients
 from cellc.compiler.deploy.watches import watches
-from cellc.compiler.link.hardware import JOINT_STATES
+from cellc.compiler.link.names import JOINT_STATES
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import Feature, features
 

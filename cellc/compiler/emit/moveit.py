@@ -33,7 +33,7 @@ from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.commissioning import LINEAR_M_S, LINEAR_M_S2, TURNING_RAD_S
 from cellc.compiler.graph.control_laws import start_outside
 from cellc.compiler.link.control import TRAJECTORY_ACTION
-from cellc.compiler.link.hardware import JOINT_STATES
+from cellc.compiler.link.names import JOINT_STATES
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import TARGETS, Target
 from cellc.contract.frozen import dataclass

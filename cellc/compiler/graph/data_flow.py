@@ -207,6 +207,25 @@ def age_share(cell: Cell, topic: Interface) -> AgeShare:
     return AgeShare(topic.name, period_s, topic.transport_s or 0.0, max(exposures, default=0.0))
 
 
+@dataclass(frozen=True, slots=True)
+class KnownTopics:
+    """Topics that devices and controllers are known to have: full name → type, by the name of the end in the spec."""
+
+    published: Mapping[str, Mapping[str, str]]
+    subscribed: Mapping[str, Mapping[str, str]]
+
+
+def known_topics(cell: Cell) -> KnownTopics:
+    """Return what the drivers of devices publish, and what controllers publish and follow with their parameters."""
+    published = {device.name: dict(device.topics) for device in cell.devices}
+    subscribed: dict[str, dict[str, str]] = {}
+    for controller in cell.controllers:
+        for topic in controller.own_topics:
+            ends = published if topic.publishes else subscribed
+            ends.setdefault(controller.label, {})[topic.name] = topic.type
+    return KnownTopics(published, subscribed)
+
+
 def is_state_on_change(topic: Interface) -> bool:
     """Tell whether a topic keeps its last sample for late readers and has no stamp: it holds until it is changed."""
     facts = interface_types().get(topic.type)

@@ -12,8 +12,9 @@ from cellc.compiler.catalog.device_interfaces import CommandFacts, PluginUse
 from cellc.compiler.catalog.load import controller_kinds, kind_behind
 from cellc.compiler.cell.control import Controller, OnReal, StandIn, VendorCommand
 from cellc.compiler.cell.device import Device, DeviceJoint
+from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.interface import ParameterValue
-from cellc.compiler.link.controller_parameters import bind_parameters
+from cellc.compiler.link.controller_parameters import bind_parameters, bind_topics
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.hardware import effect
 from cellc.compiler.link.names import unknown_name
@@ -177,6 +178,7 @@ def _controller(
 ) -> Controller:
     device, kind, plugin = chosen.device, chosen.kind, chosen.plugin
     targets, vendor = _targets(chosen, interfaces, context), chosen.on_real
+    own, parameters = f"{place.namespace}/{place.name}", _parameters(written, chosen, interfaces, context)
     return Controller(
         name=place.name,
         path=place.path,
@@ -191,11 +193,8 @@ def _controller(
         plugin=plugin.type,
         package=plugin.package,
         declared=kind,
-        calls={
-            service.name.replace("~", f"{place.namespace}/{place.name}"): effect(service.effect, context.distro)
-            for service in kind.services
-            if service.effect is not None
-        },
+        own_topics=tuple(bind_topics(kind, place.namespace, own, parameters, context.distro)),
+        calls=dict(_calls(kind, own, context.distro)),
         plugin_parameters=_plugin_parameters(chosen.own),
         device=written.device,
         joints=interfaces.joints,
@@ -203,11 +202,11 @@ def _controller(
         on_real=_on_real(written, chosen, interfaces, context) if "real" in targets else None,
         vendor=None if vendor is None else VendorCommand(interfaces=vendor.interfaces, because=vendor.because),
         state_interfaces=interfaces.state,
-        parameters=_parameters(written, chosen, interfaces, context),
+        parameters=parameters,
         written_parameters=written.parameters,
         active=written.active,
         client=written.client,
-        action=None if kind.action is None else f"{place.namespace}/{place.name}/{kind.action.suffix}",
+        action=None if kind.action is None else f"{own}/{kind.action.suffix}",
         action_type=None if kind.action is None else kind.action.types.get(context.distro),
         goal_time_s=si(written.goal_time),
         path_tolerance=interfaces.tolerances.path,
@@ -215,6 +214,12 @@ def _controller(
         on_violation=written.on_violation,
         update_rate_hz=si(written.update_rate),
     )
+
+
+def _calls(kind: ControllerKind, full_name: str, distro: Distro) -> Iterator[tuple[str, Effect]]:
+    for service in kind.services:
+        if service.effect is not None:
+            yield service.name.replace("~", full_name), effect(service.effect, distro)
 
 
 def _behavior(chosen: _Chosen, distro: Distro) -> Behavior:

@@ -1,13 +1,15 @@
-"""Everything that goes into a controller's own parameters, in the types that it declares."""
+"""Everything that goes into a controller's own parameters, in the types that it declares, and what follows from it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.device_interfaces import PluginUse
+from cellc.compiler.cell.control import ControllerTopic
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import ParameterValue
+from cellc.compiler.link.names import graph_name
 from cellc.compiler.link.tolerances import Tolerances
 from cellc.compiler.spec.control import ControllerSpec
 from cellc.contract.vocabulary import Distro
@@ -50,6 +52,22 @@ def bind_parameters(
     if written.update_rate is not None:
         values["update_rate"] = round(written.update_rate.si)
     return values | plugin.parameters | written.parameters
+
+
+def bind_topics(
+    kind: ControllerKind, namespace: str, full_name: str, parameters: Mapping[str, ParameterValue], distro: Distro
+) -> Iterator[ControllerTopic]:
+    """Yield the topics that a controller has with the parameters that it gets."""
+    declared = kind.parameters_in(distro)
+    for topic in kind.topics_with(parameters, distro):
+        rate = None if topic.rate not in declared else parameters.get(topic.rate, declared[topic.rate].default)
+        yield ControllerTopic(
+            name=graph_name(namespace, full_name, topic.name),
+            type=topic.type,
+            publishes=topic.direction == "publish",
+            declared=topic,
+            rate_hz=float(rate) if isinstance(rate, (int, float)) else None,
+        )
 
 
 def _declares(kind: ControllerKind, name: str, distro: Distro) -> bool:

@@ -9,31 +9,21 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 
-from cellc.compiler.catalog.controller_kind import ControllerService, ControllerTopic
-from cellc.compiler.catalog.load import kind_behind
-from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.catalog.controller_kind import ControllerService
+from cellc.compiler.cell.control import Controller, ControllerManager, ControllerTopic
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Frame, FrameKind
-from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
 from cellc.compiler.cell.motion import Servo
-from cellc.compiler.link.endpoints import (
-    LATCHED,
-    SENSOR_DATA,
-    TF,
-    TF_STATIC_LISTENER,
-    EndName,
-    EndpointNames,
-    QosResolver,
-)
+from cellc.compiler.link.endpoints import EndName, EndpointNames
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.compiler.link.hardware import JOINT_STATES
-from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
+from cellc.compiler.link.names import JOINT_STATES, graph_name
+from cellc.compiler.link.nodes import DESCRIPTION, DESCRIPTION_PUBLISHER, description_home
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import YamlPath
-from cellc.contract.entities import Qos
 from cellc.contract.frozen import dataclass
-from cellc.contract.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, UNKNOWN, Distro, InterfaceKind
+from cellc.contract.vocabulary import OF_ONE_DEVICE, TRAJECTORIES, UNKNOWN, InterfaceKind
 
 
 # Without slots, so that what is asked for each controller is looked up once and kept.
@@ -43,12 +33,11 @@ class Derivation:
 
     spec: CellSpec
     document: SourceDocument
-    distro: Distro
     managers: tuple[ControllerManager, ...]
     devices: tuple[Device, ...]
     frames: tuple[Frame, ...]
+    nodes: tuple[Node, ...]
     ends: EndpointNames
-    resolver: QosResolver
     servo: Servo | None = None
 
     @cached_property
@@ -56,14 +45,22 @@ class Derivation:
         """Return the type of each joint of the devices."""
         return {joint.name: joint.type for device in self.devices for joint in device.joints}
 
-    def end(self, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:
-        """Return an end by its name in the spec or its full name; one that nothing has is reported elsewhere."""
-        known = self.ends.known.get(node, EndName(node, f"/{node.lstrip('/')}", UNKNOWN))
-        return known.end(interface, path, self.document.locate(path), qos)
+    def source(self, node: str, interface: str, path: YamlPath) -> Endpoint:
+        """Return the end that publishes or serves, by its name in the spec or its full name."""
+        return self._end(node, interface, path, serves=True)
 
-    def driver_end(self, device: str, node: str, interface: str, path: YamlPath, qos: Qos | None = None) -> Endpoint:
+    def sink(self, node: str, interface: str, path: YamlPath) -> Endpoint:
+        """Return the end that subscribes or is a client, by its name in the spec or its full name."""
+        return self._end(node, interface, path, serves=False)
+
+    def driver(self, device: str, node: str, interface: str, path: YamlPath) -> Endpoint:
         """Return the end of a driver's node, which runs on the real target alone."""
-        return replace(self.end(device, interface, path, qos), full_name=node, targets=("real",))
+        return replace(self.source(device, interface, path), full_name=node, targets=("real",))
+
+    def _end(self, node: str, interface: str, path: YamlPath, *, serves: bool) -> Endpoint:
+        """Return an end; one that nothing has is reported elsewhere."""
+        known = self.ends.known.get(node, EndName(node, f"/{node.lstrip('/')}", UNKNOWN))
+        return known.end(interface, path, self.document.locate(path), serves=serves)
 
     def planners(self) -> tuple[tuple[str, YamlPath], ...]:
         """Return the nodes that command a controller's motion, each with the place where that is written."""
@@ -75,15 +72,33 @@ class Derivation:
         return tuple(paths.items())
 
 
-_DESCRIPTION = "/robot_description"
+def with_derived(source: Derivation, written: tuple[Interface, ...]) -> tuple[Interface, ...]:
+    """Return the interfaces of the user, then those of controllers, TF and the description, with all who publish them.
 
-
-def derive_interfaces(source: Derivation, written: tuple[Interface, ...]) -> tuple[Interface, ...]:
-    """Return the interfaces that the user did not write: controllers' actions and states, TF, the description."""
+    A program that is known to publish on one of them does so whether the spec says it or not.
+    """
     known = {interface.name for interface in written}
     controlled = (*control_interfaces(source), *_servoed(source))
     derived = [*_tf(source), *_descriptions(source), *joint_states(source), *controlled]
-    return tuple(interface for interface in derived if interface.name not in known)
+    together = (*written, *(interface for interface in derived if interface.name not in known))
+    unsaid = dict(_unsaid(source))
+    return tuple(_with_publishers(interface, unsaid.get(interface.name, ())) for interface in together)
+
+
+def _unsaid(source: Derivation) -> Iterator[tuple[str, tuple[Endpoint, ...]]]:
+    """Yield topics with the nodes of the spec that publish on them by the program that they run."""
+    nodes: dict[str, list[Endpoint]] = {}
+    for node in source.nodes:
+        for topic in source.ends.known[node.full_name].publishes if node.source is NodeSource.SPEC else ():
+            nodes.setdefault(topic, []).append(source.source(node.full_name, topic, node.path))
+    yield from ((topic, tuple(ends)) for topic, ends in nodes.items())
+
+
+def _with_publishers(interface: Interface, further: tuple[Endpoint, ...]) -> Interface:
+    said = {end.full_name for end in interface.sources}
+    unsaid = tuple(end for end in further if end.full_name not in said)
+    is_topic = interface.kind is InterfaceKind.TOPIC
+    return replace(interface, sources=(*interface.sources, *unsaid)) if unsaid and is_topic else interface
 
 
 def _tf(source: Derivation) -> Iterator[Interface]:
@@ -92,18 +107,15 @@ def _tf(source: Derivation) -> Iterator[Interface]:
     for frame in source.frames:
         if frame.kind is FrameKind.DYNAMIC:
             publishers.setdefault(frame.authority, frame.path)
-    for name, listener, writers in (
-        ("/tf", TF, tuple(source.end(node, "/tf", at, TF) for node, at in publishers.items())),
-        ("/tf_static", TF_STATIC_LISTENER, (source.end(ROBOT_STATE_PUBLISHER, "/tf_static", path, LATCHED),)),
-    ):
+    for name, writers in (("/tf", publishers), ("/tf_static", {ROBOT_STATE_PUBLISHER: path})):
         yield Interface(
             name=name,
             path=path,
             span=source.document.locate(path),
             kind=InterfaceKind.TOPIC,
             type="tf2_msgs/msg/TFMessage",
-            sources=writers,
-            sinks=tuple(source.end(node, name, at, listener) for node, at in source.planners()),
+            sources=tuple(source.source(node, name, at) for node, at in writers.items()),
+            sinks=tuple(source.sink(node, name, at) for node, at in source.planners()),
             derived=True,
             unit="m",
             time_source="ros",
@@ -117,18 +129,18 @@ def _descriptions(source: Derivation) -> Iterator[Interface]:
     """Yield the description that managers take their hardware from: the cell's, or of several each its own."""
     path: YamlPath = ("devices",)
     alone = source.managers if len(source.managers) == 1 else ()
-    listeners = tuple(source.end(manager.node, _DESCRIPTION, manager.path, LATCHED) for manager in alone)
-    publisher = source.end(ROBOT_STATE_PUBLISHER, _DESCRIPTION, path, LATCHED)
-    yield _description(source, _DESCRIPTION, path, publisher, listeners)
+    listeners = tuple(source.sink(manager.node, DESCRIPTION, manager.path) for manager in alone)
+    publisher = source.source(ROBOT_STATE_PUBLISHER, DESCRIPTION, path)
+    yield _description(source, DESCRIPTION, path, publisher, listeners)
     for manager in source.managers if not alone else ():
         yield _own_description(source, manager)
 
 
 def _own_description(source: Derivation, manager: ControllerManager) -> Interface:
     home = description_home(manager)
-    name = f"{home}{_DESCRIPTION}"
-    publisher = source.end(f"{home}/{DESCRIPTION_PUBLISHER}", name, manager.path, LATCHED)
-    listener = source.end(manager.node, name, manager.path, LATCHED)
+    name = f"{home}{DESCRIPTION}"
+    publisher = source.source(f"{home}/{DESCRIPTION_PUBLISHER}", name, manager.path)
+    listener = source.sink(manager.node, name, manager.path)
     return _description(source, name, manager.path, publisher, (listener,))
 
 
@@ -158,29 +170,30 @@ JOINT_STATE_MAX_AGE_S = 0.1
 def joint_states(source: Derivation) -> Iterator[Interface]:
     """Yield the one topic, where a controller publishes joint states; its rate is that of the slowest manager."""
     broadcasters = [
-        (manager, controller, end)
+        (manager, controller)
         for manager in source.managers
         for controller in manager.controllers
-        for end in _published(source, controller)
+        if any(topic.publishes and topic.name == JOINT_STATES for topic in controller.own_topics)
     ]
     if not broadcasters:
         return
     path: YamlPath = broadcasters[0][1].path
-    listeners = ((ROBOT_STATE_PUBLISHER, path, SENSOR_DATA), *((node, at, None) for node, at in source.planners()))
+    published = (source.source(controller.label, JOINT_STATES, controller.path) for _, controller in broadcasters)
+    listeners = ((ROBOT_STATE_PUBLISHER, path), *source.planners())
     yield Interface(
         name=JOINT_STATES,
         path=path,
         span=source.document.locate(path),
         kind=InterfaceKind.TOPIC,
         type=JOINT_STATE_TYPE,
-        sources=(*(end for _, _, end in broadcasters), *_of_drivers(source)),
-        sinks=tuple(source.end(node, JOINT_STATES, at, qos) for node, at, qos in listeners),
+        sources=(*published, *_of_drivers(source)),
+        sinks=tuple(source.sink(node, JOINT_STATES, at) for node, at in listeners),
         derived=True,
         unit="rad, rad/s, N m",
         time_source="ros",
         owner=source.spec.owners.responsibilities.command,
         wants="newest",
-        rate_hz=min(_rate_hz(manager, controller) for manager, controller, _ in broadcasters),
+        rate_hz=min(_rate_hz(manager, controller) for manager, controller in broadcasters),
         max_age_s=JOINT_STATE_MAX_AGE_S,
         on_stale="reject_goal",
     )
@@ -190,19 +203,11 @@ def _rate_hz(manager: ControllerManager, controller: Controller) -> float:
     return controller.update_rate_hz or manager.update_rate_hz
 
 
-def _published(source: Derivation, controller: Controller) -> Iterator[Endpoint]:
-    kind = kind_behind(controller.kind, None)
-    for topic in () if kind is None else kind.topics:
-        if topic.direction == "publish" and topic.type == JOINT_STATE_TYPE:
-            yield source.end(controller.label, JOINT_STATES, controller.path, source.resolver.writer(topic.qos))
-
-
 def _of_drivers(source: Derivation) -> Iterator[Endpoint]:
     """Yield the drivers that report joints on the real target, where no component of ros2_control does."""
     for device in source.devices:
         if device.control.driver is not None and device.control.driver.joint_states is not None:
-            qos = source.ends.known[device.name].offered.get(device.control.driver.joint_states)
-            yield source.driver_end(device.name, device.control.driver.node, JOINT_STATES, device.path, qos)
+            yield source.driver(device.name, device.control.driver.node, JOINT_STATES, device.path)
 
 
 def control_interfaces(source: Derivation) -> Iterator[Interface]:
@@ -216,11 +221,11 @@ def control_interfaces(source: Derivation) -> Iterator[Interface]:
 
 def _actions(source: Derivation, controller: Controller) -> Iterator[Interface]:
     if controller.action is not None and controller.action_type is not None:
-        server = source.end(controller.label, controller.action, controller.path)
+        server = source.source(controller.label, controller.action, controller.path)
         yield _action(source, controller, controller.action, controller.action_type, server, None)
     other = controller.stand_in
     if other is not None and controller.device is not None:
-        server = source.driver_end(controller.device, other.node, other.action, controller.path)
+        server = source.driver(controller.device, other.node, other.action, controller.path)
         yield _action(source, controller, other.action, other.action_type, server, other.unit)
 
 
@@ -259,7 +264,7 @@ def _clients(source: Derivation, controller: Controller, interface: str) -> tupl
     streamed = source.servo is not None and source.servo.controller == controller.full_name
     if controller.client is None or streamed:
         return ()
-    return (source.end(controller.client, interface, (*controller.path, "client")),)
+    return (source.sink(controller.client, interface, (*controller.path, "client")),)
 
 
 def _servoed(source: Derivation) -> Iterator[Interface]:
@@ -272,15 +277,14 @@ def _servoed(source: Derivation) -> Iterator[Interface]:
     if servo is None or controller is None:
         return
     path: YamlPath = ("motion", "servo")
-    qos = source.resolver.writer("system_default"), source.resolver.reader("system_default")
     yield Interface(
         name=servo.topic,
         path=path,
         span=source.document.locate(path),
         kind=InterfaceKind.TOPIC,
         type=servo.type,
-        sources=(source.end(servo.node, servo.topic, (*path, "node"), qos[0]),),
-        sinks=(source.end(controller.label, servo.topic, controller.path, qos[1]),),
+        sources=(source.source(servo.node, servo.topic, (*path, "node")),),
+        sinks=(source.sink(controller.label, servo.topic, controller.path),),
         derived=True,
         unit=_goal_unit(source, controller),
         time_source="ros",
@@ -293,26 +297,23 @@ def _of_one_device(source: Derivation, controller: Controller) -> Iterator[Inter
     kind = controller.declared
     if kind is None:
         return
-    for topic in kind.topics:
-        ends = topic.direction == "publish" or controller.client is not None  # a missing client is a finding by itself
-        if ends and (not topic.only or source.distro in topic.only):
+    for topic in controller.own_topics:
+        if topic.publishes or controller.client is not None:  # a missing client is a finding by itself
             yield _topic(source, controller, topic)
     yield from (_service(source, controller, service) for service in kind.services)
 
 
 def _topic(source: Derivation, controller: Controller, topic: ControllerTopic) -> Interface:
-    name = _absolute(controller, topic.name)
-    said = topic.direction == "publish"
-    qos = source.resolver.writer(topic.qos) if said else source.resolver.reader(topic.qos)
-    ends = (source.end(controller.label, name, controller.path, qos),)
+    end = source.source if topic.publishes else source.sink
+    ends = (end(controller.label, topic.name, controller.path),)
     return Interface(
-        name=name,
+        name=topic.name,
         path=controller.path,
         span=controller.span,
         kind=InterfaceKind.TOPIC,
         type=topic.type,
-        sources=ends if said else _clients(source, controller, name),
-        sinks=() if said else ends,
+        sources=ends if topic.publishes else _clients(source, controller, topic.name),
+        sinks=() if topic.publishes else ends,
         derived=True,
         time_source="ros",
         owner=source.spec.owners.responsibilities.command,
@@ -321,20 +322,15 @@ def _topic(source: Derivation, controller: Controller, topic: ControllerTopic) -
 
 
 def _service(source: Derivation, controller: Controller, service: ControllerService) -> Interface:
-    name = _absolute(controller, service.name)
+    name = graph_name(controller.namespace, controller.full_name, service.name)
     return Interface(
         name=name,
         path=controller.path,
         span=controller.span,
         kind=InterfaceKind.SERVICE,
         type=service.type,
-        sources=(source.end(controller.label, name, controller.path),),
+        sources=(source.source(controller.label, name, controller.path),),
         sinks=_clients(source, controller, name),
         derived=True,
         owner=source.spec.owners.responsibilities.command,
     )
-
-
-def _absolute(controller: Controller, name: str) -> str:
-    """Return a name of the catalog in full: below the controller's own, or in its namespace."""
-    return f"{controller.full_name}{name[1:]}" if name.startswith("~/") else f"{controller.namespace}/{name}"

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from typing import get_args
 
 from cellc.compiler.catalog.device_graph import QosFacts, QosUse
-from cellc.compiler.catalog.tables import QosTable, Rmw, SystemDefault
+from cellc.compiler.catalog.tables import KnownEndpoint, QosTable, Rmw, SystemDefault
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.interface import Endpoint, Node, NodeSource, node_labels
+from cellc.compiler.cell.motion import Servo
 from cellc.compiler.link.devices import BoundDevice
+from cellc.compiler.link.names import JOINT_STATES
+from cellc.compiler.link.nodes import DESCRIPTION, description_home
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.interfaces import QosSpec
 from cellc.compiler.spec.quantity import Quantity
@@ -19,15 +22,10 @@ from cellc.contract.entities import TARGETS, Durability, Qos, Reliability, Targe
 from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 
-SENSOR_DATA = replace(DEFAULT, reliability="best_effort", depth=5)
-# robot_state_publisher and controller_manager, robot_description: latched.
-LATCHED = replace(DEFAULT, durability="transient_local", depth=1)
-# tf2_ros/qos.hpp: dynamic broadcaster and listener, static broadcaster and listener.
-TF = replace(DEFAULT, depth=100)
-TF_STATIC_LISTENER = replace(LATCHED, depth=100)
+_UNWRITTEN = QosSpec()
 
 
-def with_changes(profile: Qos, written: QosSpec) -> Qos:
+def _with_changes(profile: Qos, written: QosSpec) -> Qos:
     """Return the profile with the policies that the user wrote in place of its own."""
     return Qos(
         reliability=written.reliability or profile.reliability,
@@ -51,6 +49,15 @@ class QosResolver:
 
     table: QosTable
     rmw: Rmw
+
+    @property
+    def anybody(self) -> Iterator[KnownEndpoint]:
+        """The ends of topics that are the same in every node, such as those of tf2."""
+        return (row for row in self.table.endpoints if row.topic.startswith("/") and not row.is_of_a_program)
+
+    def of_program(self, package: str, executable: str) -> Iterator[KnownEndpoint]:
+        """Return the ends of a program."""
+        return (row for row in self.table.endpoints if row.node in (package, f"{package}/{executable}"))
 
     def writer(self, use: QosUse) -> Qos:
         """Return the profile of a publisher; what is left to the system is what the RMW makes of it."""
@@ -82,6 +89,10 @@ _DURABILITY: Mapping[str, Durability] = {name: name for name in get_args(Durabil
 """What a profile may decide itself; the middleware decides what is left open."""
 
 
+Offers = Mapping[tuple[str, bool], Qos]
+"""QoS of the ends that something has by itself: full name of the topic, and whether it publishes it."""
+
+
 @dataclass(frozen=True, slots=True)
 class EndName:
     """A node, a device or a controller that may stand at an end.
@@ -92,7 +103,8 @@ class EndName:
         owner: its owner.
         targets: targets on which it runs.
         nodes: full names of the nodes that offer single interfaces, for a device whose driver has several.
-        offered: QoS of the topics that it publishes, by full name.
+        offers: what the catalog says of its ends.
+        publishes: topics that its program publishes whether the spec says so or not.
     """
 
     node: str
@@ -100,14 +112,24 @@ class EndName:
     owner: str
     targets: tuple[Target, ...] = TARGETS
     nodes: Mapping[str, str] = field(default_factory=dict)
-    offered: Mapping[str, Qos] = field(default_factory=dict)
+    offers: Offers = field(default_factory=dict)
+    publishes: tuple[str, ...] = ()
 
-    def end(self, interface: str, path: YamlPath, span: Span, qos: Qos | None = None) -> Endpoint:
-        """Return this end of an interface; without a QoS it has what is offered there."""
+    def end(
+        self, interface: str, path: YamlPath, span: Span, written: QosSpec = _UNWRITTEN, *, serves: bool
+    ) -> Endpoint:
+        """Return this end of an interface: what the spec states of its QoS, else the catalog, else the default.
+
+        Args:
+            interface: full name of the topic, service or action.
+            path: where the spec speaks of the end, with its place in the files.
+            written: QoS that the spec states.
+            serves: whether it publishes, answers or executes.
+        """
         return Endpoint(
             node=self.node,
             full_name=self.nodes.get(interface, self.full_name),
-            qos=qos or self.offered.get(interface, DEFAULT),
+            qos=_with_changes(self.offers.get((interface, serves), DEFAULT), written),
             path=path,
             span=span,
             targets=self.targets,
@@ -133,30 +155,79 @@ def name_endpoints(
     nodes: tuple[Node, ...],
     managers: tuple[ControllerManager, ...],
     resolver: QosResolver,
+    servo: Servo | None,
 ) -> EndpointNames:
-    """Collect nodes, devices and controllers with their owners, and what devices publish with which QoS."""
+    """Collect nodes, devices and controllers with their owners, and the ends that each has by itself with their QoS."""
     controllers = tuple(controller for manager in managers for controller in manager.controllers)
+    everywhere = dict(_of_rows(resolver, "", resolver.anybody))
     named = [node for node in nodes if node.source is not NodeSource.DEVICE]
+    apart = {manager.node: _own_description(manager) for manager in managers if len(managers) > 1}
     words = {
-        label: EndName(label, node.full_name, node.owner) for node, label in zip(named, node_labels(named), strict=True)
+        label: _of_program(
+            _of_node(node, label, everywhere),
+            dict(_known_ends(node, {**node.remaps, **apart.get(node.full_name, {})}, resolver)),
+        )
+        for node, label in zip(named, node_labels(named), strict=True)
     }
     by_device: dict[str | None, list[str]] = {}
     for node in nodes:
         by_device.setdefault(node.device, []).append(node.full_name)
     names = frozenset(node.full_name for node in nodes)
     for device in devices:
-        words[device.device.name] = _of_device(device, by_device.get(device.device.name, ()), names, spec, resolver)
+        end = _of_device(device, by_device.get(device.device.name, ()), names, spec)
+        words[end.node] = replace(end, offers=everywhere | dict(_offered(device, resolver)))
     command = spec.owners.responsibilities.command
-    words |= {c.label: EndName(c.label, c.full_name, command, c.targets) for c in controllers}
+    words |= {
+        c.label: EndName(
+            c.label, c.full_name, command, c.targets, offers=everywhere | dict(_of_controller(c, resolver))
+        )
+        for c in controllers
+    }
+    if servo is not None:
+        # moveit2@2.12.4 moveit_ros/moveit_servo/src/servo_node.cpp:112,119: SystemDefaultsQoS.
+        end, streamed = words[servo.node], {(servo.topic, True): resolver.writer("system_default")}
+        words[servo.node] = replace(end, offers={**end.offers, **streamed})
     full = {end.full_name: end for end in words.values()}
-    full |= {node.full_name: _of_node(node) for node in nodes if node.full_name not in full}
+    # Others share the bare name of a node that is named in full, or its device represents it.
+    full |= {node.full_name: _of_node(node, node.full_name, everywhere) for node in nodes if node.full_name not in full}
     return EndpointNames(full | words, _shared(controllers))
 
 
-def _of_node(node: Node) -> EndName:
-    """Name a node by its full name: others share the bare one, or its device represents it."""
+def _of_node(node: Node, name: str, offers: Offers) -> EndName:
     targets = ("real",) if node.real_only else TARGETS
-    return EndName(node.full_name, node.full_name, node.owner, targets)
+    return EndName(name, node.full_name, node.owner, targets, offers=offers)
+
+
+def _of_program(end: EndName, ends: Offers) -> EndName:
+    publishes = tuple(name for name, said in ends if said)
+    return replace(end, offers={**end.offers, **ends}, publishes=publishes)
+
+
+def _own_description(manager: ControllerManager) -> dict[str, str]:
+    """Return the name that the description has for one of several managers."""
+    return {f"{manager.namespace}{DESCRIPTION}": f"{description_home(manager)}{DESCRIPTION}"}
+
+
+def _known_ends(node: Node, remaps: Mapping[str, str], resolver: QosResolver) -> Iterator[tuple[tuple[str, bool], Qos]]:
+    """Yield the ends that a program is known to have, by the names that they have in the cell, with their QoS."""
+    rows = resolver.of_program(node.package, node.executable)
+    for (name, publishes), qos in _of_rows(resolver, node.namespace, rows):
+        yield (remaps.get(name, name), publishes), qos
+
+
+def _of_rows(
+    resolver: QosResolver, namespace: str, rows: Iterable[KnownEndpoint]
+) -> Iterator[tuple[tuple[str, bool], Qos]]:
+    for row in rows:
+        said = row.direction == "publish"
+        name = row.topic if row.topic.startswith("/") else f"{namespace}/{row.topic}"
+        yield (name, said), resolver.writer(row.qos) if said else resolver.reader(row.qos)
+
+
+def _of_controller(controller: Controller, resolver: QosResolver) -> Iterator[tuple[tuple[str, bool], Qos]]:
+    for topic in controller.own_topics:
+        use = topic.declared.qos
+        yield (topic.name, topic.publishes), resolver.writer(use) if topic.publishes else resolver.reader(use)
 
 
 def _shared(controllers: tuple[Controller, ...]) -> dict[str, tuple[str, ...]]:
@@ -167,9 +238,7 @@ def _shared(controllers: tuple[Controller, ...]) -> dict[str, tuple[str, ...]]:
     return shared
 
 
-def _of_device(
-    bound: BoundDevice, driven: Sequence[str], names: Container[str], spec: CellSpec, resolver: QosResolver
-) -> EndName:
+def _of_device(bound: BoundDevice, driven: Sequence[str], names: Container[str], spec: CellSpec) -> EndName:
     device = bound.device
     alone = device.architecture == "direct_sdk" and bool(device.actuated_joints)  # its adapter has its name
     node = next(iter(() if alone else driven), f"/{device.name}")
@@ -178,15 +247,18 @@ def _of_device(
         full_name=node,
         owner=spec.owners.responsibilities.vendor_safety,
         nodes={offer.name: offer.node for offer in device.control.offers if offer.node in names},
-        offered=dict(_offered(bound, resolver)),
     )
 
 
-def _offered(bound: BoundDevice, resolver: QosResolver) -> Iterator[tuple[str, Qos]]:
+def _offered(bound: BoundDevice, resolver: QosResolver) -> Iterator[tuple[tuple[str, bool], Qos]]:
     known, facts = bound.names, bound.facts
+    driver = facts.driver
     for topic in facts.topics:
-        yield known.fill(topic.name), resolver.writer(topic.qos)
+        name, qos = known.fill(topic.name), resolver.writer(topic.qos)
+        yield (name, True), qos
+        if driver is not None and driver.joint_states == topic.name:
+            yield (JOINT_STATES, True), qos
     if facts.camera is not None:
         for stream in facts.camera.streams.values():
-            yield known.fill(stream.topic), resolver.writer(stream.qos)
-            yield known.fill(stream.info_topic), resolver.writer(stream.info_qos)
+            yield (known.fill(stream.topic), True), resolver.writer(stream.qos)
+            yield (known.fill(stream.info_topic), True), resolver.writer(stream.info_qos)

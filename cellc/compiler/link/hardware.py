@@ -25,19 +25,12 @@ from cellc.compiler.cell.hardware import (
     OfferedInterface,
 )
 from cellc.compiler.cell.interface import ParameterValue
-from cellc.compiler.link.names import Placeholders
+from cellc.compiler.link.names import JOINT_STATES, Placeholders
 from cellc.compiler.link.programs import inner_nodes
 from cellc.compiler.spec.devices import DeviceSpec
 from cellc.contract.entities import Target
 from cellc.contract.pins import older
 from cellc.contract.vocabulary import UNKNOWN, Distro, InterfaceKind, Unmet
-
-JOINT_STATES = "/joint_states"
-"""The topic from which robot_state_publisher and planners read all joints.
-
-It needs no merging node: several publishers on it are usual, and readers combine joints by name. joint_state_publisher
-with a ``source_list`` would stamp old states again, and report zero for joints that it has not received.
-"""
 
 
 def hardware_component(

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from cellc.compiler.cell.interface import Endpoint, Interface
-from cellc.compiler.link.endpoints import EndName, EndpointNames, with_changes
+from cellc.compiler.link.endpoints import EndName, EndpointNames
 from cellc.compiler.link.frames import FrameNames
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import unknown_name
@@ -55,8 +53,8 @@ def _interface(
     source_key, sink_key = ("from", "to") if isinstance(written, TopicSpec) else ("server", "client")
     written_sources = written.from_ if isinstance(written, TopicSpec) else written.server
     written_sinks = written.to if isinstance(written, TopicSpec) else written.client
-    sources = _endpoints(name, written_sources, document, (*path, source_key), ends)
-    sinks = _endpoints(name, written_sinks, document, (*path, sink_key), ends)
+    sources = _endpoints(name, written_sources, document, (*path, source_key), ends, serves=True)
+    sinks = _endpoints(name, written_sinks, document, (*path, sink_key), ends, serves=False)
     problems = (*frame.diagnostics, *sources.diagnostics, *sinks.diagnostics)
     bound_sources = sources.value or ()
     owner = written.owner or (ends.known[bound_sources[0].node].owner if bound_sources else None)
@@ -134,7 +132,7 @@ def _call(common: _Common, written: ServiceSpec | ActionSpec) -> Interface:
 
 
 def _endpoints(
-    interface: str, written: Endpoints, document: SourceDocument, path: YamlPath, ends: EndpointNames
+    interface: str, written: Endpoints, document: SourceDocument, path: YamlPath, ends: EndpointNames, *, serves: bool
 ) -> Outcome[tuple[Endpoint, ...]]:
     endpoints: list[Endpoint] = []
     problems: list[Diagnostic] = []
@@ -142,8 +140,7 @@ def _endpoints(
         bound = _end_name(node, document, at, ends)
         problems += bound.diagnostics
         if bound.value is not None:
-            offered = bound.value.end(interface, at, document.locate_key(at))
-            endpoints.append(replace(offered, qos=with_changes(offered.qos, qos)))
+            endpoints.append(bound.value.end(interface, at, document.locate_key(at), qos, serves=serves))
     return Outcome(tuple(endpoints), tuple(problems))
 
 

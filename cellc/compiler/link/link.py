@@ -17,7 +17,7 @@ from cellc.compiler.cell.frame import Frame, SharedArea, Solid
 from cellc.compiler.cell.motion import CartesianGoal, NamedPose, Octomap, Pipeline, PlanningGroup, Servo
 from cellc.compiler.link.control import as_driven, bind_adapters, link_managers
 from cellc.compiler.link.controller import ControlContext
-from cellc.compiler.link.derived import Derivation, derive_interfaces
+from cellc.compiler.link.derived import Derivation, with_derived
 from cellc.compiler.link.devices import BoundDevice, link_devices
 from cellc.compiler.link.endpoints import QosResolver, name_endpoints
 from cellc.compiler.link.frames import FrameNames, link_areas, link_frames, name_frames
@@ -139,16 +139,15 @@ def _link_with_devices(
     started = with_programs((*(nodes.value or ()), *standard_nodes(spec, document, loops)), distro)
     all_nodes = tuple(with_octomap(node, spec) for node in started)
     controllers = tuple(controller for manager in loops for controller in manager.controllers)
-    resolver = _qos_resolver(spec)
-    ends = name_endpoints(spec, bound, all_nodes, loops, resolver)
-    interfaces = link_interfaces(spec, document, ends, names)
-    stated = interfaces.value or ()
     machine = Machine(devices, controllers, all_frames, names, placed=linked_devices.ok and placed.ok)
     planned = _planned(spec, document, distro, machine)
     assert planned.value is not None  # what cannot be bound is reported and left out
-    source = Derivation(spec, document, distro, loops, devices, all_frames, ends, resolver, planned.value.servo)
-    derived = derive_interfaces(source, stated)
-    rehearsals = link_rehearsals(spec, document, devices, loops, (*stated, *derived), names)
+    servo = planned.value.servo
+    ends = name_endpoints(spec, bound, all_nodes, loops, _qos_resolver(spec), servo)
+    interfaces = link_interfaces(spec, document, ends, names)
+    source = Derivation(spec, document, loops, devices, all_frames, all_nodes, ends, servo)
+    all_interfaces = with_derived(source, interfaces.value or ())
+    rehearsals = link_rehearsals(spec, document, devices, loops, all_interfaces, names)
     uncertainty = link_uncertainty(spec, document, machine, planned.value.groups if planned.ok else None)
     cell = replace(
         _surroundings(spec, document, distro, placed.value.measured, devices),
@@ -157,9 +156,9 @@ def _link_with_devices(
         scene=placed.value.scene,
         areas=placed.value.areas,
         nodes=all_nodes,
-        interfaces=(*stated, *derived),
+        interfaces=all_interfaces,
         managers=loops,
-        adapters=tuple(bind_adapters(devices, controllers, (*stated, *derived))),
+        adapters=tuple(bind_adapters(devices, controllers, all_interfaces)),
         rehearsals=rehearsals.value or (),
         uncertainty=uncertainty.value,
         behaviors={controller.plugin: controller.behavior for controller in controllers},

@@ -80,6 +80,21 @@ class Placeholders:
         return value
 
 
+JOINT_STATES = "/joint_states"
+"""The topic from which robot_state_publisher and planners read all joints.
+
+It needs no merging node: several publishers on it are usual, and readers combine joints by name. joint_state_publisher
+with a ``source_list`` would stamp old states again, and report zero for joints that it has not received.
+"""
+
+
+def graph_name(namespace: str, full_name: str, name: str) -> str:
+    """Return a name of a controller in full: below its own, or in its namespace, whose joint states join the others."""
+    if name.startswith("~/"):
+        return f"{full_name}{name[1:]}"
+    return JOINT_STATES if f"/{name}" == JOINT_STATES else f"{namespace}/{name}"
+
+
 def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec, port_shift: int = 0) -> Placeholders:
     """Collect the values for a device; what the connection does not state is UNKNOWN, never guessed."""
     connection = written.connection

@@ -11,9 +11,9 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import Node, NodeSource, ParameterValue
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.compiler.link.hardware import JOINT_STATES, camera_parameters, driver_remaps, run_nodes
+from cellc.compiler.link.hardware import camera_parameters, driver_remaps, run_nodes
 from cellc.compiler.link.hopeless import until_hopeless
-from cellc.compiler.link.names import home_host, unknown_name
+from cellc.compiler.link.names import JOINT_STATES, home_host, unknown_name
 from cellc.compiler.link.programs import endpoints
 from cellc.compiler.link.robot import node_parameters
 from cellc.compiler.source.document import SourceDocument
@@ -21,6 +21,8 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.contract.vocabulary import UNKNOWN
 
+DESCRIPTION = "/robot_description"
+"""The topic of a description, below the namespace of who publishes it."""
 DESCRIPTION_PUBLISHER = "description_publisher"
 """Says the description of one of several controller managers."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from typing import Protocol
 
 from cellc.contract.contract import ContractManager
@@ -204,10 +204,16 @@ class ControlStack:
             self.dangers += [danger for danger in dangers(controller, goal) if danger not in self.dangers]
         return response
 
-    def subscribe_joint_states(self) -> None:
-        """Collect from now on what the broadcasters publish; they must be configured."""
+    def subscribe_joint_states(self, read: Container[str]) -> None:
+        """Collect from now on what the broadcasters publish; they must be configured.
+
+        Args:
+            read: broadcasters whose local topics somebody reads; the others are heard on the common topic alone.
+        """
         for (manager, controller), history in self.histories.items():
             if manager in self.managers:
+                if self.managers[manager].has_local_topics(controller) and controller not in read:
+                    continue
                 self.managers[manager].subscribe_joint_states(controller)
             history.subscribed = True
         for watcher in self._watchers:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from cellc.compiler.catalog.controller_kind import ControllerKind, ParameterFacts
+from cellc.compiler.catalog.controller_kind import ControllerKind, ControllerTopic, ParameterFacts
 from cellc.compiler.catalog.load import controller_kinds, load_controller_kind
 from cellc.compiler.formats.escape import code, markdown
 from cellc.compiler.formats.markdown_table import TableCell, table
@@ -31,7 +31,7 @@ def _kind(kind: ControllerKind) -> Iterator[str]:
     facts = "\n".join(f"- {name}: {text}" for name, text in _facts(kind).items() if text)
     if facts:
         yield facts
-    topics = ((code(topic.name), topic.type, _DIRECTIONS[topic.direction], _only(topic.only)) for topic in kind.topics)
+    topics = ((code(topic.name), topic.type, _DIRECTIONS[topic.direction], _where(topic)) for topic in kind.topics)
     topic_table = table(("topic", "type", "it", "on"), topics)
     if kind.topics:
         yield topic_table
@@ -79,6 +79,11 @@ def _allowed(facts: ParameterFacts) -> Iterator[str]:
         yield "no name twice"
     if facts.read_only:
         yield "fixed once it is configured"
+
+
+def _where(topic: ControllerTopic) -> str:
+    given = " and ".join(code(f"{name}: {_value(value)}") for name, value in topic.given.items())
+    return f"{_only(topic.only)}, with {given}" if given else _only(topic.only)
 
 
 def _only(only: tuple[Distro, ...], facts: ParameterFacts | None = None) -> str:

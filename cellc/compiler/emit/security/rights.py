@@ -20,7 +20,6 @@ from cellc.compiler.deploy.files import plans
 from cellc.compiler.deploy.observation import nodes_on, readings
 from cellc.compiler.deploy.processes import bring_up_nodes, description_nodes, motion_clients
 from cellc.compiler.deploy.recording import recorded_topics, reporting
-from cellc.compiler.link.hardware import JOINT_STATES
 from cellc.contract.bring_up import CLAIM_WATCH, BringUp, TopicProof
 from cellc.contract.entities import TARGETS
 from cellc.contract.frozen import dataclass
@@ -194,22 +193,18 @@ def _controller(cell: Cell, controller: Controller) -> Profile:
 
     A subscriber gets no right to publish on the same topic unless an interface of the cell says so.
     """
-    kind = controller.declared
-    topics = (
-        () if kind is None else tuple(topic for topic in kind.topics if not topic.only or cell.distro in topic.only)
-    )
+    kind, below = controller.declared, f"{controller.full_name}/"
+
+    def own(*, publishes: bool) -> tuple[str, ...]:
+        names = (topic.name for topic in controller.own_topics if topic.publishes == publishes)
+        return tuple(f"~/{name.removeprefix(below)}" if name.startswith(below) else name for name in names)
+
     declared = Rights(
-        publish=tuple(_own(controller, topic.name) for topic in topics if topic.direction == "publish"),
-        subscribe=tuple(_own(controller, topic.name) for topic in topics if topic.direction == "subscribe"),
-        reply=() if kind is None else tuple(_own(controller, service.name) for service in kind.services),
+        publish=own(publishes=True),
+        subscribe=own(publishes=False),
+        reply=() if kind is None else tuple(service.name for service in kind.services),
     )
     return _profile(cell, controller.full_name, Kind.NODE, Kind.CONTROLLER, own=declared)
-
-
-def _own(controller: Controller, name: str) -> str:
-    if name.startswith("~/"):
-        return name
-    return JOINT_STATES if name == "joint_states" else f"{controller.namespace}/{name}"
 
 
 def manager_client(cell: Cell, manager: ControllerManager, node: str) -> Profile:

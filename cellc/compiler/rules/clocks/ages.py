@@ -96,14 +96,16 @@ def faster_than_the_device(graph: CellGraph) -> Findings:
 
 
 def _sources(graph: CellGraph) -> dict[str, list[tuple[str, float]]]:
-    """Return the topics, and the rate in Hz, of each device and controller; a controller publishes on any."""
+    """Return the topics, and the rate in Hz, of each device and controller; none is faster than its cycles."""
     found: dict[str, list[tuple[str, float]]] = {}
     for device in graph.cell.devices:
         streams = () if device.sensing.camera is None else device.sensing.camera.streams
         found.setdefault(device.name, []).extend((stream.topic, stream.rate_hz) for stream in streams)
     for manager in graph.cell.managers:
         for controller in manager.controllers:
-            found.setdefault(controller.name, []).append(("", controller.update_rate_hz or manager.update_rate_hz))
+            cycles = controller.update_rate_hz or manager.update_rate_hz
+            rates = [(topic.name, topic.rate_hz) for topic in controller.own_topics if topic.rate_hz is not None]
+            found.setdefault(controller.label, []).extend([*rates, ("", cycles)])
     return found
 
 

@@ -6,8 +6,9 @@ import math
 from operator import itemgetter
 
 from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.link.names import JOINT_STATES
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.contract.vocabulary import Behavior, Need
+from cellc.contract.vocabulary import Need
 
 
 @rule(Severity.ERROR)
@@ -41,13 +42,25 @@ def device_apart_from_its_manager(graph: CellGraph) -> Findings:
 
 @rule(Severity.ERROR)
 def missing_joint_states(graph: CellGraph) -> Findings:
-    """Yield managers that drive joints without an active joint state broadcaster."""
+    """Yield managers that drive joints without an active controller that says their states where all read them."""
     for manager in graph.cell.managers:
-        publishing = any(c.behavior is Behavior.JOINT_STATE_BROADCASTER and c.active for c in manager.controllers)
-        if not publishing and any(c.command_interfaces and c.joints for c in manager.controllers):
-            path = (*manager.path, "controllers")
-            message = f"no controller of `{manager.name}` publishes joint states"
-            yield found(graph, path, message)
+        topics = {
+            topic.name for one in manager.controllers if one.active for topic in one.own_topics if topic.publishes
+        }
+        if JOINT_STATES in topics or not any(c.command_interfaces and c.joints for c in manager.controllers):
+            continue
+        message = f"no controller of `{manager.name}` publishes joint states"
+        local = (other for other in manager.controllers if other.written_parameters.get(_LOCAL) is True)
+        apart = next(local, None)
+        if apart is None:
+            yield found(graph, (*manager.path, "controllers"), message)
+            continue
+        path = (*apart.path, "parameters", _LOCAL)
+        message += f" on `{JOINT_STATES}`: those of `{apart.name}` are on `{apart.full_name}{JOINT_STATES}`"
+        yield found(graph, path, f"{message}, which robot_state_publisher does not read", f"remove `{_LOCAL}`")
+
+
+_LOCAL = "use_local_topics"
 
 
 @rule(Severity.ERROR)

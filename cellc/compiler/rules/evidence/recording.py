@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cellc.compiler.cell.site import ATTEMPT_FIELDS
+from cellc.compiler.graph.data_flow import known_topics
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
 
 
@@ -55,10 +56,9 @@ _ALWAYS = ("/diagnostics", "/rosout", "/parameter_events", "/tf", "/tf_static", 
 
 @rule(Severity.WARNING, assumes=("illegal-ros-name",))
 def unknown_recorded_topic(graph: CellGraph) -> Findings:
-    """Yield recorded topics that no interface declares and no device publishes."""
+    """Yield recorded topics that no interface declares, and no device or controller publishes."""
     known = {*_ALWAYS, *(interface.name for interface in graph.cell.interfaces)}
-    for device in graph.cell.devices:
-        known |= set(device.topics)
+    known = known.union(*known_topics(graph.cell).published.values())
     for index, topic in enumerate(graph.cell.recording.topics):
         if topic not in known:
             path = ("recording", "topics", index)

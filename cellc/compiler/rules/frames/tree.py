@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cellc.compiler.cell.frame import WORLD, FrameKind
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
-from cellc.compiler.link.hardware import JOINT_STATES
+from cellc.compiler.link.names import JOINT_STATES
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Related, Severity, found, rule
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from difflib import SequenceMatcher
 
-from cellc.compiler.graph.data_flow import interface_types
+from cellc.compiler.cell.interface import Interface
+from cellc.compiler.graph.data_flow import KnownTopics, interface_types, known_topics
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.contract.vocabulary import InterfaceKind
 
@@ -48,22 +49,26 @@ def malformed_interface_type(graph: CellGraph) -> Findings:
 
 @rule(Severity.ERROR)
 def type_conflict(graph: CellGraph) -> Findings:
-    """Yield interfaces of the spec whose device or controller has another type for the name."""
+    """Yield interfaces of the spec one of whose devices or controllers has another type for the name."""
     for interface in graph.cell.interfaces:
-        for source in interface.sources:
-            real = _type_of(graph, source.node, interface.name)
+        for node, real in _types(graph, interface):
             if real is not None and real != interface.type:
-                message = f"`{interface.name}` is declared as `{interface.type}`, but `{source.node}` has `{real}`"
+                message = f"`{interface.name}` is declared as `{interface.type}`, but `{node}` has `{real}`"
                 yield found(graph, (*interface.path, interface.kind.value), message, f"write `{real}`")
 
 
-def _type_of(graph: CellGraph, node: str, name: str) -> str | None:
-    topics = graph.once(_topics)
-    return topics[node].get(name) if node in topics else graph.once(_actions).get((node, name))
+def _types(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str | None]]:
+    """Yield each end with the type that it is known to have for the name."""
+    topics, actions = graph.once(_topics), graph.once(_actions)
+    for source in interface.sources:
+        known = topics.published.get(source.node, {}).get(interface.name)
+        yield source.node, known or actions.get((source.node, interface.name))
+    for sink in interface.sinks:
+        yield sink.node, topics.subscribed.get(sink.node, {}).get(interface.name)
 
 
-def _topics(graph: CellGraph) -> Mapping[str, Mapping[str, str]]:
-    return {device.name: device.topics for device in graph.cell.devices}
+def _topics(graph: CellGraph) -> KnownTopics:
+    return known_topics(graph.cell)
 
 
 def _actions(graph: CellGraph) -> Mapping[tuple[str, str | None], str | None]:

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from math import inf
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.graph.data_flow import interface_types, is_state_on_change
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, did_you_mean, found, rule
+from cellc.compiler.cell.interface import Endpoint
+from cellc.compiler.graph.data_flow import interface_types, is_state_on_change, known_topics
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, did_you_mean, found, rule
 from cellc.contract.vocabulary import InterfaceKind
 
 DRIFT = 0.01
@@ -118,18 +119,34 @@ def unitless_number(graph: CellGraph) -> Findings:
 
 @rule(Severity.ERROR)
 def unoffered_topic(graph: CellGraph) -> Findings:
-    """Yield topics of the spec from a device whose driver has their type, but not their name."""
-    devices = {device.name: device for device in graph.cell.devices}
+    """Yield topics of the spec at a device or controller that has their type, but not their name."""
+    known = known_topics(graph.cell)
     for interface in graph.cell.interfaces:
         if interface.kind is not InterfaceKind.TOPIC or interface.derived:
             continue
-        for source in interface.sources:
-            topics = devices[source.node].topics if source.node in devices else {}
+        sides = (
+            (interface.sources, known.published, "publish"),
+            (interface.sinks, known.subscribed, "subscribe to"),
+        )
+        for end, topics, does in (
+            (end, by_node.get(end.node, {}), does) for ends, by_node, does in sides for end in ends
+        ):
             alike = [name for name, type_ in topics.items() if type_ == interface.type]
             if alike and interface.name not in topics:
-                message = f"`{source.node}` does not publish `{interface.name}`"
-                advice = did_you_mean(interface.name, alike, f"topics of `{source.node}` with `{interface.type}`")
-                yield found(graph, interface.path, message, advice)
+                message = f"`{end.node}` does not {does} `{interface.name}`"
+                advice = did_you_mean(interface.name, alike, f"topics of `{end.node}` with `{interface.type}`")
+                yield found(graph, interface.path, message, advice, _by_parameters(graph, end))
+
+
+def _by_parameters(graph: CellGraph, end: Endpoint) -> tuple[Related, ...]:
+    """Return where parameters of a controller are stated on which its topics depend."""
+    controller = next((other for other in graph.cell.controllers if other.label == end.node), None)
+    kind = None if controller is None else controller.declared
+    if controller is None or kind is None:
+        return ()
+    decides = {name for topic in kind.topics for name in topic.given} & set(controller.written_parameters)
+    paths = ((*controller.path, "parameters", name) for name in sorted(decides))
+    return tuple(Related("this decides which topics it has", graph.cell.locate(*path)) for path in paths)
 
 
 @rule(Severity.ERROR)

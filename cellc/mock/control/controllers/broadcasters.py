@@ -201,6 +201,11 @@ class JointStateBroadcaster(QuietController):
         self._missing = self._columns < 0
         self._any_missing = bool(self._missing.any())
 
+    @property
+    def is_local(self) -> bool:
+        """Whether it publishes on topics below its own name, which nothing reads that was not made to."""
+        return self.context.parameters.flag("use_local_topics")
+
     def listen(self) -> None:
         """Collect what is published from now on."""
         self._listened = True

@@ -281,6 +281,10 @@ class ControllerManager:
         self._touch()
         self._table.state[self._table.state_column(name)] = value
 
+    def has_local_topics(self, controller: str) -> bool:
+        """Tell whether a joint state broadcaster publishes below its own name alone."""
+        return self._broadcaster(controller).is_local
+
     def subscribe_joint_states(self, controller: str) -> None:
         """Collect what a joint state broadcaster publishes, from the next cycle on."""
         self._touch()

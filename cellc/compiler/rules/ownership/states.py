@@ -1,0 +1,79 @@
+"""Rules on who says how things are: each state has one publisher."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.control import Controller, ControllerManager
+from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.compiler.link.derived import JOINT_STATE_TYPE
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.entities import Target
+from cellc.contract.vocabulary import InterfaceKind
+
+_Part = tuple[Target, str]
+"""What a sample speaks of, on a target: a joint; of other topics the whole."""
+
+
+@rule(Severity.ERROR, assumes=("shared-prefix", "second-command-publisher"))
+def second_state_publisher(graph: CellGraph) -> Findings:
+    """Yield each publisher of a state that another one publishes already: of a joint, or of what counts newest."""
+    for topic in graph.cell.interfaces:
+        if topic.kind is not InterfaceKind.TOPIC or len(topic.sources) < 2:
+            continue
+        first: dict[_Part, Endpoint] = {}
+        for source in topic.sources:
+            parts = tuple(_parts(graph.cell, topic, source, first))
+            again = next((part for part in parts if part in first), None)
+            if again is not None:
+                what = f"the state of `{again[1]}`" if again[1] else "what counts newest"
+                message = f"`{source.node}` and `{first[again].node}` both publish {what} on `{topic.name}`"
+                yield found(graph, source.path, message, related=(Related("first published here", first[again].span),))
+            for part in parts:
+                first.setdefault(part, source)
+
+
+def _parts(cell: Cell, topic: Interface, source: Endpoint, known: Iterable[_Part]) -> Iterator[_Part]:
+    """Yield what a publisher speaks of; of joints, a node of which nothing says it speaks of all that have none yet."""
+    if topic.type != JOINT_STATE_TYPE:
+        yield from ((target, "") for target in source.targets if topic.wants == "newest")
+        return
+    joints = _joints(cell, source)
+    if joints is not None:
+        yield from joints
+        return
+    moving = {joint.name for device in cell.devices for joint in device.joints if joint.type != "fixed"}
+    said = set(known)
+    for target in source.targets:
+        parts = {(target, joint) for joint in moving}
+        yield from sorted(parts - said or parts)
+
+
+def _joints(cell: Cell, source: Endpoint) -> tuple[_Part, ...] | None:
+    """Return the joints of a controller or device; None of a node, which may speak of any."""
+    for manager in cell.managers:
+        for controller in manager.controllers:
+            if controller.label == source.node:
+                return tuple(_broadcast(cell, manager, controller))
+    device = next((device for device in cell.devices if device.name == source.node), None)
+    if device is None:
+        return None
+    return tuple((target, joint.name) for target in source.targets for joint in device.joints)
+
+
+def _broadcast(cell: Cell, manager: ControllerManager, controller: Controller) -> Iterator[_Part]:
+    """Yield the joints of a broadcaster: those that it is given, else those of the hardware of its manager."""
+    given = controller.parameters
+    listed, extra = (_texts(given.get(name)) for name in ("joints", "extra_joints"))
+    chosen = listed if listed and given.get("interfaces") else ()
+    for target in controller.targets:
+        for device in map(cell.device, manager.devices):
+            hardware = device.control.hardware
+            if hardware is not None and target in hardware.targets:
+                yield from ((target, joint.name) for joint in device.joints if not chosen or joint.name in chosen)
+        yield from ((target, joint) for joint in extra)
+
+
+def _texts(value: object) -> tuple[str, ...]:
+    return tuple(item for item in value if isinstance(item, str)) if isinstance(value, tuple) else ()
