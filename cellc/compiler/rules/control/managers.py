@@ -44,9 +44,8 @@ def device_apart_from_its_manager(graph: CellGraph) -> Findings:
 def missing_joint_states(graph: CellGraph) -> Findings:
     """Yield managers that drive joints without an active controller that says their states where all read them."""
     for manager in graph.cell.managers:
-        topics = {
-            topic.name for one in manager.controllers if one.active for topic in one.own_topics if topic.publishes
-        }
+        active = (controller for controller in manager.controllers if controller.active)
+        topics = {topic.name for controller in active for topic in controller.own_topics if topic.publishes}
         if JOINT_STATES in topics or not any(c.command_interfaces and c.joints for c in manager.controllers):
             continue
         message = f"no controller of `{manager.name}` publishes joint states"
