@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
 
-from cellc.compiler.cell.interface import Interface
 from cellc.compiler.graph.data_flow import age_chains, age_share, is_state_on_change
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.vocabulary import InterfaceKind
@@ -47,96 +45,6 @@ def continues_on_timeout(graph: CellGraph) -> Findings:
         if interface.on_timeout == "continue":
             message = f"the client of `{interface.name}` continues when no answer comes"
             yield found(graph, (*interface.path, "on_timeout"), message)
-
-
-_ROUNDING = 1.001
-
-
-@rule(Severity.WARNING)
-def faster_than_its_source(graph: CellGraph) -> Findings:
-    """Yield topics of a node in a frame of a camera that are faster than all that it hears from this camera."""
-    frames = {
-        device.name: set(device.body.frames.values())
-        for device in graph.cell.devices
-        if device.sensing.camera is not None
-    }
-    topics = [
-        interface for interface in graph.cell.interfaces if interface.kind is InterfaceKind.TOPIC and interface.rate_hz
-    ]
-    heard_by: dict[str, list[Interface]] = {}
-    for topic in topics:
-        for node in dict.fromkeys(sink.node for sink in topic.sinks):
-            heard_by.setdefault(node, []).append(topic)
-    for topic in topics:
-        for source in topic.sources:
-            heard = [interface for interface in heard_by.get(source.node, ()) if _seen_by(interface, topic, frames)]
-            fastest = max(heard, key=lambda one: one.rate_hz or 0.0, default=None)
-            if fastest is not None and (topic.rate_hz or 0.0) > (fastest.rate_hz or 0.0) * _ROUNDING:
-                message = f"`{topic.name}` must be at most as fast as `{fastest.name}`, {fastest.rate_hz:g} Hz,"
-                related = (Related("what it is seen in", graph.cell.locate(*fastest.path, "rate")),)
-                yield found(graph, (*topic.path, "rate"), f"{message} got {topic.rate_hz:g} Hz", related=related)
-
-
-def _seen_by(image: Interface, topic: Interface, frames: dict[str, set[str]]) -> bool:
-    return any(topic.frame in frames.get(source.node, ()) for source in image.sources)
-
-
-@rule(Severity.WARNING)
-def faster_than_the_device(graph: CellGraph) -> Findings:
-    """Yield topics of cameras and broadcasters with a rate above that of their source."""
-    sources = _sources(graph)
-    for interface in graph.cell.interfaces:
-        if interface.kind is not InterfaceKind.TOPIC or interface.derived or not interface.rate_hz:
-            continue
-        for source, rate_hz in _rates(sources, interface):
-            if interface.rate_hz > rate_hz * _ROUNDING:
-                message = f"`{interface.name}` must be at most as fast as `{source}` publishes it, {rate_hz:g} Hz,"
-                yield found(graph, (*interface.path, "rate"), f"{message} got {interface.rate_hz:g} Hz")
-                break
-
-
-def _sources(graph: CellGraph) -> dict[str, list[tuple[str, float]]]:
-    """Return the topics, and the rate in Hz, of each device and controller; none is faster than its cycles."""
-    found: dict[str, list[tuple[str, float]]] = {}
-    for device in graph.cell.devices:
-        streams = () if device.sensing.camera is None else device.sensing.camera.streams
-        found.setdefault(device.name, []).extend((stream.topic, stream.rate_hz) for stream in streams)
-    for manager in graph.cell.managers:
-        for controller in manager.controllers:
-            cycles = controller.update_rate_hz or manager.update_rate_hz
-            rates = [(topic.name, topic.rate_hz) for topic in controller.own_topics if topic.rate_hz is not None]
-            found.setdefault(controller.label, []).extend([*rates, ("", cycles)])
-    return found
-
-
-def _rates(sources: Mapping[str, list[tuple[str, float]]], interface: Interface) -> Iterator[tuple[str, float]]:
-    """Yield the sources of a topic whose rate is known, Hz."""
-    for name in dict.fromkeys(source.node for source in interface.sources):
-        yield from ((name, rate_hz) for topic, rate_hz in sources.get(name, ()) if topic in ("", interface.name))
-
-
-@rule(Severity.ERROR)
-def max_age_beyond_timeout(graph: CellGraph) -> Findings:
-    """Yield topics that may be older than the timeout of an action that their subscriber calls."""
-    actions = [
-        interface
-        for interface in graph.cell.interfaces
-        if interface.kind is InterfaceKind.ACTION and interface.timeout_s
-    ]
-    for topic in graph.cell.interfaces:
-        if topic.max_age_s is None:
-            continue
-        readers = {sink.node for sink in topic.sinks}
-        for action in actions:
-            if readers.isdisjoint(sink.node for sink in action.sinks) or topic.max_age_s <= (action.timeout_s or 0.0):
-                continue
-            message = (
-                f"`max_age` of `{topic.name}` must be at most {action.timeout_s:g} s, the timeout of `{action.name}`, "
-                f"got {topic.max_age_s:g} s"
-            )
-            related = (Related("the goal is bounded here", graph.cell.locate(*action.path, "timeout")),)
-            yield found(graph, (*topic.path, "max_age"), message, related=related)
-            break
 
 
 @rule(Severity.ERROR)
