@@ -40,6 +40,24 @@ def device_apart_from_its_manager(graph: CellGraph) -> Findings:
             yield found(graph, (*device.path, "connection", "host"), f"{message} `{link.host}`", related=related)
 
 
+@rule(Severity.ERROR, assumes=("shared-manager-name",))
+def device_of_two_managers(graph: CellGraph) -> Findings:
+    """Yield controllers of a device that another manager drives: with them this one loads its hardware too."""
+    driven: dict[str, dict[str, list[Controller]]] = {}
+    for manager in graph.cell.managers:
+        for controller in manager.controllers:
+            if controller.device in manager.devices:
+                driven.setdefault(controller.device or "", {}).setdefault(manager.name, []).append(controller)
+    for device, by_manager in driven.items():
+        home = max(by_manager, key=lambda name: len(by_manager[name]))
+        for name, controllers in by_manager.items():
+            for controller in controllers if name != home else ():
+                message = f"`{controller.name}` of `{name}` drives `{device}`, whose hardware `{home}` loads already"
+                related = (Related("driven here", by_manager[home][0].span),)
+                advice = f"write a device of `{name}`, or move the controller to `{home}`"
+                yield found(graph, (*controller.path, "device"), message, advice, related)
+
+
 @rule(Severity.ERROR)
 def missing_joint_states(graph: CellGraph) -> Findings:
     """Yield managers that drive joints without an active controller that says their states where all read them."""

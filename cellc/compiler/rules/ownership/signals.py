@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, did_you_mean, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, did_you_mean, found, rule, rules
 
 
-@rule(Severity.ERROR)
-def shared_output(graph: CellGraph) -> Findings:
-    """Yield the second use of an output, by another device or by the same."""
+def _used_twice(graph: CellGraph, which: str) -> Findings:
+    """Yield the second use of an input or output, by another device or by the same: wiring is a map."""
     first: dict[str, YamlPath] = {}
     for device in graph.cell.devices:
-        outputs = {} if device.switched is None else device.switched.outputs
-        for name, interface in outputs.items():
-            path = (*device.path, "switching", "outputs", name)
+        wires = {} if device.switched is None else getattr(device.switched, which)
+        for name, interface in wires.items():
+            path = (*device.path, "switching", which, name)
             owner = first.setdefault(interface, path)
             if owner != path:
-                message = f"`{device.name}` must have an output of its own, got `{interface}` of `{owner[1]}`"
+                kind = which.removesuffix("s")
+                message = f"`{device.name}` must have an {kind} of its own, got `{interface}` of `{owner[1]}`"
                 yield found(graph, path, message, related=(Related("first used here", graph.cell.locate(*owner)),))
+
+
+SHARED = rules(Severity.ERROR, _used_twice, {"shared-input": "inputs", "shared-output": "outputs"})
 
 
 @rule(Severity.ERROR)

@@ -16,7 +16,7 @@ _Part = tuple[Target, str]
 """What a sample speaks of, on a target: a joint; of other topics the whole."""
 
 
-@rule(Severity.ERROR, assumes=("shared-prefix", "second-command-publisher"))
+@rule(Severity.ERROR, assumes=("shared-prefix", "second-command-publisher", "device-of-two-managers"))
 def second_state_publisher(graph: CellGraph) -> Findings:
     """Yield each publisher of a state that another one publishes already: of a joint, or of what counts newest."""
     for topic in graph.cell.interfaces:
