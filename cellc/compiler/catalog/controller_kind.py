@@ -61,6 +61,7 @@ class ParameterFacts(CatalogModel):
         unique: Whether the elements of a list must differ.
         only: Distributions that declare the parameter; empty for all.
         differs: What one distribution declares otherwise.
+        not_played: What the mock does whatever the value is; absent where it plays the value.
     """
 
     type: ParameterType
@@ -76,6 +77,7 @@ class ParameterFacts(CatalogModel):
     unique: bool = False
     only: tuple[DistroName, ...] = ()
     differs: dict[DistroName, ParameterVariant] = Field(default_factory=dict)
+    not_played: Text | None = None
 
     def declared_in(self, distro: Distro) -> bool:
         """Tell whether the distribution knows the parameter; an unknown one is ignored silently."""

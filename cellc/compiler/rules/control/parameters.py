@@ -81,6 +81,17 @@ def _out_of_range(facts: ParameterFacts, value: ParameterValue) -> str:
     return ""
 
 
+@rule(Severity.AUDIT)
+def parameter_not_played(graph: CellGraph) -> Findings:
+    """Yield parameters of the spec that the mock does not play, where they differ from what it does."""
+    for parameter in written_parameters(graph.cell):
+        kind = parameter.controller.declared
+        facts = None if kind is None else kind.parameter(parameter.name, graph.cell.distro)
+        if facts is not None and facts.not_played is not None and parameter.value != facts.default:
+            message = f"no rehearsal plays `{parameter.name}` of `{parameter.controller.name}`"
+            yield found(graph, parameter.path, f"{message}: on the mock, {facts.not_played}")
+
+
 _Stated = tuple[tuple[str, ...], tuple[float, ...], "tuple[float, float] | None", str]
 
 
