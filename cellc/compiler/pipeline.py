@@ -1,7 +1,8 @@
 """The stages of cellc in order: read, parse, link, build the graph, check, emit, verify, write.
 
 Everything between reading and writing is pure: a stage takes a value and returns a value. source, spec and link stop
-on an error, so that one mistake does not cascade; rules all run.
+on an error, so that one mistake does not cascade; rules all run. What else is wrong is found on a document in which
+what stopped them is mended.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from cellc.compiler.rules.run import ALL_RULES, run_rules
 from cellc.compiler.source import read
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.findings import finding
+from cellc.compiler.source.mended import Mended, mend
 from cellc.compiler.source.text import with_shown_texts
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
@@ -35,6 +37,8 @@ from cellc.robot.description.packages import root_of
 
 DESCRIPTIONS = (".urdf", ".xacro")
 """Files of a robot alone, which no cell holds."""
+_ROUNDS = 4
+"""How often mistakes that stop a stage are mended: those of shape, of names, and what is left out and needed."""
 _ON_MODELS = tuple(rule for rule in ALL_RULES if rule.family == "MOD" or rule.code == "missing-velocity-limit")
 
 
@@ -103,16 +107,11 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     if _is_device(Path(path), source.value):
         device = finding("not-a-cell", f"`{file}` is a device, not a cell", Span(file, 1, 1, 1, 1))
         return _checked(file, texts, (device,))
-    found = list(source.diagnostics)
-    spec = parse(source.value)
-    found += spec.diagnostics
-    if spec.value is None or not spec.ok:
-        return _checked(file, texts, _unexcused(found, texts))
-    cell = link(spec.value, source.value)
-    found += cell.diagnostics
-    if cell.value is None or not cell.ok:
-        return _checked(file, texts, _unexcused(found, texts))
-    graph = build_graph(cell.value)
+    linked = _linked(source.value)
+    found = [*source.diagnostics, *linked.diagnostics]
+    if linked.value is None or not linked.ok:
+        return _checked(file, texts, _unexcused([*found, *_beyond_what_stopped(source.value, linked)], texts))
+    graph = build_graph(linked.value)
     stage("rules")
     found += run_rules(graph)
     kept = _excused(found, texts)
@@ -120,6 +119,33 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     return replace(
         _checked(file, texts, kept, graph), excused=tuple(diagnostic for diagnostic in found if diagnostic not in known)
     )
+
+
+def _linked(document: SourceDocument) -> Outcome[Cell]:
+    """Return the cell of a document, with what stopped reading its shape or its names."""
+    spec = parse(document)
+    if spec.value is None or not spec.ok:
+        return Outcome(None, spec.diagnostics)
+    cell = link(spec.value, document)
+    return Outcome(cell.value, (*spec.diagnostics, *cell.diagnostics))
+
+
+def _beyond_what_stopped(document: SourceDocument, stopped: Outcome[Cell]) -> Iterator[Diagnostic]:
+    """Yield what is wrong beside the mistakes that stopped a stage, as if they were mended or left out."""
+    mended = Mended(document)
+    ignores = ignore_comments(document.texts)
+    for _ in range(_ROUNDS):
+        errors = [found for found in stopped.diagnostics if found.severity is Severity.ERROR]
+        further = mend(mended, errors)
+        if further is None:
+            return
+        mended, stopped = further, _linked(further.document)
+        yield from filter(mended.is_apart, stopped.diagnostics)
+        if stopped.value is not None and stopped.ok and not mended.left_out:
+            ruled = run_rules(build_graph(stopped.value))
+            excused = frozenset(apply_ignores(ruled, ignores, _codes())) if ignores else frozenset(ruled)
+            yield from (found for found in ruled if found in excused and mended.is_apart(found))
+            return
 
 
 def _is_device(path: Path, document: SourceDocument | None) -> bool:

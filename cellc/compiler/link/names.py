@@ -38,8 +38,8 @@ def unknown_name(
 
 
 def _plural(kind: str) -> str:
-    nouns = (noun.partition(" with ") for noun in kind.split(" or "))
-    return " or ".join(f"{head}s{joint}{rest}" for head, joint, rest in nouns)
+    """Return the plural of nouns, each before what is said of it."""
+    return " or ".join(re.sub(r"( (?:with|of|in|that|whose) |$)", r"s\1", noun, count=1) for noun in kind.split(" or "))
 
 
 def home_host(spec: CellSpec) -> str:

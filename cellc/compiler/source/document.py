@@ -126,6 +126,18 @@ class SourceDocument:
         """Return the same without the value of a path that exists; what is behind it in a list moves up."""
         return replace(self, root=_changed(self.root, path, None))
 
+    def renamed(self, path: YamlPath, key: str) -> SourceDocument:
+        """Return the same with another key for the value of a path that exists; places stay."""
+        return replace(self, root=_renamed(self.root, path, key))
+
+    def with_text(self, path: YamlPath, text: str) -> SourceDocument:
+        """Return the same with another scalar at a path that exists; places stay."""
+        child = self._child(path)
+        if child is None:
+            return self
+        scalar = replace(child, node=replace(child.node, data=text, text=text))
+        return replace(self, root=_changed(self.root, path, scalar))
+
     def with_value(self, key: str, value: Plain) -> SourceDocument:
         """Return the same with a section that was not written; its values are marked where the document begins."""
         node = Node(self.root.span, value)
@@ -161,3 +173,16 @@ def _changed(node: Node, path: YamlPath, child: Child | None) -> Node:
         listed = list(kept.values())
         return replace(node, data=[child.node.data for child in listed], children=dict(enumerate(listed)))
     return replace(node, data={str(key): child.node.data for key, child in kept.items()}, children=kept)
+
+
+def _renamed(node: Node, path: YamlPath, key: str) -> Node:
+    """Return a mapping with another key at the end of a path, in its order."""
+    first, rest = path[0], path[1:]
+    held = node.children[first]
+    if rest:
+        children = {**node.children, first: replace(held, node=_renamed(held.node, rest, key))}
+    else:
+        children = {key if each == first else each: child for each, child in node.children.items()}
+    if isinstance(node.data, list):
+        return replace(node, data=[child.node.data for child in children.values()], children=children)
+    return replace(node, data={str(each): child.node.data for each, child in children.items()}, children=children)

@@ -49,9 +49,11 @@ def did_you_mean(name: str, candidates: Iterable[str], kind: str) -> str:
 
 
 def only_nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """Return the one candidate that `did_you_mean` suggests, if it suggests a single one."""
+    """Return the one candidate that `did_you_mean` suggests, or the one of several that is one slip away."""
     close = nearest(name, candidates)
-    return close[0] if len(close) == 1 else None
+    slips = [candidate for candidate in close if is_slip(name, candidate)]
+    those = slips if len(close) > 1 else close
+    return those[0] if len(those) == 1 else None
 
 
 def is_slip(key: str, meant: str) -> bool:
