@@ -2,7 +2,7 @@
 
 Everything between reading and writing is pure: a stage takes a value and returns a value. source, spec and link stop
 on an error, so that one mistake does not cascade; rules all run. What else is wrong is found on a document in which
-what stopped them is mended.
+what stopped them is repaired.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from cellc.compiler.rules.run import ALL_RULES, run_rules
 from cellc.compiler.source import read
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.findings import finding
-from cellc.compiler.source.mended import Mended, mend
+from cellc.compiler.source.repaired import Repaired, repair
 from cellc.compiler.source.text import with_shown_texts
 from cellc.compiler.spec.parse import parse
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
@@ -38,7 +38,9 @@ from cellc.robot.description.packages import root_of
 DESCRIPTIONS = (".urdf", ".xacro")
 """Files of a robot alone, which no cell holds."""
 _ROUNDS = 4
-"""How often mistakes that stop a stage are mended: those of shape, of names, and what is left out and needed."""
+"""How often mistakes that stop a stage are repaired: those of shape, of names, and what is left out and needed."""
+_MOST_REPAIRED = 25
+"""A spec with more of them is another kind of file, or one of many names that a machine wrote."""
 _ON_MODELS = tuple(rule for rule in ALL_RULES if rule.family == "MOD" or rule.code == "missing-velocity-limit")
 
 
@@ -131,20 +133,20 @@ def _linked(document: SourceDocument) -> Outcome[Cell]:
 
 
 def _beyond_what_stopped(document: SourceDocument, stopped: Outcome[Cell]) -> Iterator[Diagnostic]:
-    """Yield what is wrong beside the mistakes that stopped a stage, as if they were mended or left out."""
-    mended = Mended(document)
+    """Yield what is wrong beside the mistakes that stopped a stage, as if they were repaired or left out."""
+    repaired = Repaired(document)
     ignores = ignore_comments(document.texts)
     for _ in range(_ROUNDS):
         errors = [found for found in stopped.diagnostics if found.severity is Severity.ERROR]
-        further = mend(mended, errors)
+        further = repair(repaired, errors) if len(errors) <= _MOST_REPAIRED else None
         if further is None:
             return
-        mended, stopped = further, _linked(further.document)
-        yield from filter(mended.is_apart, stopped.diagnostics)
-        if stopped.value is not None and stopped.ok and not mended.left_out:
+        repaired, stopped = further, _linked(further.document)
+        yield from filter(repaired.is_apart, stopped.diagnostics)
+        if stopped.value is not None and stopped.ok and not repaired.left_out:
             ruled = run_rules(build_graph(stopped.value))
             excused = frozenset(apply_ignores(ruled, ignores, _codes())) if ignores else frozenset(ruled)
-            yield from (found for found in ruled if found in excused and mended.is_apart(found))
+            yield from (found for found in ruled if found in excused and repaired.is_apart(found))
             return
 
 

@@ -17,7 +17,7 @@ _PART = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Mended:
+class Repaired:
     """A document that can be read on.
 
     Attributes:
@@ -43,13 +43,18 @@ class Mended:
         return not any(path[:_PART] == found.yaml_path[: len(path[:_PART])] for path in self.left_out)
 
 
-def mend(mended: Mended, stopped: Sequence[Diagnostic]) -> Mended | None:
-    """Return a document without the mistakes that stopped a stage; None where one of them can only be mended by people.
+def repair(repaired: Repaired, stopped: Sequence[Diagnostic]) -> Repaired | None:
+    """Return a document without the mistakes that stopped a stage; None where one of them can only be repaired by people.
 
     A text with a near name is taken for it. Any other value within a part of the cell is left out, which the next
     reading refuses where it is needed.
     """
-    document, guessed, words, left_out = mended.document, set(mended.guessed), set(mended.words), list(mended.left_out)
+    document, guessed, words, left_out = (
+        repaired.document,
+        set(repaired.guessed),
+        set(repaired.words),
+        list(repaired.left_out),
+    )
     for found in sorted(stopped, key=lambda found: tuple(map(str, found.yaml_path)), reverse=True):
         path, fix = found.yaml_path, found.fix
         if not document.has(path) or (fix is None and len(path) <= _PART):
@@ -65,4 +70,4 @@ def mend(mended: Mended, stopped: Sequence[Diagnostic]) -> Mended | None:
             document = document.with_text(path, written.replace(fix.written, fix.text, 1))
         guessed.add((fix.span.file, fix.span.line))
         words |= {fix.written, fix.text}
-    return Mended(document, frozenset(guessed), frozenset(words), tuple(left_out))
+    return Repaired(document, frozenset(guessed), frozenset(words), tuple(left_out))
