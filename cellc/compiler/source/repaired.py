@@ -44,7 +44,7 @@ class Repaired:
 
 
 def repair(repaired: Repaired, stopped: Sequence[Diagnostic]) -> Repaired | None:
-    """Return a document without the mistakes that stopped a stage; None where one of them can only be repaired by people.
+    """Return a document without the mistakes that stopped a stage; None where one of them is for people to repair.
 
     A text with a near name is taken for it. Any other value within a part of the cell is left out, which the next
     reading refuses where it is needed.
