@@ -187,10 +187,11 @@ def test_comment_without_a_code_is_reported() -> None:
 def test_comment_on_an_error_of_the_spec_is_refused_although_no_rule_runs(tmp_path: Path) -> None:
     line = "  kernel: 6.8.1-1015-realtime"
     checked = checked_with(tmp_path, (line, f"  kernl: 6.8.1-1015-realtime  # cellc: ignore unknown-key {REASON}"))
-    assert {code for code, _ in told(checked)} == {"unknown-key", "ignore-refused"}
-    # Whether this one is used nobody knows before the rules have run.
+    assert {"unknown-key", "ignore-refused"} <= {code for code, _ in told(checked)}
+    # Whether this one is used nobody knows before the rules have run on what is meant.
     checked = checked_with(tmp_path, (line, f"  kernl: 6.8.1-1015-realtime  # cellc: ignore unknown-version {REASON}"))
-    assert {code for code, _ in told(checked)} == {"unknown-key"}
+    codes = {code for code, _ in told(checked)}
+    assert ("unknown-key" in codes, codes & {"ignore-refused", "unused-ignore"}) == (True, set())
 
 
 _MARK = re.compile(r"# expect: ([a-z0-9, -]+)$", re.MULTILINE)
