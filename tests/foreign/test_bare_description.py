@@ -99,6 +99,8 @@ def test_meshes_of_the_package_that_the_description_stands_in_are_found(tmp_path
     shape = (
         '<link name="base"><collision><geometry><mesh filename="package://arm_description/meshes/{}.stl"/></geometry>'
     )
+    box = '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
     text = _CLEAN.replace('<link name="base"/>', shape.format("base") + "</collision></link>")
+    text = text.replace("</inertial></link>", f"</inertial>{box}</link>")
     assert _found(package / "urdf", text) == []
     assert _found(package / "urdf", text.replace("/base.stl", "/absent.stl")) == [("mesh-not-found", 2)]

@@ -8,7 +8,7 @@ from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.limit_facts import EVERY_JOINT
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.quantity import Quantity
-from cellc.contract.diagnostics import Diagnostic, Severity, YamlPath
+from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span, YamlPath
 from cellc.robot.description.model import Description, Joint, JointLimit
 
 _UNITS = {
@@ -47,11 +47,15 @@ def wrong_joint_figures(model: DeviceModel, description: Description, document: 
         if limit is not None and not _holds(limit, home.si):
             bounds = f"from {_shown(limit.lower)} to {_shown(limit.upper)}"
             message = f"the home of `{name}` must lie {bounds}, got {home.si:.6g}"
-            yield _wrong(message, ("home", name), document, "put the home between the limits of the joint")
+            advice = "put the home between the limits of the joint"
+            yield _wrong(message, ("home", name), document, advice, None if of is None else of.span)
 
 
-def _wrong(message: str, path: YamlPath, document: SourceDocument, advice: str) -> Diagnostic:
-    return Diagnostic("catalog-entry-invalid", Severity.ERROR, message, document.locate(path), path, advice)
+def _wrong(
+    message: str, path: YamlPath, document: SourceDocument, advice: str, described: Span | None = None
+) -> Diagnostic:
+    related = () if described is None else (Related("the joint is described here", described),)
+    return Diagnostic("catalog-entry-invalid", Severity.ERROR, message, document.locate(path), path, advice, related)
 
 
 def _figures(model: DeviceModel, description: Description) -> Iterator[tuple[YamlPath, Joint, Quantity]]:

@@ -19,6 +19,7 @@ from cellc.compiler.catalog.compiled import (
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.family import read_entry
+from cellc.compiler.catalog.figure_bounds import implausible_figures
 from cellc.compiler.catalog.joint_figures import wrong_joint_figures
 from cellc.compiler.catalog.names import CatalogNames, unknown_names
 from cellc.compiler.catalog.programs import ProgramTable
@@ -147,7 +148,8 @@ def _load(
     wrong = (*unknown_names(model, limited, document, known), *wrong_joint_figures(model, limited, document))
     robot = limited.without_leaderless() if "mimic-of-nothing" in model.excused else limited
     device = None if wrong else CatalogDevice(model, robot)
-    return Outcome(device, description.diagnostics + wrong)
+    doubtful = () if wrong else tuple(implausible_figures(model, limited, document))
+    return Outcome(device, description.diagnostics + wrong + doubtful)
 
 
 def _at_its_name(found: Diagnostic, file: Path, document: SourceDocument) -> Diagnostic:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Related, YamlPath, found
+from cellc.contract.diagnostics import Span
 from cellc.contract.frozen import dataclass
 
 _UNITS = {
@@ -35,6 +36,7 @@ class Figure:
         path: the value that is to be corrected.
         because: where the bounds come from; that of its row where it is empty.
         unit: in which it is shown; that of its row where it is empty.
+        span: the place in a description; None of a value of the spec.
         related: further stated values that the figure or its bounds follow from.
     """
 
@@ -44,6 +46,7 @@ class Figure:
     most: float = math.inf
     because: str = ""
     unit: str = ""
+    span: Span | None = None
     related: tuple[Related, ...] = ()
 
 
@@ -92,20 +95,22 @@ def stated(
 
 def outside(graph: CellGraph, bounds: tuple[Bound, ...]) -> Findings:
     """Yield each figure that is outside of its bounds and follows from what the user wrote, one for a value."""
-    reported = set[YamlPath]()
+    reported = set[tuple[YamlPath, Span | None]]()
     for bound in bounds:
         for figure in bound.figures(graph):
-            if not figure.least <= figure.value <= figure.most and figure.path not in reported:
-                reported.add(figure.path)
-                if graph.cell.states(*figure.path):
+            if not figure.least <= figure.value <= figure.most and (figure.path, figure.span) not in reported:
+                reported.add((figure.path, figure.span))
+                if figure.span is not None or graph.cell.states(*figure.path):
                     yield _finding(graph, bound, figure)
 
 
 def _finding(graph: CellGraph, bound: Bound, figure: Figure) -> Finding:
     unit = figure.unit or bound.unit
     got, text = shown(figure.value, unit), graph.cell.text(*figure.path)
-    written = f" from `{text}`" if text and text != got else ""
+    written = f" from `{text}`" if text and text != got and figure.span is None else ""
     message = f"{bound.what} must be {_span(figure, unit)}, {figure.because or bound.because}, got {got}{written}"
+    if figure.span is not None:
+        return Finding(message, figure.span, figure.path, related=figure.related)
     return found(graph, figure.path, message, related=figure.related)
 
 

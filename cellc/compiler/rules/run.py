@@ -49,8 +49,8 @@ def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Di
             (general if rule.gives_way else diagnostics).extend(found)
             reported.update(diagnostic.code for diagnostic in found)
     if general:
-        told = {diagnostic.yaml_path for diagnostic in diagnostics}
-        diagnostics += (diagnostic for diagnostic in general if diagnostic.yaml_path not in told)
+        told = {(diagnostic.yaml_path, diagnostic.span) for diagnostic in diagnostics}
+        diagnostics += (found for found in general if (found.yaml_path, found.span) not in told)
     return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
 
 

@@ -140,7 +140,10 @@ class SafetyController:
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A joint between two links; ``pose`` is the joint frame, which is the child frame at zero, in the parent link."""
+    """A joint between two links; ``pose`` is the joint frame, which is the child frame at zero, in the parent link.
+
+    ``unheld`` are the ends that are stated for a continuous joint, which has none.
+    """
 
     name: str
     type: str
@@ -153,6 +156,7 @@ class Joint:
     dynamics: JointDynamics | None = None
     safety: SafetyController | None = None
     span: Span | None = None
+    unheld: tuple[float, float] | None = field(default=None, compare=False, repr=False)
 
     @property
     def movable(self) -> bool:

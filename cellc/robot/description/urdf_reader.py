@@ -189,6 +189,7 @@ def _read_joint(element: XmlElement) -> Joint:
         pose=origin_pose(element),
         axis=(1.0, 0.0, 0.0) if axis is None else vector(axis, "xyz"),
         limit=_without_ends(limit) if kind == "continuous" else limit,
+        unheld=_ends(limit) if kind == "continuous" else None,
         mimic=_optional(element, "mimic", _read_mimic),
         dynamics=_optional(element, "dynamics", _read_dynamics),
         safety=_optional(element, "safety_controller", _read_safety),
@@ -199,6 +200,11 @@ def _read_joint(element: XmlElement) -> Joint:
 def _optional(element: XmlElement, tag: str, read: Callable[[XmlElement], _T]) -> _T | None:
     child = element.first(tag)
     return None if child is None else read(child)
+
+
+def _ends(limit: JointLimit | None) -> tuple[float, float] | None:
+    """Return both ends where they are stated."""
+    return None if limit is None or limit.lower is None or limit.upper is None else (limit.lower, limit.upper)
 
 
 def _without_ends(limit: JointLimit | None) -> JointLimit | None:

@@ -1,0 +1,301 @@
+"""Rules on what a description of one's own says of bodies and joints: figures that no machine has, at their own line.
+
+Descriptions of the catalog are held against those of their vendors, and are not judged again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+from cellc.compiler.cell.device import Device
+from cellc.compiler.graph.frame_tree import ModelJoint, ModelLink
+from cellc.compiler.rules.bounds import Bound, Figure, outside
+from cellc.compiler.rules.excuses import spared
+from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, rule
+from cellc.contract.frozen import dataclass
+from cellc.robot.description.model import (
+    Box,
+    Collision,
+    Cylinder,
+    Description,
+    Geometry,
+    Joint,
+    Link,
+    Mesh,
+    Sphere,
+    Visual,
+)
+
+
+def _is_own(graph: CellGraph, device: Device) -> bool:
+    """Whether the user brings the description: a folder beside the spec, or the file that is checked alone."""
+    model = graph.cell.text(*device.path, "model")
+    return not model or "/" in model
+
+
+def _links(graph: CellGraph) -> Iterator[ModelLink]:
+    return (part for part in graph.model.links() if _is_own(graph, part.device))
+
+
+def _joints(graph: CellGraph) -> Iterator[ModelJoint]:
+    return (part for part in graph.model.joints() if _is_own(graph, part.device))
+
+
+@rule(Severity.WARNING)
+def continuous_with_limits(graph: CellGraph) -> Findings:
+    """Yield continuous joints for which ends are stated: nothing holds them."""
+    for part in _joints(graph):
+        lower, upper = part.joint.unheld or (0.0, 0.0)
+        if -math.tau <= lower < upper <= math.tau:
+            message = (
+                f"joint `{part.joint.name}` is continuous, so its limits of {lower:g} and {upper:g} rad are not held"
+            )
+            yield Finding(message, part.span, part.path)
+
+
+@rule(Severity.WARNING)
+def limits_of_nothing(graph: CellGraph) -> Findings:
+    """Yield joints whose range is from zero to zero or whose effort is zero, as exporters leave them."""
+    for part in _joints(graph):
+        limit = part.joint.limit
+        assumed = any(joint.assumed for joint in part.device.joints if joint.name == part.joint.name)
+        if limit is None or part.joint.mimic is not None or not part.joint.movable or assumed:
+            continue
+        if part.joint.type != "continuous" and limit.lower == limit.upper == 0.0:
+            message = f"joint `{part.joint.name}` must have a range, got 0 for both of its limits"
+            yield Finding(message, part.span, part.path)
+        elif limit.effort == 0.0 and limit.velocity != 0.0:
+            message = f"joint `{part.joint.name}` must have an effort above zero, got 0"
+            yield Finding(message, part.span, part.path)
+
+
+_LIGHT_KG = 1e-3
+_JOINTS = 4
+"""An arm has as many."""
+
+
+@rule(Severity.WARNING, assumes=("joint-of-unknown-link", "link-with-two-parents"))
+def moving_link_without_shape(graph: CellGraph) -> Findings:
+    """Yield links that a joint moves, and that have a mass or something to look at, but nothing that can collide.
+
+    Where no link of a device has a shape, that is one finding, of an arm.
+    """
+    shapeless = set[str]()
+    for part in _joints(graph):
+        if not part.joint.movable or part.device.name in shapeless:
+            continue
+        if not any(link.collisions for link in part.device.body.description.links):
+            shapeless.add(part.device.name)
+            if len([joint for joint in part.device.body.description.joints if joint.movable]) < _JOINTS:
+                continue
+        body = _rigid(graph.once(_trees)[part.device.name], part.joint.child)
+        seen = body and any(
+            link.visuals or (link.inertial is not None and link.inertial.mass > _LIGHT_KG) for link in body
+        )
+        if seen and not any(link.collisions for link in body):
+            message = f"link `{part.joint.child}` moves with `{part.joint.name}`, but has no shape that can collide"
+            yield Finding(message, body[0].span or part.span, part.path)
+
+
+def _rigid(tree: _Tree, name: str) -> list[Link]:
+    """Return a link, and all that is fixed to it and nearer to the tip."""
+    body, names, seen = list[Link](), [name], {name}
+    while names:
+        name = names.pop()
+        body += [tree.links[name]] if name in tree.links else []
+        fixed = [joint.child for joint in tree.below.get(name, ()) if not joint.movable and joint.child not in seen]
+        names += fixed
+        seen.update(fixed)
+    return body
+
+
+@dataclass(frozen=True, slots=True)
+class _Tree:
+    """A description by name: its links, the joints on each of them, and how far each reaches to its tips at most, m."""
+
+    links: Mapping[str, Link]
+    below: Mapping[str, list[Joint]]
+    reach: Mapping[str, float]
+
+
+def _trees(graph: CellGraph) -> Mapping[str, _Tree]:
+    """Return the own descriptions by device."""
+    return {device.name: _tree(device.body.description) for device in graph.cell.devices if _is_own(graph, device)}
+
+
+def _tree(description: Description) -> _Tree:
+    below: dict[str, list[Joint]] = {}
+    above: dict[str, Joint] = {}
+    for joint in description.joints:
+        below.setdefault(joint.parent, []).append(joint)
+        above[joint.child] = joint
+    links = {link.name: link for link in description.links}
+    reach = dict.fromkeys(links, 0.0)
+    left = {name: len(below.get(name, ())) for name in links}
+    tips = [name for name, count in left.items() if not count]
+    while tips:  # from the tips to the root: what is in a cycle is never reached
+        name = tips.pop()
+        carrier = above.get(name)
+        if carrier is not None and carrier.parent in left:
+            travel = math.hypot(*carrier.pose.position) + reach[name]
+            reach[carrier.parent] = max(reach[carrier.parent], travel)
+            left[carrier.parent] -= 1
+            tips += [carrier.parent] if not left[carrier.parent] else []
+    return _Tree(links, below, reach)
+
+
+_FASTEST = {"revolute": (50.0, "rad/s"), "continuous": (1000.0, "rad/s"), "prismatic": (15.0, "m/s")}
+"""What drives reach; a spindle has no ends."""
+
+
+def _velocities(graph: CellGraph) -> Iterator[Figure]:
+    for part in _joints(graph):
+        velocity = None if part.joint.limit is None else part.joint.limit.velocity
+        if velocity and part.joint.movable and part.joint.mimic is None:
+            most, unit = _FASTEST[part.joint.type]
+            yield Figure(part.path, velocity, 1e-5, most, f"joint `{part.joint.name}`", unit, span=part.span)
+
+
+def _tips(graph: CellGraph) -> Iterator[Figure]:
+    for part in _joints(graph):
+        velocity = None if part.joint.limit is None else part.joint.limit.velocity
+        if velocity and part.joint.type == "revolute" and part.joint.mimic is None:
+            far = graph.once(_trees)[part.device.name].reach.get(part.joint.child, 0.0)
+            why = f"joint `{part.joint.name}` with {velocity:g} rad/s: what arms reach"
+            yield Figure(part.path, velocity * far, most=25.0, because=why, span=part.span)
+
+
+def _efforts(graph: CellGraph) -> Iterator[Figure]:
+    for part in _joints(graph):
+        effort = None if part.joint.limit is None else part.joint.limit.effort
+        if effort and part.joint.movable and part.joint.mimic is None:
+            unit = "N" if part.joint.slides else "N m"
+            yield Figure(part.path, effort, 1e-4, 1e5, f"joint `{part.joint.name}`", unit, span=part.span)
+
+
+def _ranges(graph: CellGraph) -> Iterator[Figure]:
+    for part in _joints(graph):
+        limit = part.joint.limit
+        if limit is None or limit.lower is None or limit.upper is None or limit.lower >= limit.upper:
+            continue
+        if part.joint.type in ("revolute", "prismatic") and part.joint.mimic is None:
+            unit, most = ("m", 100.0) if part.joint.slides else ("rad", math.inf)
+            yield Figure(
+                part.path, limit.upper - limit.lower, 1e-4, most, f"joint `{part.joint.name}`", unit, span=part.span
+            )
+
+
+def _offsets(graph: CellGraph) -> Iterator[Figure]:
+    for part in _joints(graph):
+        away, why = math.hypot(*part.joint.pose.position), f"joint `{part.joint.name}`, in m"
+        yield Figure(part.path, away, most=15.0, because=why, span=part.span)
+
+
+def _masses(graph: CellGraph) -> Iterator[Figure]:
+    for part in _links(graph):
+        if part.link.inertial is not None and part.link.inertial.mass > 0.0:
+            limit = part.device.limits.payload_limit_kg
+            most, why = (
+                (5000.0, "in kg") if not limit else (min(5000.0, 150.0 * limit), "150 times the payload of the arm")
+            )
+            mass = part.link.inertial.mass
+            yield Figure(part.path, mass, most=most, because=f"link `{part.link.name}`, {why}", span=part.span)
+
+
+def _gyrations(graph: CellGraph) -> Iterator[Figure]:
+    """Yield the radius of gyration of each link, which its shapes and what is joined to it bound."""
+    for part in _links(graph):
+        inertial = part.link.inertial
+        if inertial is None or inertial.mass <= 0.0 or spared(graph, part.device, "", "impossible-inertia"):
+            continue
+        largest = max(inertial.ixx, inertial.iyy, inertial.izz)
+        if largest > 0.0:
+            why = f"link `{part.link.name}`, within its body"
+            radius = math.sqrt(largest / inertial.mass)
+            yield Figure(
+                part.path,
+                radius,
+                most=_size(graph.once(_trees)[part.device.name], part.link),
+                because=why,
+                span=part.span,
+            )
+
+
+def _centers(graph: CellGraph) -> Iterator[Figure]:
+    for part in _links(graph):
+        if part.link.inertial is not None:
+            away = math.hypot(*part.link.inertial.pose.position)
+            most = 2.0 * _size(graph.once(_trees)[part.device.name], part.link)
+            yield Figure(part.path, away, most=most, because=f"link `{part.link.name}`", span=part.span)
+
+
+def _size(tree: _Tree, link: Link) -> float:
+    """Return a length in m that a link does not exceed: its known shapes, the joints on it, and 1 m for a mesh."""
+    sizes = [math.hypot(*shape.pose.position) + _extent(shape.geometry) for shape in _occupied(link)]
+    sizes += (math.hypot(*joint.pose.position) for joint in tree.below.get(link.name, ()))
+    return 0.1 + 2.0 * (max(sizes) if _occupied(link) else max(sizes, default=0.0) + 1.0)
+
+
+def _occupied(link: Link) -> tuple[Collision | Visual, ...]:
+    return (*link.collisions, *link.visuals)
+
+
+def _extent(shape: Geometry) -> float:
+    if isinstance(shape, Mesh):
+        return 1.0
+    return math.hypot(*_measures(shape))
+
+
+def _measures(shape: Geometry) -> tuple[float, ...]:
+    """Return the measures of a shape in m; none of a mesh."""
+    if isinstance(shape, Box):
+        return shape.size
+    if isinstance(shape, Cylinder):
+        return 2.0 * shape.radius, shape.length
+    return (2.0 * shape.radius,) if isinstance(shape, Sphere) else ()
+
+
+def _shapes(graph: CellGraph) -> Iterator[Figure]:
+    for part in _links(graph):
+        for shape in _occupied(part.link):
+            for measure in (*_measures(shape.geometry), math.hypot(*shape.pose.position) or 1.0):
+                yield Figure(part.path, measure, 5e-5, 30.0, f"link `{part.link.name}`, in m", span=part.span)
+
+
+def _scales(graph: CellGraph) -> Iterator[Figure]:
+    for part in _links(graph):
+        for shape in _occupied(part.link):
+            for factor in shape.geometry.scale if isinstance(shape.geometry, Mesh) else ():
+                yield Figure(part.path, abs(factor), 1e-6, 1e4, f"link `{part.link.name}`", span=part.span)
+
+
+BODIES = (
+    Bound(("joint/limit/velocity",), "the velocity", "rad/s", "", _velocities),
+    Bound(("joint/limit/velocity",), "the speed of the farthest link", "m/s", "", _tips),
+    Bound(("joint/limit/effort",), "the effort", "N m", "", _efforts),
+    Bound(("joint/limit",), "the range", "rad", "", _ranges),
+    Bound(("joint/origin",), "the way from its parent", "m", "", _offsets),
+    Bound(("link/inertial/mass",), "the mass", "kg", "", _masses),
+    Bound(("link/inertial/inertia",), "the radius of gyration", "mm", "", _gyrations),
+    Bound(("link/inertial/origin",), "the distance of the center of mass", "mm", "", _centers),
+    Bound(("link/collision", "link/visual"), "a measure of the shape", "m", "", _shapes),
+    Bound(("link/collision/mesh",), "the scale of the mesh", "", "", _scales),
+)
+
+
+@rule(
+    Severity.WARNING,
+    assumes=(
+        "duplicate-model-name",
+        "joint-of-unknown-link",
+        "link-with-two-parents",
+        "impossible-inertia",
+        "malformed-mesh",
+        "negative-mass",
+    ),
+    gives_way=True,
+)
+def implausible_description(graph: CellGraph) -> Findings:
+    """Yield figures of own descriptions that are outside of what machines have."""
+    yield from outside(graph, BODIES)
