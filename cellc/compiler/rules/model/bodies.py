@@ -34,12 +34,20 @@ def _is_own(graph: CellGraph, device: Device) -> bool:
     return not model or "/" in model
 
 
-def _links(graph: CellGraph) -> Iterator[ModelLink]:
-    return (part for part in graph.model.links() if _is_own(graph, part.device))
+def _links(graph: CellGraph) -> tuple[ModelLink, ...]:
+    return graph.once(_own_parts)[0]
 
 
-def _joints(graph: CellGraph) -> Iterator[ModelJoint]:
-    return (part for part in graph.model.joints() if _is_own(graph, part.device))
+def _joints(graph: CellGraph) -> tuple[ModelJoint, ...]:
+    return graph.once(_own_parts)[1]
+
+
+def _own_parts(graph: CellGraph) -> tuple[tuple[ModelLink, ...], tuple[ModelJoint, ...]]:
+    own = {device.name for device in graph.cell.devices if _is_own(graph, device)}
+    if not own:
+        return (), ()
+    links = tuple(part for part in graph.model.links() if part.device.name in own)
+    return links, tuple(part for part in graph.model.joints() if part.device.name in own)
 
 
 @rule(Severity.WARNING)
