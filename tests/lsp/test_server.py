@@ -276,7 +276,8 @@ def test_completion_knows_the_catalog_the_cell_and_the_keys(session: Session) ->
 
 
 def test_quick_fixes_are_those_of_the_findings_and_mend_the_text(session: Session) -> None:
-    assert [action.title for action in session.actions] == ["desigend becomes designed", "hertz becomes Hz"]
+    fixes = [action.title for action in session.actions if not action.title.startswith("Ignore ")]
+    assert fixes == ["desigend becomes designed", "hertz becomes Hz"]
     assert not {"unknown-key", "wrong-unit"} & {finding.code for finding in session.found_mended}
 
 

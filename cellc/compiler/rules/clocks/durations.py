@@ -181,7 +181,7 @@ BOUNDS = (
         *(_first_motions, "timeout_s", 0.1, 300.0, "s", "for which a person waits with a hand on the stop"),
     ),
     stated("rehearsals.*.timeout", _rehearsals, "timeout_s", 0.01, 7200.0, "s", "as tasks take"),
-    stated("rehearsals.*.within", _rehearsals, "within_s", 1e-3, 60.0, "s", "in which a fault shows"),
+    stated("rehearsals.*.within", _rehearsals, "within_s", 1e-3, 600.0, "s", "in which a fault shows"),
     Bound(
         (
             "rehearsals.*.steps.*.wait",
