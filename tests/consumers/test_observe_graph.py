@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cells import ROOT, built
+from tests.cells import ROOT, built, generated
 
 _PLAYED = ROOT / "tests/consumers/played_graph.py"
 _MESSAGES = ["rclpy", "controller_manager_msgs", "sensor_msgs", "tf2_msgs", "std_msgs", "yaml"]
@@ -123,15 +123,17 @@ def _is_absent(kind: str) -> bool:
     return found is None or not hasattr(importlib.import_module(f"{package}.{part}"), name)
 
 
-def _observed(package: Path, wrong: str, evidence: Path) -> tuple[int, dict[str, str]]:
+def _observed(package: Path, player: list[str], words: list[str], evidence: Path) -> tuple[int, dict[str, str]]:
     """Return the exit status, and the verdict of each subject that did not pass, but for mere figures."""
     env = {**os.environ, "ROS_DOMAIN_ID": str(10 + os.getpid() % 90), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    player = [sys.executable, str(_PLAYED), str(package), "real", wrong]
-    with subprocess.Popen(player, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=env, text=True) as played:
+    command = [sys.executable, *player]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=env, text=True, cwd=ROOT
+    ) as played:
         assert played.stdout is not None
         assert played.stdout.readline() == "plays\n"
         program = [sys.executable, str(package / "scripts/observe"), "--package", str(package)]
-        ended = subprocess.run([*program, "--for", "3", "--evidence", str(evidence)], env=env, check=False)
+        ended = subprocess.run([*program, *words, "--evidence", str(evidence)], env=env, check=False)
         played.communicate("")
     (report,) = evidence.glob("*.json")
     lines = json.loads(report.read_text(encoding="utf-8"))["lines"]
@@ -140,16 +142,47 @@ def _observed(package: Path, wrong: str, evidence: Path) -> tuple[int, dict[str,
     }
 
 
+def _unheard() -> dict[str, str]:
+    """Return what is UNKNOWN where the messages of the statistics are not installed."""
+    absent = importlib.util.find_spec("pal_statistics_msgs") is None
+    return {"/controller_manager, missed cycles": "UNKNOWN"} if absent else {}
+
+
+@pytest.fixture(name="recording", scope="module")
+def recording_fixture(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What the mock records of a rehearsal."""
+    pytest.importorskip("mcap")
+    folder = tmp_path_factory.mktemp("recording")
+    words = ("mock", generated("ur5e_pick").as_posix(), "--rehearsal", "pick_and_place", "--evidence", str(folder))
+    subprocess.run([sys.executable, "-m", "cellc", *words], check=True, cwd=ROOT)
+    return folder / "pick_and_place.mcap"
+
+
+@pytest.mark.parametrize("silent", ["", "/object_pose", "/joint_states", "/tf_static"])
+def test_a_rehearsal_of_the_mock_played_in_real_time_passes_and_what_is_silent_in_it_is_named(
+    package: Path, recording: Path, silent: str, tmp_path: Path
+) -> None:
+    """The rehearsal lasts 11.1 s and begins with the listening, 3 or 4 s after both programs; 6 s of it are heard."""
+    player = ["-m", "tests.consumers.played_bag", str(package), str(recording), silent]
+    code, found = _observed(package, player, ["--target", "mock", "--gate", "G7", "--for", "6"], tmp_path)
+    named = {
+        "": {},
+        "/object_pose": {"/object_pose": "FAILED", "space for the bag": "UNKNOWN"},  # nothing has a size
+        "/joint_states": {"/joint_states": "FAILED", "joint states": "FAILED", "space for the bag": "UNKNOWN"},
+        "/tf_static": {"frames of the description": "FAILED"},
+    }[silent]
+    assert (code, found) == (int(bool(named or _unheard())), named | _unheard())
+
+
 def test_the_right_graph_passes(package: Path, tmp_path: Path) -> None:
-    unheard = importlib.util.find_spec("pal_statistics_msgs") is None
-    unknown = {"/controller_manager, missed cycles": "UNKNOWN"} if unheard else {}
-    assert _observed(package, "", tmp_path) == (int(unheard), unknown)
+    player = [str(_PLAYED), str(package), "real", ""]
+    assert _observed(package, player, ["--for", "3"], tmp_path) == (int(bool(_unheard())), _unheard())
 
 
 @pytest.mark.parametrize("wrong", _WRONGS)
 def test_each_wrong_is_named(package: Path, wrong: str, tmp_path: Path) -> None:
     if wrong in _NEEDS and _is_absent(_NEEDS[wrong]):
         pytest.skip(f"{_NEEDS[wrong]} is not installed")
-    code, failed = _observed(package, wrong, tmp_path)
+    code, failed = _observed(package, [str(_PLAYED), str(package), "real", wrong], ["--for", "3"], tmp_path)
     assert code == 1
     assert _WRONGS[wrong] in failed or not _WRONGS[wrong]
