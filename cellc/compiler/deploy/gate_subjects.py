@@ -73,6 +73,7 @@ from cellc.compiler.deploy.gate_states import (
 from cellc.compiler.deploy.gate_versions import (
     built,
     elsewhere,
+    rollback,
     shown_with_power,
     unknown,
     unknown_with_power,
@@ -289,6 +290,7 @@ _SUBJECTS: Mapping[str, tuple[Values, Callable[[CellGraph], Iterator[Values]]]] 
     "elsewhere_part": (("part", "version"), elsewhere),
     "fetched_part": (("part", "version", "driver"), lambda graph: fetched_parts(graph.cell)),
     "visible_part": (("part", "version"), visible),
+    "rollback_part": (("part", "version"), rollback),
     "powered_part": (("part", "version", "gate"), shown_with_power),
     "unknown_part": (("holder", "parts"), unknown),
     "unknown_powered_part": (("part", "gate"), unknown_with_power),

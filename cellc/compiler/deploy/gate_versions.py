@@ -12,6 +12,8 @@ from cellc.compiler.deploy.versions import compared_on, fetched_parts, installed
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.vocabulary import UNKNOWN, GateCode
 
+_ROLLBACK = "rollback."
+
 
 def built(graph: CellGraph) -> Iterator[Values]:
     """Yield what shows the commits to which parts are pinned: the source that was built, and no installed package."""
@@ -29,8 +31,14 @@ def visible(graph: CellGraph) -> Iterator[Values]:
     shown = {part.name for part in installed_parts(graph.cell)} | {name for name, *_ in fetched_parts(graph.cell)}
     late = {name for name, *_ in shown_with_power(graph)}
     for name, value in version_tuple(graph.cell).items():
-        if value != UNKNOWN and name not in shown | late:
+        if value != UNKNOWN and name not in shown | late and not name.startswith(_ROLLBACK):
             yield name, value
+
+
+def rollback(graph: CellGraph) -> Iterator[Values]:
+    """Yield what the cell returns to after a bad change, where it is stated."""
+    parts = version_tuple(graph.cell).items()
+    return ((name, value) for name, value in parts if value != UNKNOWN and name.startswith(_ROLLBACK))
 
 
 def shown_with_power(graph: CellGraph) -> Iterator[Values]:

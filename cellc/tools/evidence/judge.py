@@ -237,11 +237,11 @@ def _filled(
     findings = list[Finding]()
     bare = () if printed is None else section.without_reason(printed)
     if bare:
-        those = f"{count(len(bare), 'line')} marked as not applying without a reason behind: {bare[0]}"
+        those = f"{count(len(bare), 'line')} marked as not applying without a reason behind, first: {bare[0]}"
         findings.append(Finding(Status.UNKNOWN, f"{path}: {those}"))
     if section.open:
         findings.append(
-            Finding(Status.UNKNOWN, f"{path}: {count(len(section.open), 'line')} not ticked: {section.open[0]}")
+            Finding(Status.UNKNOWN, f"{path}: {count(len(section.open), 'line')} not ticked, first: {section.open[0]}")
         )
     if section.result.lower().startswith(("stop", "fail")):
         findings.append(Finding(Status.FAILED, f"{path}: result: {section.result}"))

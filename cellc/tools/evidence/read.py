@@ -71,9 +71,9 @@ def _last(gate: GateEvidence, attempts: Sequence[Sorted]) -> Sorted:
 
 
 def _in_order(states: Sequence[GateState]) -> Iterator[GateState]:
-    """Yield the states with the gates before each that are not complete."""
+    """Yield the states as gates are passed, with the gates before each that are not complete."""
     open_ = {state.evidence.gate: state.status for state in states if state.status is not Status.COMPLETE}
-    for state in states:
+    for state in sorted(states, key=lambda state: GATE_ORDER.index(state.evidence.gate)):
         before = GATE_ORDER[: GATE_ORDER.index(state.evidence.gate)]
         yield replace(state, waits_for=tuple((code, open_[code]) for code in before if code in open_))
 
