@@ -175,7 +175,8 @@ WRONG: tuple[tuple[str, str], ...] = (
     ),
     (
         "rehearsals: {stale_camera: {timeout: 100 s, within: 20 min, success: 9 %, "
-        "inject: [{freeze: camera, at: 200 s, lasting: 200 s}, {skip_cycles: 90000, at: 1 s}, {slow: arm/joint_1, to: 900 rad/s, at: 1 s}, "
+        "inject: [{freeze: camera, at: 200 s, lasting: 200 s}, {skip_cycles: 90000, at: 1 s}, "
+        "{slow: arm/joint_1, to: 900 rad/s, at: 1 s}, "
         "{displace: arm/joint_1, by: 90 rad, at: {step: 1, after: 200 s}}]}, "
         "long: {steps: [move: home, wait: 1000 s], timeout: 100 s}, slow: {steps: [move: home], timeout: 20 h}}",
         "rehearsals.*.timeout rehearsals.*.within rehearsals.*.success rehearsals.*.inject.at "
