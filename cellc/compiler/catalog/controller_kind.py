@@ -62,6 +62,7 @@ class ParameterFacts(CatalogModel):
         only: Distributions that declare the parameter; empty for all.
         differs: What one distribution declares otherwise.
         not_played: What the mock does whatever the value is; absent where it plays the value.
+        discouraged: Accepted values that make motion worse, each with what the controller then does.
     """
 
     type: ParameterType
@@ -78,6 +79,7 @@ class ParameterFacts(CatalogModel):
     only: tuple[DistroName, ...] = ()
     differs: dict[DistroName, ParameterVariant] = Field(default_factory=dict)
     not_played: Text | None = None
+    discouraged: dict[Text, Text] = Field(default_factory=dict)
 
     def declared_in(self, distro: Distro) -> bool:
         """Tell whether the distribution knows the parameter; an unknown one is ignored silently."""

@@ -42,6 +42,8 @@ class NetworkFacts(CatalogModel):
         ports: Ports that host and device use between them.
         default_subnet: Subnet in which the vendor ships the device, such as ``172.16.0.0/24``.
         dedicated_link: Whether the device needs a network card of the host for itself.
+        by_carrier: Whether the device has no address of its own: it is reached at that of the device on which it is
+            mounted.
         powered: Whether the device answers, and shows its firmware, only while its drives have power.
         realtime: Whether the host needs a real-time kernel; ``required`` and ``recommended`` are checked against the
             kernel of the host.
@@ -51,6 +53,7 @@ class NetworkFacts(CatalogModel):
     ports: tuple[PortFacts, ...] = ()
     default_subnet: Text | None = None
     dedicated_link: bool
+    by_carrier: bool = False
     powered: bool = False
     realtime: Literal["required", "recommended", "not_needed"]
     source: Text

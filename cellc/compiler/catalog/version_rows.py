@@ -2,6 +2,8 @@
 
 from typing import Literal
 
+from pydantic import Field
+
 from cellc.compiler.catalog.catalog_model import CatalogModel, Date, DistroName, FileName, RepositoryUrl, Text
 
 
@@ -28,6 +30,7 @@ class VersionRow(CatalogModel):
         product: Product of the firmware, such as ``polyscope_x``.
         known: Versions that the source names.
         minimum: Oldest version that works.
+        models: Oldest version that knows a model of the family, by the model, where that is a later one.
         below: First version that no longer works.
         built_from: Repositories from which a version is built that the distribution does not release, its own first.
         ambiguous: Why the version pins nothing, if so.
@@ -41,9 +44,14 @@ class VersionRow(CatalogModel):
     product: Text | None = None
     known: tuple[Text, ...] = ()
     minimum: Text | None = None
+    models: dict[Text, Text] = Field(default_factory=dict)
     below: Text | None = None
     built_from: tuple[RepositoryPin, ...] = ()
     ambiguous: Text | None = None
     note: Text | None = None
     source: Text
     as_of: Date
+
+    def of_model(self, model: str) -> "VersionRow":
+        """Return the row as it holds for one model of the family."""
+        return self.model_copy(update={"minimum": self.models.get(model, self.minimum), "models": {}})

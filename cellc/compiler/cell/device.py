@@ -170,10 +170,12 @@ class Camera:
 class NetworkNeeds:
     """What a device asks: ``realtime`` is required, recommended or not_needed; its driver ``listens`` on ports.
 
-    It answers only while its drives are ``powered``, where that is so.
+    It answers only while its drives are ``powered``, where that is so. A device that is reached ``by_carrier`` has no
+    address of its own.
     """
 
     dedicated_link: bool
+    by_carrier: bool
     powered: bool
     realtime: str
     listens: tuple[int, ...]

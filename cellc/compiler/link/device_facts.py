@@ -77,7 +77,8 @@ def device_control(
 def device_software(facts: DeviceModel, written: DeviceSpec) -> Software:
     """Return what the version tuple has of a device."""
     packages = _packages(facts.packages)
-    return Software(versions=_versions(written), packages=packages, version_rows=facts.versions)
+    rows = tuple(row.of_model(facts.model) for row in facts.versions)
+    return Software(versions=_versions(written), packages=packages, version_rows=rows)
 
 
 def _packages(facts: PackageFacts) -> Packages:
@@ -324,7 +325,11 @@ def network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | Non
         return None
     listens = listened(facts, known.port_shift)
     return NetworkNeeds(
-        dedicated_link=network.dedicated_link, powered=network.powered, realtime=network.realtime, listens=listens
+        dedicated_link=network.dedicated_link,
+        by_carrier=network.by_carrier,
+        powered=network.powered,
+        realtime=network.realtime,
+        listens=listens,
     )
 
 

@@ -136,7 +136,7 @@ def _frames(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
 
 
 def _versions(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
-    for row in model.versions:
+    for row in (row.of_model(model.model) for row in model.versions):
         bounds = [f"from {row.minimum}"] if row.minimum else []
         bounds += [f"below {row.below}"] if row.below else []
         product = [] if row.product is None else [row.product]

@@ -12,6 +12,19 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Severity, did_you_mean
 from cellc.contract.vocabulary import TRAJECTORIES
 
 
+@rule(Severity.WARNING)
+def discouraged_parameter(graph: CellGraph) -> Findings:
+    """Yield values that a kind of controllers accepts, of which the catalog says that they make its motion worse."""
+    for parameter in written_parameters(graph.cell):
+        kind = parameter.controller.declared
+        facts = None if kind is None else kind.parameter(parameter.name, graph.cell.distro)
+        does = None if facts is None else facts.discouraged.get(str(parameter.value))
+        if facts is not None and does is not None:
+            subject = f"`{parameter.name}` of `{parameter.controller.name}` is `{parameter.value}`"
+            advice = f"delete the line: the default is `{facts.default}`"
+            yield found(graph, parameter.path, f"{subject}: {does}", advice)
+
+
 @rule(Severity.WARNING, assumes=("refused-impedance",))
 def impedance_without_effect(graph: CellGraph) -> Findings:
     """Yield impedance of an arm whose joints are claimed by other interfaces alone on the real target."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.rules.described import described
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.compiler.rules.tolerances import stated
 from cellc.contract.quantities import SMALLEST
 from cellc.contract.vocabulary import TRAJECTORIES
@@ -27,7 +27,9 @@ def controller_beyond_its_group(graph: CellGraph) -> Findings:
             if lacking:
                 shown = ", ".join(f"`{joint}`" for joint in lacking[:3]) + (" and more" if lacking[3:] else "")
                 message = f"`{controller.name}` drives {shown}, which group `{group.name}` lacks"
-                yield found(graph, group.path, message)
+                driven = graph.cell.locate(*controller.path, "joints")
+                related = (Related("the controller drives these joints", driven),)
+                yield found(graph, group.path, message, related=related)
 
 
 @rule(Severity.ERROR, assumes=("wrong-joint-count",))

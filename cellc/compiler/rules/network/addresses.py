@@ -10,6 +10,20 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, Yam
 
 
 @rule(Severity.ERROR)
+def address_of_a_carried_device(graph: CellGraph) -> Findings:
+    """Yield the address of each device that has none of its own: it is reached at that of its carrier."""
+    for device in graph.cell.devices:
+        link, needs = device.site.connection, device.site.network
+        if link is None or link.address is None or needs is None or not needs.by_carrier:
+            continue
+        path = (*device.path, "connection", "address")
+        message = f"`{device.name}` must have no address of its own, got `{link.address}`"
+        carriers = [carrier for carrier in graph.cell.devices if device.name in carrier.mount.carries]
+        related = tuple(Related("it is reached through this one", graph.cell.locate(*c.path)) for c in carriers)
+        yield found(graph, path, message, related=related)
+
+
+@rule(Severity.ERROR)
 def cards_in_one_subnet(graph: CellGraph) -> Findings:
     """Yield the second card of a host whose subnet overlaps."""
     for first, second in combinations(graph.network.nics, 2):
