@@ -24,8 +24,8 @@ _APART_S = 0.019
 """Of what is sampled faster, samples are left out: a node in Python is no faster beside other work."""
 _STAMP = struct.Struct("<iI")
 """Of a header that begins a message, behind the four bytes that name its encoding."""
-_LEAD_S = 4.0
-"""Before the first message, an observer that was started beside it finds the graph: as `DISCOVERY_S`, and a start."""
+_LEAD_S = 0.5
+"""Before the first message, so that none is late; an observer that is started then listens 3 s later at the soonest."""
 
 
 class Recording(Played):
