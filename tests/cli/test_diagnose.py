@@ -71,3 +71,40 @@ def test_command_to_copy_holds_a_hostile_name_as_one_word(tmp_path: Path) -> Non
     commands = [line.strip() for line in out.splitlines() if line.strip().startswith("$ ") and "curl" in line]
     assert commands
     assert all(hostile in shlex.split(command) for command in commands)
+
+
+def test_sentence_without_quotes_is_read_as_users_write() -> None:
+    ran = run("diagnose", *["robot", "drops", "when", "brakes", "release"])
+    assert ran.code == 0
+    assert ran.out.startswith("tool and load: the arm sags or drops as brakes open or a controller takes over\n")
+    assert "the device counts with less load than hangs on it" in ran.out
+
+
+def test_two_layers_that_fit_are_told_with_the_question_that_decides() -> None:
+    ran = run("diagnose", *["protective", "stop", "after", "the", "gripper", "picks", "the", "part"])
+    assert ran.code == 0
+    first, question, yes, no, blank, *_ = ran.out.splitlines()
+    assert first.startswith("not sure: tool and load, or ")
+    assert question.startswith(
+        "one question decides: Does it change when the gripper, the tool or the part is taken off"
+    )
+    assert yes.startswith("  yes: tool and load: protective stops come again and again")
+    assert no.startswith("  no: safety state: ")
+    assert not blank
+
+
+def test_layer_that_is_far_ahead_and_not_certain_is_told_as_likely() -> None:
+    out = run("diagnose", *["octomap", "is", "not", "refreshed", "after", "the", "obstacle", "is", "removed"]).out
+    assert out.startswith("likely, not sure: planning with MoveIt\none question decides: ")
+
+
+def test_unknown_symptom_gets_the_question_that_narrows_most() -> None:
+    *_, question, yes, no, _ = run("diagnose", "the coffee is cold").out.splitlines()
+    assert question.startswith("ask first: Is it the same with ROS stopped")
+    assert yes == "  yes: camera and perception, then vendor mode, then tool and load, then safety state"
+    assert no.startswith("  no: network and discovery, then QoS and type, then ")
+
+
+def test_words_that_look_like_options_belong_to_the_sentence() -> None:
+    assert run("diagnose", "joint", "is", "off", "by", "-90", "deg", "after", "homing").code == 0
+    assert run("diagnose", "--lgo", "x").code == 2

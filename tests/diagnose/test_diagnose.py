@@ -11,7 +11,8 @@ from pydantic import ValidationError
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.pipeline import check
-from cellc.tools.diagnose.diagnose import Step, classify, diagnose
+from cellc.tools.diagnose.classify import classify
+from cellc.tools.diagnose.diagnose import Step, diagnose
 from cellc.tools.diagnose.symptoms import LAYERS, Observation, Symptom, knowledge
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
@@ -83,21 +84,21 @@ def cell() -> Cell:
 
 
 def steps(text: str, cell: Cell | None) -> Iterator[Step]:
-    for suspicion in diagnose(text, cell):
+    for suspicion in diagnose(text, cell).suspicions:
         for cause in suspicion.causes:
             yield from cause.steps
 
 
 @pytest.mark.parametrize(("text", "layer", "shortcut"), CHAPTER)
 def test_rows_of_the_chapters_table_are_classified(text: str, layer: str, shortcut: str) -> None:
-    best = classify(text, knowledge())[0]
+    best = classify(text, knowledge()).matches[0]
     assert best.layer.layer == layer
     assert shortcut in best.symptom.never
 
 
 @pytest.mark.parametrize(("line", "layer", "named"), LINES)
 def test_line_of_a_real_program_is_recognised(line: str, layer: str, named: set[tuple[str, str]]) -> None:
-    best = classify(line, knowledge())[0]
+    best = classify(line, knowledge()).matches[0]
     assert best.layer.layer == layer
     assert set(best.named) == named
 
@@ -108,18 +109,18 @@ def test_errors_of_the_recorded_runs_are_recognised() -> None:
     lines = {line for file in sorted(RECORDED.rglob("*.yaml")) for line in _lines(file)}
     problems = [line for line in lines if re.search(r"\[(WARN|ERROR|FATAL)\]", line)]
     assert len(problems) > 100
-    unknown = [line for line in problems if not classify(line, knowledge())]
+    unknown = [line for line in problems if not classify(line, knowledge()).fits]
     assert [line for line in unknown if not any(text in line for text in harmless)] == []
 
 
 def test_log_line_is_not_distracted_by_words_that_happen_to_fit() -> None:
     line = "slow topic, no data: Could not initialize the controller named 'arm'"
-    assert [match.layer.layer for match in classify(line, knowledge())] == ["lifecycle"]
+    assert [match.layer.layer for match in classify(line, knowledge()).matches] == ["lifecycle"]
 
 
 def test_symptom_that_fits_in_more_words_comes_first() -> None:
     found = classify("stale image, and the plan succeeds but execute fails", knowledge())
-    assert [match.layer.layer for match in found][:2] == ["ownership", "qos"]
+    assert [match.layer.layer for match in found.matches][:2] == ["ownership", "qos"]
 
 
 def test_every_layer_of_the_chapter_is_there_once() -> None:
@@ -127,7 +128,8 @@ def test_every_layer_of_the_chapter_is_there_once() -> None:
 
 
 def test_names_of_the_cell_stand_in_the_commands(cell: Cell) -> None:
-    actions = {step.action for step in steps("no data on /object_pose", cell)}
+    best = diagnose("no data on /object_pose", cell).suspicions[0]
+    actions = {step.action for cause in best.causes for step in cause.steps}
     assert "ros2 topic info --verbose /object_pose" in actions
     assert not any("/camera" in action for action in actions)
 
@@ -139,16 +141,19 @@ def test_expected_values_come_from_the_cell(cell: Cell) -> None:
 
 
 def test_owner_is_the_one_of_the_cells_approval_area(cell: Cell) -> None:
-    assert diagnose("tf extrapolation", cell)[0].owner == "perception"
+    assert diagnose("tf extrapolation", cell).suspicions[0].owner == "perception"
 
 
 def test_controller_that_the_cell_does_not_have_is_told(cell: Cell) -> None:
-    (suspicion,) = diagnose("Could not initialize the controller named 'other_arm'", cell)
+    (suspicion,) = diagnose("Could not initialize the controller named 'other_arm'", cell).suspicions
     assert suspicion.unknown == ("controller `other_arm`",)
 
 
 def test_unknown_symptom_is_unknown(cell: Cell) -> None:
-    assert diagnose("the coffee is cold", cell) == ()
+    answer = diagnose("the coffee is cold", cell)
+    assert (answer.fits, answer.suspicions) == (False, ())
+    assert (answer.yes, answer.no)[0][0] == "camera and perception"
+    assert {*answer.yes, *answer.no} == {layer.title for layer in knowledge()}
 
 
 @pytest.mark.parametrize("symptom", EVERY_SYMPTOM, ids=lambda symptom: symptom.name)

@@ -9,10 +9,10 @@ from pydantic import TypeAdapter, ValidationError
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.pipeline import check
-from cellc.tools.diagnose.diagnose import classify, diagnose
+from cellc.tools.diagnose.classify import classify
+from cellc.tools.diagnose.diagnose import diagnose
 from cellc.tools.diagnose.log_lines import length
 from cellc.tools.diagnose.symptoms import Phrase, Symptom, Template, knowledge
-from cellc.tools.diagnose.words import Words
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 
@@ -23,7 +23,7 @@ SYMPTOMS = {symptom.name: symptom for layer in knowledge() for symptom in layer.
 
 def best(text: str) -> str:
     found = classify(text, knowledge())
-    return found[0].symptom.name if found else ""
+    return found.matches[0].symptom.name if found.fits else ""
 
 
 @pytest.fixture(scope="module")
@@ -70,65 +70,32 @@ def test_lines_of_a_launch_with_colours_and_breaks_are_read_as_one() -> None:
         "    'arm' since the command interface\r\n'joint1/position' is currently claimed by another.\x1b[0m\n"
         "[spawner-2] [INFO] [1700000000.456] [spawner_arm]: bye"
     )
-    (match, *_) = classify(pasted, knowledge())
+    (match, *_) = classify(pasted, knowledge()).matches
     assert match.symptom.name == "a command interface has another owner"
     assert match.named == (("controller", "arm"), ("interface", "joint1/position"))
 
 
 def test_reason_at_the_end_of_a_line_ends_before_the_next_line() -> None:
     pasted = "[a]: Error importing joint limiters: no tag found\n[spawner-2] [INFO] [1.2] [spawner]: waiting"
-    assert classify(pasted, knowledge())[0].named == (("reason", "no tag found"),)
+    assert classify(pasted, knowledge()).matches[0].named == (("reason", "no tag found"),)
 
 
 def test_name_that_is_too_long_for_a_name_is_none() -> None:
-    assert (
-        best(f"Could not initialize the controller named '{'a' * 200}'")
-        == "a controller or node does not become active"
-    )
-    assert best(f"Could not initialize the controller named '{'a' * 201}'") == ""
-
-
-WORDS = Words({"host": ["pc", "machine"], "not": ["not", "cant"]}, [["host not see", "estop"], ["host timeout"]])
-
-
-@pytest.mark.parametrize(
-    ("text", "found"),
-    [
-        ("my machines can't see it", [0]),
-        ("PCs do NOT see it", [0]),
-        ("the pcl does not see it", []),
-        ("the E-Stop", [0]),
-        ("the machine times out", [1]),
-        ("a machine timed-out, I do not see it", [0, 1]),
-        ("my_machine cannot see_it", []),
-        ("my_machine does not see_it", [0]),
-    ],
-)
-def test_words_are_known_by_their_beginnings_and_short_ones_as_a_whole(text: str, found: list[int]) -> None:
-    assert list(WORDS.fitting(text)) == found
-
-
-def test_rare_words_say_more_than_common_ones() -> None:
-    words = Words({}, [["robot stops"], ["robot moves"], ["robot"], ["robot"], ["octopus"]])
-    assert next(words.fitting("the robot of the octopus")) == 4
-
-
-def test_of_two_that_weigh_alike_the_one_that_explains_more_comes_first() -> None:
-    words = Words({}, [["plan fails"], ["plan late"], ["image old"], ["image"]])
-    assert list(words.fitting("plan fails late, old image")) == [0, 2, 1, 3]
-
-
-def test_nearest_is_the_one_with_most_weight_of_a_phrase_in_the_text() -> None:
-    words = Words({}, [["plan fails"], ["plan late"], ["image old octopus"], ["image"]])
-    assert words.nearest("an old octopus fails") == [2, 0]
-    assert words.nearest("coffee") == []
+    texts = [f"Could not initialize the controller named '{'a' * number}'" for number in (200, 201)]
+    assert [bool(classify(text, knowledge()).matches[0].template) for text in texts] == [True, False]
 
 
 def test_symptom_of_a_driver_that_the_cell_does_not_have_is_not_guessed(hand: Cell) -> None:
     words = "the kinova session times out"
-    assert "the session with the arm times out" in [diagnosis.symptom for diagnosis in diagnose(words, None)]
-    assert "the session with the arm times out" not in [diagnosis.symptom for diagnosis in diagnose(words, hand)]
-    assert diagnose(CASES["the session with the arm times out"]["logs"], hand)[0].symptom.startswith("the session")
+    assert "the session with the arm times out" in [diagnosis.symptom for diagnosis in diagnose(words, None).suspicions]
+    assert "the session with the arm times out" not in [
+        diagnosis.symptom for diagnosis in diagnose(words, hand).suspicions
+    ]
+    assert (
+        diagnose(CASES["the session with the arm times out"]["logs"], hand)
+        .suspicions[0]
+        .symptom.startswith("the session")
+    )
 
 
 def test_causes_with_something_to_look_at_in_the_cell_come_first(hand: Cell) -> None:
@@ -139,30 +106,9 @@ def test_causes_with_something_to_look_at_in_the_cell_come_first(hand: Cell) -> 
         for hypothesis in SYMPTOMS[name].hypotheses
         if {each.of for each in hypothesis.observations} == {"camera"}
     ]
-    shown = [cause.text for cause in diagnose(name, hand)[0].causes]
+    shown = [cause.text for cause in diagnose(name, hand).suspicions[0].causes]
     assert of_camera
     assert shown == [cause for cause in written if cause not in of_camera] + of_camera
-
-
-@pytest.mark.parametrize(
-    ("text", "near"),
-    [
-        ("the robot", [0, 2]),  # of two that are as near, the one that is listed first
-        ("a late plan", [1]),
-        ("the robot fails", [2, 0]),  # one phrase has both words
-        ("stops and fails", [0, 2]),
-        ("coffee", []),
-        ("", []),
-    ],
-)
-def test_the_nearest_share_a_word_and_stand_in_order(text: str, near: list[int]) -> None:
-    words = Words({}, [["robot stops"], ["plan late"], ["robot fails"]])
-    assert words.nearest(text) == near
-
-
-def test_of_two_that_are_as_near_the_one_with_more_in_all_its_phrases_comes_first() -> None:
-    words = Words({}, [["fails"], ["stops", "late"]])
-    assert words.nearest("it fails, stops, is late") == [1, 0]
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from cellc.tools.cli.findings import linked
 from cellc.tools.cli.limit_option import limit_option
 
 
-@click.command()
+@click.command(context_settings={"ignore_unknown_options": True})  # a pasted line has `--ros-args`, a sentence `-5 mm`
 @click.argument("words", nargs=-1, metavar="[SYMPTOM]... [FILE]", type=click.Path(path_type=str))
 @click.option(
     "--log",
@@ -24,18 +24,22 @@ from cellc.tools.cli.limit_option import limit_option
 )
 @limit_option
 def diagnose(words: tuple[str, ...], logs: Path | None) -> None:
-    """Classify SYMPTOM, words or log lines, and list the read-only observation that rules out each cause.
+    """Say which layer SYMPTOM, a sentence or pasted log lines, points to, and what rules out each cause.
 
-    Without SYMPTOM, list all known symptoms. With FILE, a cell spec, the commands use the controllers, topics and
-    frames of that cell. Nothing is executed, and no command bypasses a protection. Exit code 1 if no known symptom
-    fits; the nearest are listed.
+    No quotes are needed. Up to three symptoms are proposed, each with its causes and the read-only observation that
+    rules each one out. Where more than one layer fits, the answer begins with `not sure` and the one question that
+    decides. Without SYMPTOM, list all known symptoms. With FILE, a cell spec, the commands use the controllers, topics
+    and frames of that cell. Nothing is executed, and no command bypasses a protection. Exit code 1 if no known symptom
+    fits; the nearest are listed, with the question that narrows most.
 
     With --log, read folders such as `~/.ros/log` and journals (`journalctl -o short` or `-o json`), and name the layer
     that spoke first, in the order of time over all files. Exit code 0 if nothing was found, 1 if something was.
 
     \b
-    cellc diagnose arm sags when it is enabled
-    cellc diagnose "goal was rejected" cells/bench/cell.yaml
+    cellc diagnose robot drops when brakes release
+    cellc diagnose two PCs see no topics of each other, one runs docker
+    cellc diagnose "the arm floats up in freedrive" cells/bench/cell.yaml
+    cellc diagnose "[ERROR] [controller_manager]: ..."
     cellc diagnose --log ~/.ros/log/latest cells/bench/cell.yaml
     """
     symptom, file = _read(words, is_alone=logs is not None)
@@ -48,27 +52,24 @@ def diagnose(words: tuple[str, ...], logs: Path | None) -> None:
 
 
 def _classify(symptom: str, file: str | None) -> None:
-    from cellc.tools.diagnose.diagnose import diagnose as suspicions_of
-    from cellc.tools.diagnose.diagnose import near
+    from cellc.tools.diagnose.diagnose import diagnose as answer_to
     from cellc.tools.diagnose.symptoms import knowledge
-    from cellc.tools.report.text_report import render_nearest, render_suspicions, render_symptoms
+    from cellc.tools.report.diagnosis_text import render_answer, render_symptoms
 
     if not symptom:
         show(*render_symptoms(knowledge()))
         return
-    cell = _cell(file)
-    suspicions = suspicions_of(symptom, cell)
-    if not suspicions:
-        show(*render_nearest(near(symptom, cell), [layer.title for layer in knowledge()]))
+    answer = answer_to(symptom, _cell(file))
+    show(*render_answer(answer))
+    if not answer.fits:
         raise click.exceptions.Exit(1)
-    show(*render_suspicions(suspicions))
 
 
 def _search(path: Path, file: str | None) -> None:
     from cellc.tools.diagnose.diagnose import suspicion_of
     from cellc.tools.diagnose.logs import LogError, search
+    from cellc.tools.report.diagnosis_text import render_suspicions
     from cellc.tools.report.log_text import render_searched
-    from cellc.tools.report.text_report import render_suspicions
 
     cell = _cell(file)
     try:
@@ -86,6 +87,8 @@ def _search(path: Path, file: str | None) -> None:
 def _read(words: tuple[str, ...], *, is_alone: bool) -> tuple[str, str | None]:
     """Return the symptom, and the spec where the last word names a file."""
     *symptom, last = words or ("",)
+    if words and words[0].startswith("-"):
+        raise click.NoSuchOption(words[0])
     if not last.endswith((".yaml", ".yml")) and not os.path.isfile(last):
         return " ".join(words), None
     if not symptom and not is_alone:

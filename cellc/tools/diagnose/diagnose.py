@@ -8,15 +8,12 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from functools import cache
-from itertools import islice
 from typing import TYPE_CHECKING
 
 from cellc.compiler.formats.escape import shell_word
+from cellc.tools.diagnose.classify import Match, classify
 from cellc.tools.diagnose.fields import FIELDS, Scope, Subject, placeholders
-from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, length, plain
-from cellc.tools.diagnose.symptoms import Hypothesis, LayerKnowledge, Observation, Symptom, knowledge, synonyms
-from cellc.tools.diagnose.words import Words
+from cellc.tools.diagnose.symptoms import Hypothesis, Observation, knowledge, questions
 
 if TYPE_CHECKING:
     from cellc.compiler.cell.cell import Cell
@@ -61,85 +58,24 @@ class Suspicion:
     source: str
 
 
-_AT_MOST = 3
-
-
 @dataclass(frozen=True, slots=True)
-class Match:
-    """A symptom that fits, what the line names, (kind, name), and the text of a source that it has."""
+class Answer:
+    """What a text may mean.
 
-    layer: LayerKnowledge
-    symptom: Symptom
-    named: Named = ()
-    template: str = ""
-
-
-def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> tuple[Match, ...]:
-    """Return up to three symptoms, the best first; layers that are ruled out first win ties.
-
-    A recognized log line says more than any choice of words: next to one, words that happen to fit would only distract.
-
-    Args:
-        text: a symptom in words, its name, or one or more log lines.
-        drivers: packages of the drivers that the cell has, where it is known: a symptom of others is not guessed by
-            words alone.
+    Attributes:
+        suspicions: the best first.
+        ask: the one question that decides between layers, with what either answer speaks for; empty where the layer of
+            the first suspicion is certain.
+        likely: the layer of the first suspicion is far ahead of all others, though not certain.
+        fits: False where the suspicions are merely the nearest.
     """
-    known = _known(layers)
-    asked = [match for match in known if match.symptom.name.casefold() == text.strip().casefold()]
-    named = asked or _logged(known, text)
-    if named:
-        return tuple(named[:_AT_MOST])
-    possible = _possible(known, drivers)
-    return tuple(possible[number] for number in islice(_words_of(possible).fitting(text), _AT_MOST))
 
-
-def nearest(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> tuple[Match, ...]:
-    """Return up to three symptoms that share the most with a text that none fits."""
-    possible = _possible(_known(layers), drivers)
-    return tuple(possible[number] for number in _words_of(possible).nearest(text)[:_AT_MOST])
-
-
-def logged(text: str) -> tuple[Match, ...]:
-    """Return the symptoms that a log line shows, the longest text of a source first: no words are guessed from."""
-    pasted = plain(text)
-    return tuple(_logged(_known(knowledge()), text)) if any(begin in pasted for begin in _begins()) else ()
-
-
-@cache
-def _begins() -> tuple[str, ...]:
-    """Return a piece of each text of a source: a line without any of them shows nothing."""
-    texts = {fixed_begin(text) for layer in knowledge() for symptom in layer.symptoms for text in symptom.logged}
-    return tuple(sorted(texts))
-
-
-def _known(layers: Sequence[LayerKnowledge]) -> list[Match]:
-    return [Match(layer, symptom) for layer in layers for symptom in layer.symptoms]
-
-
-def _possible(known: Sequence[Match], drivers: Collection[str] | None) -> list[Match]:
-    return [
-        match
-        for match in known
-        if drivers is None or not match.symptom.drivers or any(driver in drivers for driver in match.symptom.drivers)
-    ]
-
-
-def _words_of(known: Sequence[Match]) -> Words:
-    return Words(synonyms().words, [match.symptom.said for match in known])
-
-
-def _logged(known: Sequence[Match], text: str) -> list[Match]:
-    """Return what logs a line of the text, the longest text of a source first."""
-    pasted = plain(text)
-    matches: list[tuple[int, Match]] = []
-    for match in known:
-        lines = [(template, found_in(template, pasted)) for template in match.symptom.logged]
-        names = [named for _, named in lines if named is not None]
-        if names:
-            named = tuple(dict.fromkeys(pair for pairs in names for pair in pairs))
-            template = max((text for text, found in lines if found is not None), key=length)
-            matches.append((length(template), Match(match.layer, match.symptom, named, template)))
-    return [match for _, match in sorted(matches, key=lambda entry: -entry[0])]
+    suspicions: tuple[Suspicion, ...]
+    ask: str = ""
+    yes: tuple[str, ...] = ()
+    no: tuple[str, ...] = ()
+    likely: bool = False
+    fits: bool = True
 
 
 _SHOWN_SUBJECTS = 3
@@ -147,19 +83,28 @@ _SHOWN_SUBJECTS = 3
 _SCOPE_OF_NAMED: dict[str, Scope] = {"controller": "controller", "topic": "topic", "frame": "frame", "target": "frame"}
 
 
-def diagnose(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
-    """Return what a symptom or log line may mean, the best first; nothing where nothing known fits.
+def diagnose(text: str, cell: Cell | None) -> Answer:
+    """Return what a symptom or log line may mean, and how sure that is.
 
     Args:
         cell: whose names are filled in, and whose drivers decide which symptoms count; without one the commands hold
             placeholders.
     """
-    return tuple(suspicion_of(match, text, cell) for match in classify(text, knowledge(), _drivers(cell)))
+    classified = classify(text, knowledge(), _drivers(cell))
+    suspicions = tuple(suspicion_of(match, text, cell) for match in classified.matches)
+    question = classified.question
+    if question is not None:
+        return Answer(suspicions, question.ask, _meant(question.yes), _meant(question.no), question.confirms)
+    if classified.fits:
+        return Answer(suspicions)
+    asked = questions().narrowing
+    titles = {layer.layer: layer.title for layer in knowledge()}
+    yes, no = (tuple(titles[layer] for layer in layers) for layers in (asked.yes, asked.no))
+    return Answer(suspicions, asked.ask, yes, no, fits=False)
 
 
-def near(text: str, cell: Cell | None) -> tuple[Suspicion, ...]:
-    """Return the symptoms that are nearest to a text that none fits."""
-    return tuple(suspicion_of(match, text, cell) for match in nearest(text, knowledge(), _drivers(cell)))
+def _meant(matches: Sequence[Match]) -> tuple[str, ...]:
+    return tuple(f"{match.layer.title}: {match.symptom.name}" for match in matches)
 
 
 def _drivers(cell: Cell | None) -> Collection[str] | None:

@@ -16,7 +16,7 @@ from cellc.contract.errors import CellcError, reason_of
 from cellc.contract.limits import limits, option
 from cellc.contract.printing import stage
 from cellc.contract.store.regular_file import open_regular
-from cellc.tools.diagnose.diagnose import Match, logged
+from cellc.tools.diagnose.classify import Match, logged
 from cellc.tools.diagnose.log_entry import Gravity, Stamp, entry_of, in_year_of, is_minor
 
 _LONGEST = 1 << 16

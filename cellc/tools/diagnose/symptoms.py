@@ -37,7 +37,8 @@ _READING = re.compile(
     r"ros2 (topic (info|list|echo --once|hz|bw|delay|type)|node (list|info)|param (get|list|dump|describe)"
     r"|action (info|list)|service (list|type)|lifecycle (get|nodes)|control list_\w+|pkg (prefix|xml)|doctor --report"
     r"|bag info|interface show|run tf2_ros tf2_(echo|monitor))\b[^;&|<>`$]*"
-    r"|printenv [A-Z_]+|ip -brief (address|link)|ip -statistics link show|ip route get [\w{}.]+|ping -c 5 [\w{}.]+"
+    r"|printenv [A-Z_]+|ip -brief (address|link)|ip (-details )?-statistics link show"
+    r"|ip route get [\w{}.]+|ping -c 5 [\w{}.]+"
     r"|chronyc (tracking|sources)|uname -v|ulimit -r|id -nG|lsusb -t|ls -l /dev/(shm|serial/by-id)|df -h( /dev/shm)?"
     r"|sysctl net\.core\.rmem_max net\.core\.rmem_default|ss -lntup|top -b -n 1"
 )
@@ -81,6 +82,9 @@ class Hypothesis(CatalogModel):
 
 Phrase = Annotated[str, StringConstraints(pattern=r"^[a-z0-9]+( [a-z0-9]+)*\Z", max_length=100)]
 """Words with a space between: groups of ``words.yaml``, or beginnings of words."""
+Sentence = Annotated[str, StringConstraints(pattern=r"^[^\s].*[^\s]\Z", max_length=200)]
+Thread = Annotated[str, StringConstraints(pattern=r"^https://[\w./-]+\Z", max_length=200)]
+"""Address of a public thread."""
 Template = Annotated[str, StringConstraints(pattern=r"^[^{}\s]([^{}]|\{\w*\}(?!\{))*\Z", max_length=300)]
 
 
@@ -89,7 +93,8 @@ class Symptom(CatalogModel):
 
     Args:
         drivers: packages of the drivers that it belongs to; every device where empty.
-        said: phrases; a text matches where it has all words of one.
+        said: phrases of groups and beginnings of words.
+        heard: public thread → its symptom in the words of users.
         logged: texts of log lines, with ``{kind}`` where they name something, as ``log_lines`` reads them.
         shows: layer of an attempt in which such a line shows a failure; UNKNOWN where it is of none.
         shows_else: texts of ``logged`` that show another layer.
@@ -102,6 +107,7 @@ class Symptom(CatalogModel):
     source: Text
     drivers: tuple[Token, ...] = ()
     said: tuple[Phrase, ...] = Field(min_length=1)
+    heard: dict[Thread, Sentence] = Field(default_factory=dict)
     logged: tuple[Template, ...] = ()
     shows: LayerName | None = None
     shows_else: dict[LayerName, tuple[Template, ...]] = Field(default_factory=dict)
@@ -130,10 +136,37 @@ class LayerKnowledge(CatalogModel):
     symptoms: tuple[Symptom, ...] = Field(min_length=1)
 
 
-class Synonyms(CatalogModel):
-    """Meaning → beginnings of the words that users have for it."""
+Word = Annotated[str, StringConstraints(pattern=r"^[a-z0-9]+\Z", max_length=30)]
 
-    words: dict[Token, tuple[Annotated[str, StringConstraints(pattern=r"^[a-z0-9]+\Z", max_length=30)], ...]]
+
+class Synonyms(CatalogModel):
+    """Meaning → beginnings of the words that users have for it; terms that are one word, and words that say nothing."""
+
+    together: tuple[Phrase, ...]
+    ignored: tuple[Word, ...]
+    words: dict[Token, tuple[Word, ...]]
+
+
+class Deciding(CatalogModel):
+    """A question whose yes speaks for a layer, and whose no speaks for another one that fits too."""
+
+    layer: Topic
+    ask: Text
+
+
+class Narrowing(CatalogModel):
+    """A question that leaves fewer layers, whatever the answer."""
+
+    ask: Text
+    yes: tuple[Topic, ...] = Field(min_length=1)
+    no: tuple[Topic, ...] = Field(min_length=1)
+
+
+class Questions(CatalogModel):
+    """What is asked where no layer is certain: the first of several; where nothing fits, the narrowing one."""
+
+    deciding: tuple[Deciding, ...]
+    narrowing: Narrowing
 
 
 @cache
@@ -154,6 +187,16 @@ def synonyms() -> Synonyms:
         ValueError: as ``knowledge``.
     """
     return _read("symptoms/words.yaml", Synonyms)
+
+
+@cache
+def questions() -> Questions:
+    """Return what is asked where no layer is certain.
+
+    Raises:
+        ValueError: as ``knowledge``.
+    """
+    return _read("symptoms/questions.yaml", Questions)
 
 
 def _read(file: str, model: type[_ModelT]) -> _ModelT:

@@ -15,8 +15,6 @@ from cellc.tools.report.snippet import Texts, render_snippet
 
 if TYPE_CHECKING:
     from cellc.compiler.output.compare import Difference
-    from cellc.tools.diagnose.diagnose import Cause, Suspicion
-    from cellc.tools.diagnose.symptoms import LayerKnowledge
 
 _SHOWN = 100
 """Findings of one code; `--format json` has all."""
@@ -148,58 +146,3 @@ def render_difference(difference: Difference, folder: Path) -> list[Line]:
 
 def _cut(line: str | None) -> str:
     return "(end of file)" if line is None else line[:160]
-
-
-def render_suspicions(suspicions: tuple[Suspicion, ...]) -> list[Line]:
-    """Return every suspicion with its hypotheses, the best first, separated by empty lines."""
-    shown: list[Line] = []
-    for suspicion in suspicions:
-        shown += ["", *_suspicion(suspicion)]
-    return shown[1:]
-
-
-def render_symptoms(layers: Sequence[LayerKnowledge]) -> list[Line]:
-    """Return the name of every symptom under the layer that it belongs to."""
-    shown: list[Line] = []
-    for layer in layers:
-        shown += ["", (Styled(layer.title, Style.BOLD),), *(f"  {symptom.name}" for symptom in layer.symptoms)]
-    number = sum(len(layer.symptoms) for layer in layers)
-    example = layers[0].symptoms[0].name
-    return [
-        *shown[1:],
-        "",
-        f'{number} symptoms; `cellc diagnose "{example}" cell.yaml` lists the causes of one',
-    ]
-
-
-def render_nearest(nearest: Sequence[Suspicion], layers: Sequence[str]) -> list[Line]:
-    """Return that nothing fits, and what is nearest, each with its likeliest cause."""
-    shown: list[Line] = ["UNKNOWN: no known symptom fits" + ("; the nearest are:" if nearest else "")]
-    for suspicion in nearest:
-        shown.append(("  ", Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD)))
-        shown.append(f"    most likely: {suspicion.causes[0].text}")
-    shown.append("use other words or paste a line of the log; `cellc diagnose` alone lists every symptom")
-    return [*shown, f"rule out in this order: {', '.join(layers)}"]
-
-
-def _suspicion(suspicion: Suspicion) -> Iterator[Line]:
-    yield (Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD),)
-    if suspicion.evidence:
-        yield f"  named in the line: {', '.join(suspicion.evidence)}"
-    for name in suspicion.unknown:
-        yield f"  {name} is not part of this cell"
-    for number, cause in enumerate(suspicion.causes, 1):
-        yield from _cause(number, cause)
-    yield f"  do not: {suspicion.never}"
-    yield f"  who decides: {suspicion.owner}"
-    yield f"  source: {suspicion.source}"
-
-
-def _cause(number: int, cause: Cause) -> Iterator[Line]:
-    yield f"  {number}. {cause.text}?"
-    for step in cause.steps:
-        mark = "$" if step.is_command else "look at"
-        yield "     ", Styled(mark, Style.BLUE), f" {step.action}"
-        yield "       ", Styled("ruled out if", Style.GREEN), f" {step.refuted}"
-    if cause.omitted:
-        yield f"     likewise for {cause.omitted} more; name one in the symptom to see it alone"

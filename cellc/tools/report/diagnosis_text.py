@@ -1,0 +1,87 @@
+"""Diagnoses as lines for people: what is certain, what is asked where nothing is, and what rules each cause out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from cellc.contract.printing import Line, Style, Styled
+
+if TYPE_CHECKING:
+    from cellc.tools.diagnose.diagnose import Answer, Cause, Suspicion
+    from cellc.tools.diagnose.symptoms import LayerKnowledge
+
+
+def render_answer(answer: Answer) -> Iterator[Line]:
+    """Yield what a text may mean; where no layer is certain, first the question that decides."""
+    if not answer.fits:
+        yield from _nearest(answer)
+    elif answer.ask:
+        layers = list(dict.fromkeys(suspicion.layer for suspicion in answer.suspicions))
+        guess = f"likely, not sure: {layers[0]}" if answer.likely else f"not sure: {', or '.join(layers)}?"
+        yield (Styled(guess, Style.BOLD),)
+        yield from _question("one question decides", answer, "; or ")
+        yield ""
+        yield from render_suspicions(answer.suspicions)
+    else:
+        yield from render_suspicions(answer.suspicions)
+
+
+def _question(intro: str, answer: Answer, between: str) -> Iterator[Line]:
+    yield f"{intro}: {answer.ask}"
+    yield "  ", Styled("yes", Style.GREEN), f": {between.join(answer.yes)}"
+    yield "  ", Styled("no", Style.GREEN), f": {between.join(answer.no)}"
+
+
+def _nearest(answer: Answer) -> Iterator[Line]:
+    yield "UNKNOWN: no known symptom fits" + ("; the nearest are:" if answer.suspicions else "")
+    for suspicion in answer.suspicions:
+        yield "  ", Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD)
+        yield f"    most likely: {suspicion.causes[0].text}"
+    yield from _question("ask first", answer, ", then ")
+    yield "use other words or paste a line of the log; `cellc diagnose` alone lists every symptom"
+
+
+def render_suspicions(suspicions: tuple[Suspicion, ...]) -> list[Line]:
+    """Return every suspicion with its hypotheses, the best first, separated by empty lines."""
+    shown: list[Line] = []
+    for suspicion in suspicions:
+        shown += ["", *_suspicion(suspicion)]
+    return shown[1:]
+
+
+def render_symptoms(layers: Sequence[LayerKnowledge]) -> list[Line]:
+    """Return the name of every symptom under the layer that it belongs to."""
+    shown: list[Line] = []
+    for layer in layers:
+        shown += ["", (Styled(layer.title, Style.BOLD),), *(f"  {symptom.name}" for symptom in layer.symptoms)]
+    number = sum(len(layer.symptoms) for layer in layers)
+    example = layers[0].symptoms[0].name
+    return [
+        *shown[1:],
+        "",
+        f'{number} symptoms; `cellc diagnose "{example}" cell.yaml` lists the causes of one',
+    ]
+
+
+def _suspicion(suspicion: Suspicion) -> Iterator[Line]:
+    yield (Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD),)
+    if suspicion.evidence:
+        yield f"  named in the line: {', '.join(suspicion.evidence)}"
+    for name in suspicion.unknown:
+        yield f"  {name} is not part of this cell"
+    for number, cause in enumerate(suspicion.causes, 1):
+        yield from _cause(number, cause)
+    yield f"  do not: {suspicion.never}"
+    yield f"  who decides: {suspicion.owner}"
+    yield f"  source: {suspicion.source}"
+
+
+def _cause(number: int, cause: Cause) -> Iterator[Line]:
+    yield f"  {number}. {cause.text}?"
+    for step in cause.steps:
+        mark = "$" if step.is_command else "look at"
+        yield "     ", Styled(mark, Style.BLUE), f" {step.action}"
+        yield "       ", Styled("ruled out if", Style.GREEN), f" {step.refuted}"
+    if cause.omitted:
+        yield f"     likewise for {cause.omitted} more; name one in the symptom to see it alone"
