@@ -83,6 +83,12 @@ def _signalled(
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, start_new_session=group)
 
 
+@pytest.fixture(autouse=True)
+def _cache_of_the_test(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Remember nothing: a build that another test has kept is given again without the moments of this file."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+
+
 @pytest.mark.parametrize(
     ("moment", "number"),
     [
