@@ -143,6 +143,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             ("rate: 30 Hz", "rate: 15 Hz"),
         ),
         [
+            "dangerous calibration | gripper_base_link | pose in its parent | xyz 0 0 11 mm, rpy 0 0 90 deg -> "
+            "xyz 0 0 11 mm, rpy 0 0 91 deg | turns 1 deg",
             "dangerous calibration | hand_eye | revision | 4 -> 3",
             "dangerous payload | arm | robot TCP rotation_vector | "
             "0.0000 0.0000 1.5708 rad -> 0.0000 0.0000 1.5882 rad",
@@ -153,8 +155,6 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review calibration | fixture_a | revision | 2 -> 3",
             "review frames | fixture_A | pose in its parent | xyz 450 100 850 mm, rpy 0 0 0 deg -> "
             "xyz 450 100 860 mm, rpy 0 0 0 deg | moves 10 mm",
-            "review frames | gripper_base_link | pose in its parent | xyz 0 0 11 mm, rpy 0 0 90 deg -> "
-            "xyz 0 0 11 mm, rpy 0 0 91 deg | turns 1 deg",
             "review motion | pick | place in the root frame | xyz 450 -150 860 mm, rpy 180 0 0 deg -> "
             "xyz 450 -150 870 mm, rpy 180 0 0 deg | moves 10 mm",
             "review motion | place | place in the root frame | xyz 450 100 860 mm, rpy 180 0 0 deg -> "

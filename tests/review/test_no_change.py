@@ -118,12 +118,14 @@ def test_a_mount_that_moves_by_a_millimetre_changes_few_files_and_lines(tmp_path
     lines = sum(len(set(after.files[path].split("\n")) - set(main.files[path].split("\n"))) for path in differing)
     assert len(differing) <= 8
     assert lines <= 15
-    told, *moved = changes_of(main, after)
+    mounted, told, *moved = changes_of(main, after)
+    assert mounted == (
+        "dangerous calibration | gripper_base_link | pose in its parent | xyz 0 0 11 mm, rpy 0 0 90 deg -> "
+        "xyz 0 0 12 mm, rpy 0 0 90 deg | moves 1 mm"
+    )
     assert told.startswith("dangerous payload | arm | robot TCP xyz | 0.00 0.00 173.00 mm")
     assert "-> 0.00 0.00 174.00 mm" in told
     assert moved == [
-        "review frames | gripper_base_link | pose in its parent | xyz 0 0 11 mm, rpy 0 0 90 deg -> "
-        "xyz 0 0 12 mm, rpy 0 0 90 deg | moves 1 mm",
         "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
         "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",
     ]

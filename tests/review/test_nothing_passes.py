@@ -56,12 +56,45 @@ def test_what_a_calibration_rests_on_is_told(repository: Repository, main: Packa
         repository,
         main,
         ("reference_points: 3", "reference_points: 1"),
-        (mount, mount.replace("{", "{since: 2026-09-01, ")),
+        (mount, mount.replace("{", "{since: 2026-06-01, ")),
     )
     assert found == [
+        "dangerous calibration | gripper | date of mounting | None -> 2026-06-01",
         "dangerous calibration | fixture_A | reference points | 3 -> 1",
-        "review calibration | gripper | date of mounting | None -> 2026-09-01",
     ]
+
+
+_SAME_CAMERA = ("hand_eye: {revision: 4", "hand_eye: {revision: 5")
+_SAME_TOOL = ("tcp_2f: {revision: 1", "tcp_2f: {revision: 2")
+
+
+@pytest.mark.parametrize(
+    ("edit", "newly_measured", "measured"),
+    [
+        (("serial: UNKNOWN", "serial: '20225500002'"), (_SAME_CAMERA, _SAME_TOOL), "hand_eye`, `tcp_2f"),
+        (("model: robotiq_2f_85", "serial: B2\n    model: robotiq_2f_85"), (_SAME_TOOL,), "tcp_2f"),
+        (("model: realsense_d435i", "serial: B2\n    model: realsense_d435i"), (_SAME_CAMERA,), "hand_eye"),
+        (("xyz: 0 0 11 mm", "xyz: 0 0 12 mm"), (_SAME_TOOL,), "tcp_2f"),
+        (("model: realsense_d435i", "model: realsense_d455"), (_SAME_CAMERA,), "hand_eye"),
+    ],
+)
+def test_device_that_a_calibration_measured_is_not_replaced_without_a_new_one(
+    edit: Edit, newly_measured: tuple[Edit, ...], measured: str, repository: Repository
+) -> None:
+    known = tuple((old, new.replace("B2", "A1").replace("20225500002", "20225500001")) for old, new in (edit,))
+    before = package_of(repository, repository.commit(edited(*known) if "serial" in edit[1] else edited()))
+    after = package_of(repository, repository.commit(edited(edit)))
+    again = package_of(repository, repository.commit(edited(edit, *newly_measured)))
+    without = f"measured with it, without a new revision: `{measured}`"
+    assert [change.subjects for change in reviewed(before, after).changes if change.why == without]
+    assert not [change for change in reviewed(before, again).changes if "without a new revision" in change.why]
+
+
+def test_serial_number_that_was_read_ends_no_calibration(repository: Repository, main: Package) -> None:
+    found = reviewed(
+        main, package_of(repository, repository.commit(edited(("serial: UNKNOWN", "serial: '20225500001'"))))
+    )
+    assert {str(change.grade) for change in found.changes} == {"review"}
 
 
 def test_a_blocker_that_a_comment_silences_did_not_go(repository: Repository, main: Package) -> None:

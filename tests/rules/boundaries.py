@@ -102,6 +102,13 @@ BOUNDARIES: list[Case] = [
         ("2026-07-01", "2020-02-29"),
         ("2026-07-02", "2027-01-01"),
     ),
+    # easy_handeye writes the result of a camera beside the robot in the base frame of the robot.
+    *_spec(
+        "detached-mount",
+        "devices: {{camera: {{mount: {{parent: {value}, xyz: 1.2 0.4 0.9 m, rpy: 0 40 180 deg}}}}}}",
+        ("arm/base_link", "arm/base", "world"),
+        ("arm/tool0", "gripper/base"),
+    ),
     *_spec(
         "mounted-against-vendor",
         "devices: {{gripper: {{mount: {{xyz: 0 0 {value} mm}}}}}}",

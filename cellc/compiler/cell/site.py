@@ -78,7 +78,8 @@ class CalibrationFile:
 class Calibration(Entity):
     """A measurement that transforms rest on: ``measured`` as written, ``measured_on`` where that is a date.
 
-    ``file`` is what the transforms are taken from; None where the spec states them.
+    ``file`` is what the transforms are taken from; None where the spec states them. ``serials`` are the serial numbers
+    of the devices that were measured, by the names of these.
     """
 
     revision: int
@@ -88,6 +89,7 @@ class Calibration(Entity):
     samples: int | None
     residual_m: float | None
     owner: str
+    serials: Mapping[str, str] = field(default_factory=dict)
     file: CalibrationFile | None
 
 

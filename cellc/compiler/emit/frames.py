@@ -44,6 +44,7 @@ def _calibration(calibration: Calibration) -> Row:
         samples=calibration.samples,
         residual_m=calibration.residual_m,
         owner=calibration.owner,
+        serials=tuple(f"{name} {serial}" for name, serial in calibration.serials.items()) or None,
         file=None if file is None else file.path,
         sha256=None if file is None else file.sha256,
     )

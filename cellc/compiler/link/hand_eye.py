@@ -16,6 +16,7 @@ from cellc.compiler.cell.site import CalibrationFile
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.frames import FrameNames
 from cellc.compiler.link.hand_eye_file import CODE, HandEyeFile, read_hand_eye
+from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import pose
 from cellc.compiler.link.side_file import read_side_file
 from cellc.compiler.source.document import SourceDocument
@@ -77,6 +78,7 @@ def link_hand_eye(
     problems: list[Diagnostic] = []
     edges = _edges(spec, [device.device for device in bound], names)
     for name, entry in spec.calibrations.items():
+        problems += _unknown_devices(name, entry, spec, document)
         if entry.from_ is None:
             problems += _without_file(name, entry, document)
             continue
@@ -106,6 +108,15 @@ def with_mounts(bound: tuple[BoundDevice, ...], measured: Measured) -> tuple[Bou
 
 def _mounted(device: Device, transform_root_to_parent: Pose) -> Device:
     return replace(device, mount=replace(device.mount, transform_root_to_parent=transform_root_to_parent))
+
+
+def _unknown_devices(
+    name: str, entry: CalibrationSpec, spec: CellSpec, document: SourceDocument
+) -> Iterator[Diagnostic]:
+    for device in entry.serials:
+        if device not in spec.devices:
+            path: YamlPath = ("calibrations", name, "serials", device)
+            yield unknown_name("unknown-device", device, "device", spec.devices, document, path)
 
 
 def _without_file(name: str, entry: CalibrationSpec, document: SourceDocument) -> Iterator[Diagnostic]:

@@ -104,6 +104,7 @@ def bind_calibrations(
             samples=calibration.samples,
             residual_m=si(calibration.residual),
             owner=calibration.owner,
+            serials=calibration.serials,
             file=files.get(name),
         )
         for name, calibration in spec.calibrations.items()

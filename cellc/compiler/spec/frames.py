@@ -18,6 +18,11 @@ class CalibrationSpec(StatedModel):
     samples: int | None = Field(None, description="Number of observations.", examples=[40], ge=1, le=MOST)
     residual: Length | None = Field(None, description="Residual of the fit.", examples=["0.8 mm"])
     owner: Text = Field(UNKNOWN, description="Person or role responsible for it.", examples=["perception"])
+    serials: dict[Name, Text] = Field(
+        default_factory=dict,
+        description="Serial number of each device that was measured, as on its nameplate at that time.",
+        examples=[{"camera": "814412070001"}],
+    )
     from_: Text | None = Field(
         None,
         alias="from",

@@ -8,6 +8,7 @@ from cellc.contract.grading import Rule
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Delta, Leaf, said
+from cellc.tools.review.measured import unmeasured
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +21,17 @@ class Verdict:
 
 
 def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
-    """Return the grade of a change by a rule."""
+    """Return the grade of a change by a rule; what a calibration measured does not change without a new revision."""
+    verdict = _by_rule(rule, delta, before, after)
+    names = unmeasured(delta, before.contract, after.contract)
+    if verdict.why or not names:
+        return verdict
+    measured = ", ".join(f"`{name}`" for name in names)
+    area = verdict.area if verdict.grade is Grade.DANGEROUS else ReviewArea.CALIBRATION
+    return Verdict(Grade.DANGEROUS, f"measured with it, without a new revision: {measured}", area)
+
+
+def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
     if rule in _FIXED:
         return Verdict(_FIXED[rule])
     if rule is Rule.PLACED:

@@ -11,7 +11,7 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, fou
 from cellc.contract.vocabulary import UNKNOWN
 
 
-@rule(Severity.WARNING)
+@rule(Severity.ERROR)
 def calibration_before_mounting(graph: CellGraph) -> Findings:
     """Yield calibrations of a mount, or of a frame on a device that is mounted on another, from before that day."""
     carried = {name for device in graph.cell.devices for name in device.mount.carries}
@@ -63,6 +63,20 @@ def _largest_group(dates: Sequence[datetime.date]) -> list[datetime.date]:
         else:
             groups.append([date])
     return max(groups, key=lambda group: (len(group), group[-1]), default=[])
+
+
+@rule(Severity.ERROR)
+def calibration_of_another_device(graph: CellGraph) -> Findings:
+    """Yield calibrations that measured a device with another serial number than the one that is there."""
+    for calibration in graph.cell.calibrations.values():
+        for name, serial in calibration.serials.items():
+            device = graph.cell.device(name)
+            there = device.software.versions.serial
+            if UNKNOWN not in (there, serial) and there != serial:
+                message = f"`{calibration.name}` must be measured with this `{name}`, serial number {there},"
+                related = (Related("is there now", graph.cell.locate(*device.path, "serial")),)
+                path = (*calibration.path, "serials", name)
+                yield found(graph, path, f"{message} got {serial}", related=related)
 
 
 @rule(Severity.ERROR)

@@ -16,11 +16,15 @@ _FARTHEST_M = 0.5
 
 @rule(Severity.WARNING)
 def detached_mount(graph: CellGraph) -> Findings:
-    """Yield devices whose root is more than 0.5 m from the frame of another device that carries it."""
+    """Yield devices whose root is more than 0.5 m from the frame of another device that moves it.
+
+    The base of an arm carries nothing: a calibration beside the robot has the pose of the camera in it.
+    """
     links = {link.name for device in graph.cell.devices for link in device.body.description.links}
     for device in graph.cell.devices:
         far_m = math.hypot(*device.mount.transform_root_to_parent.position)
-        if device.mount.parent_frame in links and far_m > _FARTHEST_M:
+        moves = any(frame.moving for frame in graph.frames.chain(device.mount.parent_frame))
+        if moves and device.mount.parent_frame in links and far_m > _FARTHEST_M:
             message = (
                 f"`{device.name}` must be within {_FARTHEST_M:g} m of `{device.mount.parent_frame}`, which carries it,"
             )
