@@ -9,7 +9,7 @@ from functools import cached_property
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.device_controller import DeviceController
 from cellc.compiler.catalog.device_interfaces import CommandFacts, PluginUse
-from cellc.compiler.catalog.load import controller_kinds, kind_behind
+from cellc.compiler.catalog.load import controller_kinds, kind_behind, load_controller_kind
 from cellc.compiler.cell.control import Controller, OnReal, StandIn, VendorCommand
 from cellc.compiler.cell.device import Device, DeviceJoint
 from cellc.compiler.cell.hardware import Effect
@@ -142,19 +142,37 @@ def _choose(type_: str, at: YamlPath, bound: BoundDevice | None, context: Contro
     kinds = {} if facts is None else facts.controllers
     kind = kind_behind(type_, facts)
     if kind is None:
-        return Outcome(None, (_unknown_kind(type_, (*kinds, *controller_kinds()), context.document, at),))
+        known = _released(kinds, context.distro)
+        return Outcome(None, (_unknown_kind(type_, known, context.document, at),))
     plugins = kinds[type_].plugins if type_ in kinds else kind.plugins
     if context.distro in plugins:
         return Outcome(_Chosen(kind, plugins[context.distro], bound, kinds.get(type_)))
+    others = _acting_alike(kind, kinds, context.distro)
+    proposals = ", ".join(f"`{other}`" for other in others)
     problem = Diagnostic(
         code="controller-not-in-distro",
         severity=Severity.ERROR,
         message=f"`{type_}` does not exist on {context.distro}, only on {', '.join(plugins)}",
         span=context.document.locate(at),
         yaml_path=at,
-        help="choose a kind that the pinned distribution has",
+        help=f"use {proposals}" if others else f"remove it: nothing of {context.distro} does the same",
     )
     return Outcome(None, (problem,))
+
+
+def _released(own: Mapping[str, DeviceController], distro: Distro) -> tuple[str, ...]:
+    """Return the kinds that a distribution has: those of the device, then the neutral ones."""
+    neutral = {name: load_controller_kind(name).value for name in controller_kinds()}
+    mine = (name for name, facts in own.items() if distro in facts.plugins)
+    return (*mine, *(name for name, facts in neutral.items() if facts is not None and distro in facts.plugins))
+
+
+def _acting_alike(kind: ControllerKind, own: Mapping[str, DeviceController], distro: Distro) -> tuple[str, ...]:
+    """Return the kinds of a distribution that do what another does."""
+    if kind.kind in OF_ONE_DEVICE:
+        return ()
+    acts_as = {name: facts.behavior for name, facts in own.items()}
+    return tuple(name for name in _released(own, distro) if acts_as.get(name, name) == kind.kind)
 
 
 def _unknown_kind(type_: str, known: tuple[str, ...], document: SourceDocument, at: YamlPath) -> Diagnostic:

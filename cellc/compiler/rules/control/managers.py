@@ -7,6 +7,7 @@ from operator import itemgetter
 
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.link.names import JOINT_STATES
+from cellc.compiler.rules.advice import add_controllers
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.vocabulary import Need
 
@@ -165,7 +166,7 @@ def unwatched_claim(graph: CellGraph) -> Findings:
                 for number, controller in claiming.get(joint.name, {}).items()
             }
             advice = (
-                f"add a controller of {' and of '.join(f'`type: {kind}`' for kind in kinds)} with `device: {name}`"
+                add_controllers(device, kinds, graph.cell.distro)
                 if kinds
                 else f"say under `reported_by` of the `device.yaml` of `{name}` which topic reports that"
             )

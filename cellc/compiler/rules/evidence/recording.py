@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cellc.compiler.cell.site import ATTEMPT_FIELDS
 from cellc.compiler.graph.data_flow import known_topics
+from cellc.compiler.rules.advice import add_controllers
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
 
 
@@ -47,8 +48,7 @@ def unfed_attempt_field(graph: CellGraph) -> Findings:
             message = (
                 f"{' and '.join(fields)} of the attempt record must come from `{device.name}`, which has no publisher"
             )
-            advice = f"add a controller of `type: {kind}` with `device: {device.name}`"
-            yield found(graph, (*device.path, "model"), message, advice)
+            yield found(graph, (*device.path, "model"), message, add_controllers(device, (kind,), cell.distro))
 
 
 _ALWAYS = ("/diagnostics", "/rosout", "/parameter_events", "/tf", "/tf_static", "/clock", "/joint_states")
