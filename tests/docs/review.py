@@ -68,7 +68,10 @@ listed change explains is listed with its file. Zero is not a bound:
 ros2_control skips the check of a tolerance or time of zero.
 
 A measured transform changes only with a new measurement: a changed pose of a calibrated frame is dangerous unless
-the calibration has a new revision. How far tips move in each named pose, and goals in the root frame, is computed by
+the calibration has a new revision. So is another model, serial number, mount or day of mounting of a device that a
+calibration measured: the device of the frame, and those that carry it, up to the next joint that moves.
+
+How far tips move in each named pose, and goals in the root frame, is computed by
 forward kinematics, with dynamic frames at their pose on the mock.
 
 A finding that a comment in the spec excuses is not resolved: the excuse is listed. Where two cells differ and no file

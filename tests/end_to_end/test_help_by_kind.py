@@ -29,10 +29,8 @@ def _specs(cell: str, distro: str) -> list[str]:
 def _followed(text: str, finding: Diagnostic, kinds: list[str]) -> str:
     device = _DEVICE.search(finding.help)
     if device is not None:
-        lines = "".join(
-            f"    help_{number}: {{type: {kind}, device: {device[1]}}}\n" for number, kind in enumerate(kinds)
-        )
-        return text.replace("  controllers:\n", f"  controllers:\n{lines}")
+        added = [f"    help_{number}: {{type: {kind}, device: {device[1]}}}\n" for number, kind in enumerate(kinds)]
+        return text.replace("  controllers:\n", "  controllers:\n" + "".join(added))
     lines, line, column = text.split("\n"), finding.span.line - 1, finding.span.column - 1
     lines[line] = lines[line][:column] + re.sub(r"^\w+", kinds[0], lines[line][column:])
     return "\n".join(lines)

@@ -13,6 +13,7 @@ from cellc.contract.entities import HardwareState, Target
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import (
     CommandAuthority,
+    Distro,
     Gravity,
     Held,
     InterfaceKind,
@@ -247,8 +248,7 @@ class DeviceControl(Part):
         speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
         laws: how the joints of the real one follow commands, by the command interface.
         update_rates_hz: those that the device accepts; any where empty.
-        controller_kinds: kinds of controllers that only this device has, in the distribution.
-        unreleased_kinds: those that other distributions have → which.
+        controller_kinds: kinds of controllers that only this device has → the distributions that have them.
     """
 
     hardware: HardwareComponent | None = None
@@ -260,8 +260,7 @@ class DeviceControl(Part):
     speed_scaling: Annotated[str | None, ELSEWHERE] = None
     laws: tuple[CommandLaw, ...] = ()
     update_rates_hz: Annotated[tuple[float, ...], ELSEWHERE] = ()
-    controller_kinds: Annotated[tuple[str, ...], ELSEWHERE] = ()
-    unreleased_kinds: Annotated[Mapping[str, tuple[str, ...]], ELSEWHERE] = field(default_factory=dict)
+    controller_kinds: Annotated[Mapping[str, tuple[Distro, ...]], ELSEWHERE] = field(default_factory=dict)
 
     @property
     def startup_state(self) -> HardwareState:

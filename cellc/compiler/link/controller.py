@@ -9,11 +9,11 @@ from functools import cached_property
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.device_controller import DeviceController
 from cellc.compiler.catalog.device_interfaces import CommandFacts, PluginUse
-from cellc.compiler.catalog.load import controller_kinds, kind_behind, load_controller_kind
 from cellc.compiler.cell.control import Controller, OnReal, StandIn, VendorCommand
 from cellc.compiler.cell.device import Device, DeviceJoint
 from cellc.compiler.cell.hardware import Effect
 from cellc.compiler.cell.interface import ParameterValue
+from cellc.compiler.link.controller_choice import choose_kind
 from cellc.compiler.link.controller_parameters import bind_parameters, bind_topics
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.hardware import effect
@@ -23,7 +23,7 @@ from cellc.compiler.link.tolerances import UNSTATED, Tolerances, bind_tolerances
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.control import ControllerSpec
-from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, did_you_mean, only_nearest
+from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath
 from cellc.contract.entities import TARGETS, Target
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import OF_ONE_DEVICE, Behavior, Distro
@@ -137,54 +137,13 @@ def link_controller(place: ControllerPlace, written: ControllerSpec, context: Co
 
 
 def _choose(type_: str, at: YamlPath, bound: BoundDevice | None, context: ControlContext) -> Outcome[_Chosen]:
-    """Choose kind and plugin of a type for the distribution: the device's own kinds come before the neutral ones."""
-    facts = None if bound is None else bound.facts
-    kinds = {} if facts is None else facts.controllers
-    kind = kind_behind(type_, facts)
-    if kind is None:
-        known = _released(kinds, context.distro)
-        return Outcome(None, (_unknown_kind(type_, known, context.document, at),))
-    plugins = kinds[type_].plugins if type_ in kinds else kind.plugins
-    if context.distro in plugins:
-        return Outcome(_Chosen(kind, plugins[context.distro], bound, kinds.get(type_)))
-    others = _acting_alike(kind, kinds, context.distro)
-    proposals = ", ".join(f"`{other}`" for other in others)
-    problem = Diagnostic(
-        code="controller-not-in-distro",
-        severity=Severity.ERROR,
-        message=f"`{type_}` does not exist on {context.distro}, only on {', '.join(plugins)}",
-        span=context.document.locate(at),
-        yaml_path=at,
-        help=f"use {proposals}" if others else f"remove it: nothing of {context.distro} does the same",
-    )
-    return Outcome(None, (problem,))
-
-
-def _released(own: Mapping[str, DeviceController], distro: Distro) -> tuple[str, ...]:
-    """Return the kinds that a distribution has: those of the device, then the neutral ones."""
-    neutral = {name: load_controller_kind(name).value for name in controller_kinds()}
-    mine = (name for name, facts in own.items() if distro in facts.plugins)
-    return (*mine, *(name for name, facts in neutral.items() if facts is not None and distro in facts.plugins))
-
-
-def _acting_alike(kind: ControllerKind, own: Mapping[str, DeviceController], distro: Distro) -> tuple[str, ...]:
-    """Return the kinds of a distribution that do what another does."""
-    if kind.kind in OF_ONE_DEVICE:
-        return ()
-    acts_as = {name: facts.behavior for name, facts in own.items()}
-    return tuple(name for name in _released(own, distro) if acts_as.get(name, name) == kind.kind)
-
-
-def _unknown_kind(type_: str, known: tuple[str, ...], document: SourceDocument, at: YamlPath) -> Diagnostic:
-    return Diagnostic(
-        code="unknown-controller-kind",
-        severity=Severity.ERROR,
-        message=f"there is no kind of controller `{type_}`",
-        span=document.locate(at),
-        yaml_path=at,
-        help=did_you_mean(type_, known, "kinds of controllers"),
-        fix=document.fix(document.locate(at), type_, only_nearest(type_, known), sure=False),
-    )
+    """Choose kind and plugin of a type for the distribution."""
+    kind = choose_kind(type_, bound, context.distro, context.document, at)
+    if kind.value is None:
+        return Outcome(None, kind.diagnostics)
+    variant = None if bound is None else bound.facts.controllers.get(type_)
+    plugins = kind.value.plugins if variant is None else variant.plugins
+    return Outcome(_Chosen(kind.value, plugins[context.distro], bound, variant))
 
 
 def _controller(

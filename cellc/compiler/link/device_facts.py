@@ -60,11 +60,6 @@ def device_control(
 ) -> DeviceControl:
     """Return what commands a device by a component or by its driver, and what that offers."""
     nodes = run_nodes(facts, known, written.firmware)
-    unreleased = {
-        kind: tuple(controller.plugins)
-        for kind, controller in facts.controllers.items()
-        if distro is not None and distro not in controller.plugins
-    }
     return DeviceControl(
         hardware=hardware,
         driver=device_driver(facts, known),
@@ -75,8 +70,7 @@ def device_control(
         speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
         laws=command_laws(facts),
         update_rates_hz=() if facts.control is None else tuple(rate.si for rate in facts.control.update_rates),
-        controller_kinds=tuple(kind for kind in facts.controllers if kind not in unreleased),
-        unreleased_kinds=unreleased,
+        controller_kinds={kind: tuple(controller.plugins) for kind, controller in facts.controllers.items()},
     )
 
 

@@ -164,7 +164,9 @@ def _controller_types(known: Known) -> Iterator[Proposal]:
 
     yield from (Proposal(kind, "controller") for kind in controller_kinds())
     for device in known.cell.devices if known.cell is not None else ():
-        yield from (Proposal(kind, f"controller of {device.name}") for kind in device.control.controller_kinds)
+        own = device.control.controller_kinds
+        here = (kind for kind, distros in own.items() if known.cell is None or known.cell.distro in distros)
+        yield from (Proposal(kind, f"controller of {device.name}") for kind in here)
 
 
 def fixes(diagnostics: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tuple[Diagnostic, Edit]]:

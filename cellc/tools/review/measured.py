@@ -24,7 +24,7 @@ def unmeasured(delta: Delta, before: Contract, after: Contract) -> tuple[str, ..
 
 
 def _changed(delta: Delta, contract: Contract) -> tuple[str | None, bool]:
-    """Return the device that a change replaces or moves, and whether it moves; a serial that was read is none."""
+    """Return the device that a change replaces or moves, and whether it moves; reading a serial is neither."""
     path, device = delta.path, None
     if delta.after is None or delta.before == UNKNOWN:
         return None, False

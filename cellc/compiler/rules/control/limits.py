@@ -131,6 +131,7 @@ def unscaled_trajectory(graph: CellGraph) -> Findings:
             continue
         if not controller.parameters.get("speed_scaling.state_interface"):
             message = f"`{controller.device}` scales its speed, but `{controller.name}` does not follow"
-            kinds = [kind for kind in scaling[controller.device].control.controller_kinds if "trajectory" in kind]
+            own = scaling[controller.device].control.controller_kinds
+            kinds = [kind for kind, distros in own.items() if "trajectory" in kind and graph.cell.distro in distros]
             advice = f"use `type: {kinds[0]}`" if kinds else "use a controller that reads the scaling factor"
             yield found(graph, (*controller.path, "type"), message, advice)
