@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -16,10 +16,12 @@ from cellc.compiler.catalog.compiled import (
     compiled_table,
     device_file,
 )
+from cellc.compiler.catalog.control_faults import control_faults
 from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.family import read_entry
 from cellc.compiler.catalog.figure_bounds import implausible_figures
+from cellc.compiler.catalog.jaws import gripper_faults
 from cellc.compiler.catalog.joint_figures import wrong_joint_figures
 from cellc.compiler.catalog.names import CatalogNames, unknown_names
 from cellc.compiler.catalog.programs import ProgramTable
@@ -148,8 +150,17 @@ def _load(
     wrong = (*unknown_names(model, limited, document, known), *wrong_joint_figures(model, limited, document))
     robot = limited.without_leaderless() if "mimic-of-nothing" in model.excused else limited
     device = None if wrong else CatalogDevice(model, robot)
-    doubtful = () if wrong else tuple(implausible_figures(model, limited, document))
+    doubtful = () if wrong else tuple(_doubtful(model, robot, document))
     return Outcome(device, description.diagnostics + wrong + doubtful)
+
+
+def _doubtful(model: DeviceModel, robot: Description, document: SourceDocument) -> Iterator[Diagnostic]:
+    """Yield what does not keep a device from being bound."""
+    distros = load_distros().value
+    assert distros is not None  # package data, held valid by the catalog's tests
+    yield from implausible_figures(model, robot, document)
+    yield from gripper_faults(model, robot, document)
+    yield from control_faults(model, robot, document, distros)
 
 
 def _at_its_name(found: Diagnostic, file: Path, document: SourceDocument) -> Diagnostic:

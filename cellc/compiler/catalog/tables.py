@@ -47,6 +47,7 @@ class DistroTable(CatalogTable):
     distros: dict[DistroName, DistroFacts]
     dead_mock_parameters: dict[Text, Text]
     harmless_plugins: dict[Text, Text] = Field(min_length=1)
+    simulators: dict[Token, Text] = Field(min_length=1)
     harmless_programs: dict[Text, Text] = Field(min_length=1)
     hardware_packages: dict[Token, Text] = Field(min_length=1)
 

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from cellc.compiler.cell.device import Device
 from cellc.compiler.rules.kit import CellGraph, Related
+
+
+def is_own(graph: CellGraph, device: Device) -> bool:
+    """Tell whether the user brings the description: a folder beside the spec, or the file that is checked alone."""
+    model = graph.cell.text(*device.path, "model")
+    return not model or "/" in model
 
 
 def described(graph: CellGraph, joints: Iterable[str]) -> tuple[Related, ...]:

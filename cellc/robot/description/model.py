@@ -84,6 +84,7 @@ class Inertial:
     iyy: float
     iyz: float
     izz: float
+    span: Span | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +110,7 @@ class JointLimit:
     upper: float | None
     velocity: float | None
     effort: float | None
+    span: Span | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +120,7 @@ class Mimic:
     joint: str
     multiplier: float
     offset: float
+    span: Span | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -218,11 +218,12 @@ def _read_limit(element: XmlElement) -> JointLimit:
     )
     # Vendors write -1 for one that they do not state; pinocchio refuses a whole description for it.
     stated = None if effort is not None and effort < 0.0 else effort
-    return JointLimit(lower, upper, velocity, stated)
+    return JointLimit(lower, upper, velocity, stated, element.span)
 
 
 def _read_mimic(element: XmlElement) -> Mimic:
-    return Mimic(required(element, "joint"), number_or(element, "multiplier", 1.0), number_or(element, "offset", 0.0))
+    multiplier, offset = number_or(element, "multiplier", 1.0), number_or(element, "offset", 0.0)
+    return Mimic(required(element, "joint"), multiplier, offset, element.span)
 
 
 def _read_dynamics(element: XmlElement) -> JointDynamics:
@@ -261,6 +262,7 @@ def _read_inertial(element: XmlElement) -> Inertial:
         iyy=number(inertia, "iyy"),
         iyz=number(inertia, "iyz"),
         izz=number(inertia, "izz"),
+        span=element.span,
     )
 
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from cellc.compiler.cell.device import Device
 from cellc.compiler.graph.frame_tree import ModelJoint, ModelLink
 from cellc.compiler.rules.bounds import Bound, Figure, outside
+from cellc.compiler.rules.described import is_own
 from cellc.compiler.rules.excuses import spared
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, rule
 from cellc.contract.frozen import dataclass
@@ -28,12 +28,6 @@ from cellc.robot.description.model import (
 )
 
 
-def _is_own(graph: CellGraph, device: Device) -> bool:
-    """Whether the user brings the description: a folder beside the spec, or the file that is checked alone."""
-    model = graph.cell.text(*device.path, "model")
-    return not model or "/" in model
-
-
 def _links(graph: CellGraph) -> tuple[ModelLink, ...]:
     return graph.once(_own_parts)[0]
 
@@ -43,7 +37,7 @@ def _joints(graph: CellGraph) -> tuple[ModelJoint, ...]:
 
 
 def _own_parts(graph: CellGraph) -> tuple[tuple[ModelLink, ...], tuple[ModelJoint, ...]]:
-    own = {device.name for device in graph.cell.devices if _is_own(graph, device)}
+    own = {device.name for device in graph.cell.devices if is_own(graph, device)}
     if not own:
         return (), ()
     links = tuple(part for part in graph.model.links() if part.device.name in own)
@@ -129,7 +123,7 @@ class _Tree:
 
 def _trees(graph: CellGraph) -> Mapping[str, _Tree]:
     """Return the own descriptions by device."""
-    return {device.name: _tree(device.body.description) for device in graph.cell.devices if _is_own(graph, device)}
+    return {device.name: _tree(device.body.description) for device in graph.cell.devices if is_own(graph, device)}
 
 
 def _tree(description: Description) -> _Tree:

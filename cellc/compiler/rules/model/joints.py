@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from cellc.compiler.rules.described import described
+from cellc.compiler.rules.described import described, is_own
 from cellc.compiler.rules.excuses import spared
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, did_you_mean, rule
 from cellc.robot.description.model import Description, Joint, JointLimit
@@ -49,6 +49,31 @@ def degrees_as_radians(graph: CellGraph) -> Findings:
             yield Finding(
                 message, part.span, part.path, f"write {math.radians(largest):.6g} if {largest:g} is in degrees"
             )
+
+
+_BEYOND = 0.1
+"""Share of its way by which a follower may be sent beyond its limits: they are rounded, and often a little tight."""
+
+
+@rule(Severity.WARNING, assumes=("circular-mimic", "mimic-of-fixed-joint", "mimic-of-nothing", "reversed-limits"))
+def mimic_beyond_limits(graph: CellGraph) -> Findings:
+    """Yield followers that the range of their leader sends beyond their own limits, in descriptions of the user."""
+    for part in graph.model.joints():
+        mimic, limit = part.joint.mimic, part.joint.limit
+        leader = None if mimic is None else part.device.body.description.joint(mimic.joint)
+        if mimic is None or leader is None or limit is None or leader.limit is None or not is_own(graph, part.device):
+            continue
+        ends = (leader.limit.lower, leader.limit.upper, limit.lower, limit.upper)
+        if part.joint.type == "continuous" or None in ends or leader.mimic is not None:
+            continue
+        first, second = sorted(mimic.multiplier * (end or 0.0) + mimic.offset for end in ends[:2])
+        lower, upper = ends[2] or 0.0, ends[3] or 0.0
+        if max(lower - first, second - upper) > max(1e-6, _BEYOND * (second - first)) and lower < upper:
+            unit = "m" if part.joint.slides else "rad"
+            message = f"joint `{part.joint.name}` must stay between {lower:g} and {upper:g} {unit}, but `{leader.name}`"
+            message += f" sends it from {first:.4g} to {second:.4g} {unit}"
+            related = described(graph, [leader.name])
+            yield Finding(message, mimic.span or part.span, part.path, related=related)
 
 
 @rule(Severity.ERROR)

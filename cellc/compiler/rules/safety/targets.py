@@ -172,10 +172,10 @@ def _real_programs(cell: Cell) -> frozenset[str]:
 
 
 def _real_plugins(cell: Cell) -> frozenset[str]:
+    """Return the plugins of the real target, but for one that the catalog knows to reach nothing there either."""
     components = (device.control.hardware for device in cell.devices)
-    return frozenset(
-        component.plugins["real"] for component in components if component is not None and "real" in component.plugins
-    )
+    named = (component.plugins.get("real", "") for component in components if component is not None)
+    return frozenset(named) - cell.harmless_plugins - {""}
 
 
 @rule(Severity.ERROR, assumes=("real-hardware-in-mock",))
