@@ -25,6 +25,10 @@ class DeviceView:
         """Return the hardware component of a device, or what stops of one behind an adapter: its own name."""
         return self.facts(device).hardware_component or device
 
+    def is_there(self, device: str) -> bool:
+        """Tell whether a manager has its component: it has none of a robot description that it refused."""
+        return any(self.control.managers_of_component(self.component(device)))
+
     def manager(self, device: str) -> ControllerManager:
         """Return the manager that has the component of a device."""
         return next(self.control.managers_of_component(self.component(device)))

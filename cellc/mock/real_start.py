@@ -55,7 +55,7 @@ class RealStart:
         }
         for device in sorted(self._devices.contract.devices):
             facts = self._devices.facts(device)
-            if facts.hardware_component is None:
+            if facts.hardware_component is None or not self._devices.is_there(device):
                 continue
             late = [need for need in _BY_PEOPLE if self._devices.unmet(device, need) is not None]
             for need in late:

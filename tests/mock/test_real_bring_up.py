@@ -7,8 +7,10 @@ FR3 with closed brakes ends the controller manager of humble and refuses the cla
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -51,6 +53,21 @@ def brought_up(folder: GeneratedFolder, *faults: FaultEntry) -> tuple[RehearsalR
     cell: MockCell = cell_of(folder)
     result = cell.rehearse(PLAIN.model_copy(update={"faults": faults}), watch=plants.append)
     return result, plants[0]
+
+
+@pytest.mark.parametrize("kind", [None, FaultKind.PROGRAM_STOP, FaultKind.EMERGENCY_STOP, FaultKind.RESTART_DRIVER])
+@pytest.mark.parametrize("phase", list(BringUpPhase)[:3])
+def test_component_of_another_plugin_is_a_failed_bring_up(
+    kind: FaultKind | None, phase: BringUpPhase, tmp_path: Path
+) -> None:
+    folder = tmp_path / "ur5e_pick"
+    shutil.copytree(generated("ur5e_pick"), folder)
+    urdf = folder / "urdf/ur5e_pick.mock.urdf"
+    urdf.write_text(urdf.read_text().replace("mock_components/GenericSystem", "demo_simulation/Arm", 1))
+    faults = () if kind is None else (FaultEntry(kind=kind, target="arm", phase=phase, lasting_s=1.0),)
+    result, _ = brought_up(load(folder, edited=True).folder, *faults)
+    assert result.outcome == "bringup_failure"
+    assert "executes mock_components/GenericSystem, and demo_simulation/Arm only" in result.reason
 
 
 def with_steps(folder: GeneratedFolder, change: Change) -> GeneratedFolder:
