@@ -61,6 +61,7 @@ RANGES = {
     "limits.payload.value": Range(0.01, 3000.0),
     "limits.reach.value": Range(0.05, 10.0),
     "limits.repeatability.value": Range(1e-6, 5e-3),
+    "limits.tilt.value": Range(0.0, math.pi),
     "mounts.*.xyz": Range(-2.0, 2.0),
     "plug.voltage": _VOLTAGE,
     "robot.tool_connector.voltages.*": _VOLTAGE,

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text
 from cellc.compiler.spec.quantity import (
+    FieldAngle,
     JointAcceleration,
     JointEffort,
     JointJerk,
@@ -141,6 +142,18 @@ class RepeatabilityFigure(CatalogModel):
     source: Text
 
 
+class TiltLimit(CatalogModel):
+    """How far from upright the base may be mounted: the controller of the device compensates gravity along its z axis.
+
+    Attributes:
+        value: Largest angle between the z axis of the base and the vertical.
+        source: Manual, or a statement of the vendor, with its version.
+    """
+
+    value: FieldAngle
+    source: Text
+
+
 class LimitFacts(CatalogModel):
     """Limits beside those of the description; keys are joint names without prefix, or ``*`` for all others.
 
@@ -155,6 +168,7 @@ class LimitFacts(CatalogModel):
         payload: Mass that may hang on the flange.
         reach: Reach by the data sheet.
         repeatability: Repeatability by the data sheet.
+        tilt: How far from upright it may be mounted; any way where absent.
     """
 
     position: dict[Text, PositionLimit] = Field(default_factory=dict)
@@ -166,6 +180,7 @@ class LimitFacts(CatalogModel):
     payload: PayloadLimit | None = None
     reach: ReachFigure | None = None
     repeatability: RepeatabilityFigure | None = None
+    tilt: TiltLimit | None = None
 
     def of_joints(self) -> Mapping[str, Mapping[str, JointLimitFact]]:
         """Return the limits of joints: key of ``limits``, joint or ``*``, fact."""

@@ -238,11 +238,13 @@ class DeviceLimits(Part):
     Args:
         payload_limit_kg: what may hang on the flange, tool included.
         repeatability_m: pose repeatability of its tip (ISO 9283).
+        tilt_rad: how far from upright its controller compensates gravity.
     """
 
     limit_shares: LimitShares = field(default_factory=LimitShares)
     payload_limit_kg: Annotated[float | None, ELSEWHERE] = None
     repeatability_m: Annotated[float | None, ELSEWHERE] = None
+    tilt_rad: Annotated[float | None, ELSEWHERE] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

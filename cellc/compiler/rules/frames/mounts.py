@@ -44,6 +44,24 @@ def mount_on_dynamic_frame(graph: CellGraph) -> Findings:
                 yield found(graph, path, f"{message}, which `{frame.authority}` publishes")
 
 
+_LEVEL_RAD = math.radians(1.0)
+
+
+@rule(Severity.ERROR, assumes=("frame-cycle",))
+def tilted_base(graph: CellGraph) -> Findings:
+    """Yield devices whose base is further from upright than their controllers compensate gravity for."""
+    for device in graph.cell.devices:
+        pose, most = graph.frames.in_world(device.body.root_link), device.limits.tilt_rad
+        if pose is None or most is None:
+            continue
+        up = pose.apply((0.0, 0.0, 1.0))[2] - pose.position[2]
+        tilt = math.acos(max(-1.0, min(1.0, up)))
+        if tilt > most + _LEVEL_RAD:
+            path = (*device.path, "mount")
+            message = f"the base of `{device.name}` must be at most {math.degrees(most):g} deg from upright,"
+            yield found(graph, path, f"{message} got {math.degrees(tilt):.3g} deg")
+
+
 _APART_M = 1e-3
 _APART_RAD = math.radians(1.0)
 
