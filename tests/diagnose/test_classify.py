@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import pytest
 
 from cellc.tools.diagnose.classify import Classified, classify
-from cellc.tools.diagnose.symptoms import LAYERS, LayerKnowledge, knowledge, questions
+from cellc.tools.diagnose.symptoms import LAYERS, LayerKnowledge, knowledge, questions, synonyms
 from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 
@@ -72,7 +72,7 @@ def test_every_sentence_is_of_a_thread_of_its_own_and_finds_its_layer() -> None:
 
 
 @pytest.mark.parametrize("layer", knowledge(), ids=lambda layer: layer.layer)
-def test_every_phrase_finds_its_own_symptom_among_the_first_three(layer: LayerKnowledge) -> None:
+def test_every_phrase_finds_its_own_layer_among_the_first_three(layer: LayerKnowledge) -> None:
     lost = [
         phrase
         for symptom in layer.symptoms
@@ -80,6 +80,12 @@ def test_every_phrase_finds_its_own_symptom_among_the_first_three(layer: LayerKn
         if layer.layer not in layers_of(classify(phrase, knowledge()))
     ]
     assert lost == []
+
+
+def test_no_phrase_has_a_word_that_is_ignored() -> None:
+    ignored = set(synonyms().ignored)
+    phrases = [phrase for layer in knowledge() for symptom in layer.symptoms for phrase in symptom.said]
+    assert [phrase for phrase in phrases if ignored & set(phrase.split())] == []
 
 
 def test_nothing_is_said_of_a_text_without_a_known_word() -> None:
@@ -123,3 +129,15 @@ def test_every_layer_has_its_question_once_and_the_narrowing_one_leaves_each() -
     assert sorted(question.layer for question in questions().deciding) == sorted(LAYERS)
     narrowing = questions().narrowing
     assert sorted((*narrowing.yes, *narrowing.no)) == sorted(LAYERS)
+
+
+def test_layer_alone_is_not_certain_where_the_match_is_not_specific() -> None:
+    classified = classify("it says Segmentation fault", knowledge())
+    assert classified.question is not None
+    assert (classified.question.yes, classified.question.no) == (classified.matches[:1], classified.matches[1:])
+
+
+def test_proposal_far_behind_is_left_out_and_one_of_another_layer_is_kept() -> None:
+    near = classify("the arm slowly rises in freedrive", knowledge())
+    assert layers_of(near)[0] == "tool"
+    assert len(set(layers_of(near))) == len(near.matches) == 2

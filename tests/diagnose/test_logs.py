@@ -209,3 +209,28 @@ def test_every_text_of_a_source_shows_a_layer() -> None:
     assert len(shown) > 300
     assert None not in shown
     assert Layer.NONE not in shown
+
+
+def test_error_that_no_symptom_has_is_told_and_classified_by_its_words(tmp_path: Path) -> None:
+    folder = logs(
+        tmp_path / "log",
+        a=f"[ERROR] [{T0 + 5}.1] [task]: late\n[WARN] [{T0}.1] [task]: odd",
+        b=f"[INFO] [{T0}.1] [x]: fine\n[ERROR] [{T0 + 2}.5] [arm_driver]: overload of motor 3, torque is off",
+    )
+    unread = search(folder).unread
+    assert unread is not None
+    assert (unread.file, unread.line, unread.count) == ("b.log", 2, 2)
+    assert unread.at_ns == (T0 + 2) * 10**9 + 500_000_000
+    ran = run("diagnose", "--log", folder.as_posix())
+    assert ran.code == 1
+    assert "2 errors that no symptom has; the first:\n" in ran.out
+    assert "vendor mode: a motor reports overload or goes limp\n" in ran.out
+
+
+def test_known_error_names_the_layer_and_an_unknown_one_is_only_counted(tmp_path: Path) -> None:
+    folder = logs(tmp_path / "log", a=f"[ERROR] [{T0}.1] [task]: octopus\n[ERROR] [{T0 + 9}.1] {NO_REPLY}")
+    ran = run("diagnose", "--log", folder.as_posix())
+    assert ran.code == 1
+    assert ran.out.startswith("first layer: connection")
+    assert "1 error that no symptom has; the first:\n  2026-11-28 09:51:14" in ran.out
+    assert "UNKNOWN" not in ran.out

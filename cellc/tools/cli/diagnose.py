@@ -33,7 +33,8 @@ def diagnose(words: tuple[str, ...], logs: Path | None) -> None:
     fits; the nearest are listed, with the question that narrows most.
 
     With --log, read folders such as `~/.ros/log` and journals (`journalctl -o short` or `-o json`), and name the layer
-    that spoke first, in the order of time over all files. Exit code 0 if nothing was found, 1 if something was.
+    that spoke first, in the order of time over all files; an error that no symptom has is classified by its words.
+    Exit code 0 if nothing was found, 1 if something was.
 
     \b
     cellc diagnose robot drops when brakes release
@@ -66,9 +67,10 @@ def _classify(symptom: str, file: str | None) -> None:
 
 
 def _search(path: Path, file: str | None) -> None:
+    from cellc.tools.diagnose.diagnose import diagnose as answer_to
     from cellc.tools.diagnose.diagnose import suspicion_of
     from cellc.tools.diagnose.logs import LogError, search
-    from cellc.tools.report.diagnosis_text import render_suspicions
+    from cellc.tools.report.diagnosis_text import render_answer, render_suspicions
     from cellc.tools.report.log_text import render_searched
 
     cell = _cell(file)
@@ -81,6 +83,9 @@ def _search(path: Path, file: str | None) -> None:
     first = searched.first
     if first is not None:
         show("", *render_suspicions((suspicion_of(first.match, first.text, cell),)))
+    elif searched.unread is not None:
+        show("", *render_answer(answer_to(searched.unread.text, cell)))
+    if first is not None or searched.unread is not None:
         raise click.exceptions.Exit(1)
 
 

@@ -7,9 +7,10 @@ else is a proposal.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import islice
 
 from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, length, plain
 from cellc.tools.diagnose.symptoms import LayerKnowledge, Symptom, knowledge, questions, synonyms
@@ -24,6 +25,8 @@ _CERTAIN_SHARE = 0.6
 """Part of what a text says that this phrase has to be."""
 _AHEAD = 1.8
 """How many times the points of the best of another layer make a layer likely; certain with such a phrase alone."""
+_NEAR = 0.4
+"""Part of the points of the best that a further proposal has."""
 _CERTAIN_TEXT = 20
 """Letters of a text of a source that is found nowhere else by chance."""
 
@@ -43,6 +46,7 @@ class Question:
     """What is asked, and which proposals either answer speaks for.
 
     Attributes:
+        no: empty where no other layer has anything of the text.
         confirms: yes speaks for the layer of the first proposal, which is far ahead of all others.
     """
 
@@ -79,13 +83,13 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     asked = [match for match in known if match.symptom.name.casefold() == text.strip().casefold()]
     if asked:
         return Classified(tuple(asked))
-    logged = _logged(known, plain(text)) or _logged_in_any_case(known, plain(text))
+    logged = _logged(known, plain(text)) or _logged(known, plain(text), is_typed=True)
     if logged and (logged[0].named or length(logged[0].template) >= _CERTAIN_TEXT):
         return Classified(tuple(logged[:_AT_MOST]))
     possible = [match for match in known if _is_of(match, drivers)]
     words = _words_of(possible)
     like = words.likenesses(text)
-    best = _proposed([*logged, *(possible[each.number] for each in like)])
+    best = _proposed([*logged, *_near(like, possible)])
     if not logged and (not like or (like[0].points < _LEAST_POINTS and not like[0].whole)):
         return Classified(best, fits=False)
     is_ahead = not logged and _is_ahead(like, possible)
@@ -122,6 +126,13 @@ def _words_of(known: Sequence[Match]) -> Words:
     return Words(table.words, [match.symptom.said for match in known], heard, table.together, table.ignored)
 
 
+def _near(like: Sequence[Likeness], possible: Sequence[Match]) -> Iterator[Match]:
+    """Yield what comes near the likest; at last the likest of another layer, however far it is."""
+    yield from (possible[each.number] for each in like if each.points >= _NEAR * like[0].points)
+    others = (possible[each.number] for each in like if possible[each.number].layer != possible[like[0].number].layer)
+    yield from islice(others, 1)
+
+
 def _proposed(matches: Iterable[Match]) -> tuple[Match, ...]:
     """Return the first three symptoms; where all are of one layer, the third is the first of another."""
     by_name: dict[str, Match] = {}
@@ -142,35 +153,28 @@ def _is_ahead(like: Sequence[Likeness], possible: Sequence[Match]) -> bool:
     return like[0].points >= _AHEAD * other
 
 
-def _question(matches: Sequence[Match], *, is_ahead: bool) -> Question | None:
-    """Return what decides between the layers of some proposals; None where they have one."""
+def _question(matches: Sequence[Match], *, is_ahead: bool) -> Question:
+    """Return what decides between the layers of some proposals, or whether the first one's is right."""
     layers = {match.layer.layer for match in matches[: 1 if is_ahead else _AT_MOST]}
     asked = next(question for question in questions().deciding if question.layer in layers)
     yes = tuple(match for match in matches if match.layer.layer == asked.layer)
     no = tuple(match for match in matches if match.layer.layer != asked.layer)
-    return Question(asked.ask, yes, no, is_ahead) if no else None
+    return Question(asked.ask, yes, no, is_ahead)
 
 
-def _logged(known: Sequence[Match], pasted: str) -> list[Match]:
-    """Return what logs a line of the text, the longest text of a source first."""
+def _logged(known: Sequence[Match], pasted: str, *, is_typed: bool = False) -> list[Match]:
+    """Return what logs a line of the text, the longest text of a source first.
+
+    Args:
+        is_typed: in any case, as somebody types a line; names in it are not those of the cell.
+    """
+    text = pasted.casefold() if is_typed else pasted
     matches: list[tuple[int, Match]] = []
     for match in known:
-        lines = [(template, found_in(template, pasted)) for template in match.symptom.logged]
+        lines = [(line, found_in(line.casefold() if is_typed else line, text)) for line in match.symptom.logged]
         names = [named for _, named in lines if named is not None]
         if names:
-            named = tuple(dict.fromkeys(pair for pairs in names for pair in pairs))
-            template = max((text for text, found in lines if found is not None), key=length)
+            named = () if is_typed else tuple(dict.fromkeys(pair for pairs in names for pair in pairs))
+            template = max((line for line, found in lines if found is not None), key=length)
             matches.append((length(template), Match(match.layer, match.symptom, named, template)))
     return [match for _, match in sorted(matches, key=lambda entry: -entry[0])]
-
-
-def _logged_in_any_case(known: Sequence[Match], pasted: str) -> list[Match]:
-    """Return what logs a line that somebody typed; names in it are not those of the cell."""
-    typed = pasted.casefold()
-    found = [
-        (length(template), Match(match.layer, match.symptom, (), template))
-        for match in known
-        for template in match.symptom.logged
-        if found_in(template.casefold(), typed) is not None
-    ]
-    return [match for _, match in sorted(found, key=lambda entry: -entry[0])]

@@ -78,6 +78,7 @@ class Answer:
     fits: bool = True
 
 
+_ELSE = "no other layer has any of these words; add what was done before, or a line of the log"
 _SHOWN_SUBJECTS = 3
 # What a line may name → the scope in which the cell would have it.
 _SCOPE_OF_NAMED: dict[str, Scope] = {"controller": "controller", "topic": "topic", "frame": "frame", "target": "frame"}
@@ -94,7 +95,8 @@ def diagnose(text: str, cell: Cell | None) -> Answer:
     suspicions = tuple(suspicion_of(match, text, cell) for match in classified.matches)
     question = classified.question
     if question is not None:
-        return Answer(suspicions, question.ask, _meant(question.yes), _meant(question.no), question.confirms)
+        no = _meant(question.no) or (_ELSE,)
+        return Answer(suspicions, question.ask, _meant(question.yes), no, question.confirms)
     if classified.fits:
         return Answer(suspicions)
     asked = questions().narrowing

@@ -59,11 +59,28 @@ class Spoken:
 
 
 @dataclass(frozen=True, slots=True)
+class Unread:
+    """The first error that no symptom has.
+
+    Attributes:
+        at_ns, file, line: as of ``Spoken``.
+        count: such errors, in all files.
+    """
+
+    at_ns: int | None
+    file: str
+    line: int
+    text: str
+    count: int = 1
+
+
+@dataclass(frozen=True, slots=True)
 class Searched:
     """What some logs say.
 
     Attributes:
         spoken: in the order of time, at last those without one.
+        unread: None where every error is one that a symptom has.
         notes: what was left out, or is less certain, one line each.
     """
 
@@ -71,6 +88,7 @@ class Searched:
     files: int
     lines: int
     notes: tuple[str, ...]
+    unread: Unread | None = None
 
     @property
     def first(self) -> Spoken | None:
@@ -92,6 +110,7 @@ class _File:
         offset_ns: how far its local time is ahead of UTC.
         epoch_ns: the first time whose zone is known.
         passed: the line before, where it was passed over.
+        odd: the first error that no symptom has.
         unstated: what its times do not state.
     """
 
@@ -102,6 +121,7 @@ class _File:
     offset_ns: int | None = None
     epoch_ns: int | None = None
     passed: str = ""
+    odd: tuple[Stamp | None, Unread] | None = None
     unstated: dict[str, None] = field(default_factory=dict)
 
 
@@ -199,9 +219,12 @@ def _take(found: _File, line: str, before: Stamp | None) -> Stamp | None:
             found.offset_ns = _zone_ns(stamp)
     if entry.gravity is Gravity.MINOR:
         return stamp
-    for match in logged(entry.text)[:1]:
+    matches = logged(entry.text)[:1]
+    if not matches and entry.gravity is Gravity.ERROR:
+        _take_odd(found, entry.text, stamp)
+    for match in matches:
         is_warning = entry.gravity is Gravity.WARNING
-        spoken = Spoken(None, found.name, found.lines, entry.gravity, " ".join(entry.text.split())[:_HEAD], match)
+        spoken = Spoken(None, found.name, found.lines, entry.gravity, _shown(entry.text), match)
         key = (match.symptom.name, spoken.layer, is_warning)
         found.counts[key] = found.counts.get(key, 0) + 1
         slot = (key, stamp is not None, stamp is not None and stamp.zoned)
@@ -209,6 +232,18 @@ def _take(found: _File, line: str, before: Stamp | None) -> Stamp | None:
         if old is None or (stamp is not None and old[0] is not None and stamp.ns < old[0].ns):
             found.kept[slot] = (stamp, spoken)
     return stamp
+
+
+def _take_odd(found: _File, text: str, stamp: Stamp | None) -> None:
+    """Keep an error that no symptom has; of several the first."""
+    if found.odd is None:
+        found.odd = (stamp, Unread(None, found.name, found.lines, _shown(text)))
+    else:
+        found.odd = (found.odd[0], replace(found.odd[1], count=found.odd[1].count + 1))
+
+
+def _shown(text: str) -> str:
+    return " ".join(text.split())[:_HEAD]
 
 
 def _zone_ns(stamp: Stamp) -> int:
@@ -231,13 +266,20 @@ def _joined(files: list[_File], notes: list[str]) -> Searched:
             if key not in first or _order(timed) < _order(first[key]):
                 first[key] = timed
     ordered = sorted((replace(each, count=counts[key]) for key, each in first.items()), key=_order)
+    unread = _first_unread(files, epochs)
     uncertain = [
         f"{file.name}: its times state no {' and no '.join(file.unstated)}: its order among other files may be wrong"
         for file in files
         if file.unstated
     ]
     timeless = [f"{each.file}: line {each.line} has no time" for each in ordered if each.at_ns is None]
-    return Searched(tuple(ordered), len(files), sum(file.lines for file in files), (*notes, *uncertain, *timeless))
+    lines = sum(file.lines for file in files)
+    return Searched(tuple(ordered), len(files), lines, (*notes, *uncertain, *timeless), unread)
+
+
+def _first_unread(files: list[_File], epochs: list[int]) -> Unread | None:
+    odd = [replace(file.odd[1], at_ns=_utc_ns(file, file.odd[0], epochs)) for file in files if file.odd is not None]
+    return replace(min(odd, key=_order), count=sum(each.count for each in odd)) if odd else None
 
 
 def _utc_ns(file: _File, stamp: Stamp | None, epochs: list[int]) -> int | None:
@@ -257,5 +299,5 @@ def _utc_ns(file: _File, stamp: Stamp | None, epochs: list[int]) -> int | None:
     return ns
 
 
-def _order(spoken: Spoken) -> tuple[bool, int, str, int]:
+def _order(spoken: Spoken | Unread) -> tuple[bool, int, str, int]:
     return spoken.at_ns is None, spoken.at_ns or 0, spoken.file, spoken.line

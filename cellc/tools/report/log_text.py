@@ -12,7 +12,7 @@ from cellc.contract.printing import Line, Style, Styled
 from cellc.tools.diagnose.log_entry import Gravity
 
 if TYPE_CHECKING:
-    from cellc.tools.diagnose.logs import Searched, Spoken
+    from cellc.tools.diagnose.logs import Searched, Spoken, Unread
 
 _STYLES = {Gravity.ERROR: Style.RED, Gravity.UNSAID: Style.RED, Gravity.WARNING: Style.YELLOW}
 _WORDS = {Gravity.ERROR: "error", Gravity.UNSAID: "says", Gravity.WARNING: "warning"}
@@ -37,9 +37,17 @@ def render_searched(searched: Searched) -> Iterator[Line]:
             Styled(_WORDS[each.gravity], _STYLES[each.gravity]),
             f"  {_layer(each)}: {each.match.symptom.name}, {each.file}:{each.line}{more}",
         )
+    if searched.unread is not None:
+        yield from _unread(searched.unread)
     yield from (f"note: {note}" for note in searched.notes[:_MOST_NOTES])
     if len(searched.notes) > _MOST_NOTES:
         yield f"note: {len(searched.notes) - _MOST_NOTES} more notes"
+
+
+def _unread(unread: Unread) -> Iterator[Line]:
+    yield f"{count(unread.count, 'error')} that no symptom has; the first:"
+    yield f"  {_time(unread)}  {unread.file}:{unread.line}"
+    yield f"  {unread.text}"
 
 
 def _size(searched: Searched) -> str:
@@ -50,7 +58,7 @@ def _layer(spoken: Spoken) -> str:
     return spoken.match.layer.title if spoken.layer in (None, Layer.UNKNOWN) else str(spoken.layer)
 
 
-def _time(spoken: Spoken) -> str:
+def _time(spoken: Spoken | Unread) -> str:
     if spoken.at_ns is None:
         return "no time"
     at = datetime(1970, 1, 1, tzinfo=timezone.utc) + timedelta(microseconds=spoken.at_ns // 1000)
