@@ -161,6 +161,22 @@ _INJECTED = (
 _SPEED = "{type: speed_scaling_state_broadcaster, device: arm}"
 _OFTEN = _SPEED[:-1] + ", update_rate: 50 Hz, parameters: {state_publish_rate: RATE}}"
 
+_JOG = "    arm_jog: {type: forward_command, device: arm, active: false, client: servo}\n"
+_SERVED = (
+    ("\nnodes:\n", "\nnodes:\n  servo: {run: moveit_servo/servo_node, host: control_pc, owner: integration}\n"),
+    (
+        _INTERFACES,
+        _INTERFACES + "  /servo/delta_twist_cmds: {topic: geometry_msgs/msg/TwistStamped, from: task, to: servo,\n"
+        "                            frame: arm/base_link, rate: 50 Hz, max_age: 100 ms, on_stale: stop_and_hold}\n",
+    ),
+    ("    arm_trajectory:\n", _JOG + "    arm_trajectory:\n"),
+    (
+        "\nmotion:\n",
+        "\nmotion:\n  servo: {node: servo, controller: arm_jog, linear: 0.05 m/s, rotational: 0.2 rad/s,\n"
+        "          joint: 0.2 rad/s, period: 4 ms, command_timeout: WAITS}\n",
+    ),
+)
+
 _PAIRS = {
     # What is bounded at exactly its bound is accepted, and reported a little past it.
     "a watchdog of two periods of 4 ms": (
@@ -204,8 +220,8 @@ _PAIRS = {
         ("timeout-below-inner", "motion.groups.manipulator.ik_timeout"),
     ),
     "a silence of two samples a second": (
-        _pick((_INTERFACES, _INTERFACES + _STREAM), ("arm_trajectory:\n", _TIMEOUT.replace("SILENCE", "0.1"))),
-        _pick((_INTERFACES, _INTERFACES + _STREAM), ("arm_trajectory:\n", _TIMEOUT.replace("SILENCE", "0.05"))),
+        _pick((_INTERFACES, _INTERFACES + _STREAM), ("arm_trajectory:\n", _TIMEOUT.replace("SILENCE", "0.2"))),
+        _pick((_INTERFACES, _INTERFACES + _STREAM), ("arm_trajectory:\n", _TIMEOUT.replace("SILENCE", "0.15"))),
         ("watchdog-below-period", "control.controllers.arm_trajectory.parameters.cmd_timeout"),
     ),
     "a lease of one sample in 100 ms": (
@@ -222,6 +238,16 @@ _PAIRS = {
         _pick((_SCALED, _SCALED + "      parameters: {action_monitor_rate: 5.0}\n")),
         _pick((_SCALED, _SCALED + "      parameters: {action_monitor_rate: 4.0}\n")),
         ("cancel-bound-not-kept", "control.controllers.arm_trajectory.parameters.action_monitor_rate"),
+    ),
+    "an exposure of 32.2 ms at 30 Hz": (
+        _pick(("exposure: 8 ms", "exposure: 32.2 ms")),
+        _pick(("exposure: 8 ms", "exposure: 32.4 ms")),
+        ("exposure-beyond-period", "devices.camera.stamp.exposure"),
+    ),
+    "a Servo that waits for two commands of 20 ms": (
+        _pick(*_SERVED, ("WAITS", "40 ms")),
+        _pick(*_SERVED, ("WAITS", "30 ms")),
+        ("watchdog-below-period", "motion.servo.command_timeout"),
     ),
     "a vendor that stops after 40 ms of silence": (
         _pick(("update_rate: 500 Hz", "update_rate: 50 Hz")),

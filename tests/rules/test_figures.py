@@ -26,6 +26,10 @@ FIGURES = {
     # The goal lies at 850 - 20 mm, the top of the table at 820 + 40/2.
     "goal-inside-scene": "got 10 mm within it",
     "first-motion-cannot-end": "10 deg at 1 deg/s takes 10 s",
+    "grip-too-weak": "at least 3.92 N to hold 0.2 kg in motion, got 1 N",  # 0.2 * (9.81 + 9.81) / (2 * 0.5)
+    "discovery-port-of-many": "got that of participant 75 of domain 17",  # 7400 + 250 * 17 + 11 + 2 * 75 = 11811
+    "taken-discovery-port": "got that of participant 0 of domain 17",  # 7400 + 250 * 17 + 11
+    "exposure-beyond-period": "at most 32.2 ms",
     "uneven-update-rate": "must divide 500 Hz, got 300 Hz",
     # 50 % of 3 rad/s over 500 Hz.
     "unmeetable-tolerance": "must be at least 0.003 rad or m, one update at full speed",

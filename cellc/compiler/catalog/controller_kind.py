@@ -19,6 +19,7 @@ from cellc.compiler.catalog.catalog_model import (
 from cellc.compiler.catalog.device_graph import QosUse
 from cellc.compiler.catalog.device_interfaces import InterfaceName, PluginUse
 from cellc.compiler.catalog.effects import EffectFacts
+from cellc.compiler.catalog.programs import DiscouragedValue
 from cellc.contract.vocabulary import Distro
 
 ParameterType = Literal[
@@ -62,7 +63,7 @@ class ParameterFacts(CatalogModel):
         only: Distributions that declare the parameter; empty for all.
         differs: What one distribution declares otherwise.
         not_played: What the mock does whatever the value is; absent where it plays the value.
-        discouraged: Accepted values that make motion worse, each with what the controller then does.
+        discouraged: Accepted values that make motion worse, or unsafe.
     """
 
     type: ParameterType
@@ -79,7 +80,7 @@ class ParameterFacts(CatalogModel):
     only: tuple[DistroName, ...] = ()
     differs: dict[DistroName, ParameterVariant] = Field(default_factory=dict)
     not_played: Text | None = None
-    discouraged: dict[Text, Text] = Field(default_factory=dict)
+    discouraged: tuple[DiscouragedValue, ...] = ()
 
     def declared_in(self, distro: Distro) -> bool:
         """Tell whether the distribution knows the parameter; an unknown one is ignored silently."""

@@ -205,10 +205,15 @@ class PlannerPlugin(CatalogModel):
 
 
 class PipelineFacts(PlannerPlugin):
-    """A planning pipeline; ``timed`` where it states its own times, ``joint_goals`` where it takes no others."""
+    """A planning pipeline.
+
+    ``timed`` where it states its own times, ``joint_goals`` where it takes no others, ``avoids_nothing`` where it
+    refuses what is in its way.
+    """
 
     timed: bool = False
     joint_goals: bool = False
+    avoids_nothing: bool = False
     capabilities: tuple[Text, ...] = ()
 
 

@@ -127,6 +127,13 @@ def ages_of_goals(cell: Cell) -> Iterator[Pair]:
                 yield Pair(path, subject, topic.max_age_s or 0.0, action.timeout_s or 0.0, because, places)
 
 
+_EXPOSED = 32.2 / (1000.0 / 30.0)
+"""Share of a period for which a camera can expose: above 32.2 ms at 30 Hz it sends every second image alone.
+
+Source: https://github.com/realsenseai/realsense-ros/pull/2612 (2023-02-01).
+"""
+
+
 def exposures(cell: Cell) -> Iterator[Pair]:
     """A camera takes no image while it exposes the one before."""
     fastest: dict[str, Interface] = {}
@@ -136,14 +143,14 @@ def exposures(cell: Cell) -> Iterator[Pair]:
     for device in cell.devices:
         sent, exposure_s = fastest.get(device.name), device.sensing.exposure_s
         if sent is not None and exposure_s and device.sensing.camera is not None:
-            because = f"the period of `{sent.name}`, {_rate_hz(sent):g} Hz"
+            because = f"the period of `{sent.name}`, {_rate_hz(sent):g} Hz, less what lies between two exposures"
             places = (("its rate is here", (*sent.path, "rate")),)
             path, subject = (*device.path, "stamp", "exposure"), f"the exposure of `{device.name}`"
-            yield Pair(path, subject, exposure_s, 1.0 / _rate_hz(sent), because, places)
+            yield Pair(path, subject, exposure_s, _EXPOSED / _rate_hz(sent), because, places)
 
 
 def silences(cell: Cell) -> Iterator[Pair]:
-    """A controller that gives up after a silence hears its next command before."""
+    """A controller that gives up after a silence waits for two commands, so that one that is late stops nothing."""
     silent = {
         controller.label: controller for controller in cell.controllers if number_of(controller.parameters.get(SILENCE))
     }
@@ -153,7 +160,8 @@ def silences(cell: Cell) -> Iterator[Pair]:
                 path, subject = (*controller.path, "parameters", SILENCE), f"`{SILENCE}` of `{controller.name}`"
                 places = (("its rate is here", (*topic.path, "rate")),)
                 silence_s = number_of(controller.parameters.get(SILENCE)) or 0.0
-                yield Pair(path, subject, silence_s, 1.0 / _rate_hz(topic), f"the period of `{topic.name}`", places)
+                bound_s, because = 2.0 / _rate_hz(topic), f"two periods of `{topic.name}`"
+                yield Pair(path, subject, silence_s, bound_s, because, places)
 
 
 SILENCE = "cmd_timeout"

@@ -194,6 +194,24 @@ def servo_timeouts(cell: Cell) -> Iterator[Pair]:
         )
 
 
+def servo_commands(cell: Cell) -> Iterator[Pair]:
+    """Servo waits for two commands at least, so that one that is late halts nothing."""
+    servo, path = cell.servo, ("motion", "servo", "command_timeout")
+    for topic in topics_of(cell) if servo is not None else ():
+        heard = servo is not None and any(sink.node == servo.node for sink in topic.sinks)
+        if servo is not None and heard and topic.type in SERVO_COMMANDS and topic.rate_hz:
+            because = f"two periods of `{topic.name}`, {topic.rate_hz:g} Hz"
+            places = (("its rate is here", (*topic.path, "rate")),)
+            subject = "`command_timeout` of Servo"
+            yield Pair(path, subject, servo.command_timeout_s, 2.0 / topic.rate_hz, because, places)
+
+
+SERVO_COMMANDS = frozenset(
+    {"control_msgs/msg/JointJog", "geometry_msgs/msg/PoseStamped", "geometry_msgs/msg/TwistStamped"}
+)
+"""Types of the topics by which Servo is commanded."""
+
+
 def servo_periods(cell: Cell) -> Iterator[Pair]:
     """The manager takes one command of Servo in each of its cycles; the others are lost."""
     for manager, controller in controllers_of(cell):

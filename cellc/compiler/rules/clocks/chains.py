@@ -41,7 +41,7 @@ ERRORS: Mapping[str, tuple[Inequality, ...]] = {
     "max-age-beyond-timeout": _most(rates.ages_of_goals),
     "wait-below-way": _least(waits.waits_for_sensors),
     "watchdog-below-period": (
-        *_least(waits.adapters, rates.silences, rates.leases),
+        *_least(waits.adapters, waits.servo_commands, rates.silences, rates.leases),
         *_most(waits.servo_timeouts, waits.managers),
     ),
 }

@@ -8,21 +8,17 @@ from cellc.compiler.catalog.controller_kind import ParameterFacts, is_named
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.robot import Impedance, ImpedanceFacts
 from cellc.compiler.graph.claims import written_parameters
+from cellc.compiler.graph.worse_values import worse_values
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 from cellc.contract.vocabulary import TRAJECTORIES
 
 
 @rule(Severity.WARNING)
 def discouraged_parameter(graph: CellGraph) -> Findings:
-    """Yield values that a kind of controllers accepts, of which the catalog says that they make its motion worse."""
-    for parameter in written_parameters(graph.cell):
-        kind = parameter.controller.declared
-        facts = None if kind is None else kind.parameter(parameter.name, graph.cell.distro)
-        does = None if facts is None else facts.discouraged.get(str(parameter.value))
-        if facts is not None and does is not None:
-            subject = f"`{parameter.name}` of `{parameter.controller.name}` is `{parameter.value}`"
-            advice = f"delete the line: the default is `{facts.default}`"
-            yield found(graph, parameter.path, f"{subject}: {does}", advice)
+    """Yield values that a controller or program accepts, of which the catalog says that they make the cell worse."""
+    for one in worse_values(graph.cell):
+        advice = "delete the line" if one.default is None else f"delete the line: the default is `{one.default}`"
+        yield found(graph, one.path, f"`{one.name}` of `{one.owner}` is `{_shown(one.value)}`: {one.does}", advice)
 
 
 @rule(Severity.WARNING, assumes=("refused-impedance",))
@@ -48,15 +44,19 @@ def impedance_without_effect(graph: CellGraph) -> Findings:
 
 @rule(Severity.ERROR)
 def missing_controller_parameter(graph: CellGraph) -> Findings:
-    """Yield controllers without a parameter that is required in the distribution and has no default."""
+    """Yield controllers without a parameter that the distribution requires, or takes no empty value of.
+
+    A parameter that goes to the node is not missing, whether the spec, the device or its kind says its value.
+    """
     for controller in graph.cell.controllers:
         kind = controller.declared
         declared = {} if kind is None else kind.parameters_in(graph.cell.distro)
         for name, facts in declared.items():
-            if kind is None or name == kind.joints_parameter:
-                continue  # where there is no joint to write, another rule says so
-            # One for each name of a list, as in `gains.<joint>.p`, has a default in every kind.
-            if facts.required and facts.default is None and "<" not in name and name not in controller.parameters:
+            # One for each name of a list, as in `gains.<joint>.p`, has a default in every kind; where there is no joint
+            # to write, another rule says so.
+            if kind is None or name in controller.parameters or name == kind.joints_parameter or "<" in name:
+                continue
+            if (facts.not_empty and facts.default in ("", ())) or (facts.required and facts.default is None):
                 message = f"`{controller.kind}` requires `{name}`, but `{controller.name}` does not state it"
                 yield found(graph, controller.path, message, f"write `parameters: {{{name}: ...}}`")
 

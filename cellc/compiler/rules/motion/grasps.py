@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Gripper
@@ -97,3 +98,25 @@ def part_like_nothing(graph: CellGraph) -> Findings:
             stated = f"{graph.cell.text(*path[:-1], 'width')} less {graph.cell.text(*path)}"
             message = f"`width` less `tolerance` of `{frame.name}` must be more than {closed}, got {stated}"
             yield found(graph, path, message, related=(Related("it closes here", span),))
+
+
+_GRAVITY, _FRICTION, _ARM = 9.81, 0.5, 9.81
+"""Two pads with a dry friction hold a part that is accelerated with 1 g beside its weight."""
+
+
+@rule(Severity.WARNING)
+def grip_too_weak(graph: CellGraph) -> Findings:
+    """Yield parts that fall out of the fingers at the stated force, or at the largest where none is stated."""
+    for name, gripper, frame, span in _gripped(graph):
+        mass_kg = None if frame.grasp is None else frame.grasp.mass_kg
+        force = gripper.max_force if gripper.grip_force is None else gripper.grip_force
+        needed = (mass_kg or 0.0) * (_GRAVITY + _ARM) / (2.0 * _FRICTION)
+        if 0.0 < force < needed:
+            mass, stated = (*frame.path, "grasp", "mass"), (*graph.cell.device(name).path, "grip", "force")
+            path, other = (mass, stated) if gripper.grip_force is None else (stated, mass)
+            message = f"two pads of `{name}` must press with at least {needed:.3g} N to hold {mass_kg:g} kg in motion"
+            related = [Related("it closes here", span)]
+            if graph.cell.states(*other):
+                related.insert(0, Related("the part is here", graph.cell.locate(*other)))
+            advice = "take a stronger gripper" if path == mass else f"write at least `{math.ceil(needed)} N`"
+            yield found(graph, path, f"{message}, got {force:g} N", advice, tuple(related))

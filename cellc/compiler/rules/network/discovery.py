@@ -145,15 +145,16 @@ def _meet(one: Nic, other: Nic) -> bool:
     return one.interface.network.overlaps(other.interface.network)
 
 
-_FIRST_PORT, _PORTS_EACH = 7400, 250
-"""Ports of domain 0 begin at the first, and each domain has so many."""
+_FIRST_PORT, _PORTS_EACH, _OF_PARTICIPANTS = 7400, 250, 10
+"""Ports of domain 0 begin at the first, each domain has so many, and its participants begin at the last offset."""
+_MANY = 30
+"""Participants of a computer: more than the programs of a cell with what people start beside them."""
 
 
 @rule(Severity.ERROR, assumes=("domain-id-out-of-range",))
 def taken_discovery_port(graph: CellGraph) -> Findings:
-    """Yield ports of servers in the range of the cell's domain, of a driver's, or of a server before."""
+    """Yield ports of servers that the cell's domain takes first, or a driver's, or of a server before."""
     network = graph.cell.network
-    begin = _FIRST_PORT + _PORTS_EACH * network.domain_id
     taken = {
         (device.site.host, port): f"the driver of `{device.name}`"
         for device in graph.cell.devices
@@ -162,10 +163,35 @@ def taken_discovery_port(graph: CellGraph) -> Findings:
     for number, server in enumerate(network.servers):
         path = ("network", "servers", number, "port")
         owner = taken.setdefault((server.host, server.port), f"`servers` {number}")
-        if begin <= server.port < begin + _PORTS_EACH:
-            owner = f"domain {network.domain_id}, {begin} to {begin + _PORTS_EACH - 1}"
+        participant = _participant(network.domain_id, server.port)
+        if participant is not None and participant < _MANY:
+            which = f"participant {participant}" if participant >= 0 else "every participant"
+            owner = f"{which} of domain {network.domain_id}"
         if owner != f"`servers` {number}":
-            yield found(graph, path, f"{server.port} on `{server.host}` must be free for a server, got one of {owner}")
+            yield found(graph, path, f"{server.port} on `{server.host}` must be free for a server, got that of {owner}")
+
+
+@rule(Severity.WARNING, assumes=("domain-id-out-of-range", "taken-discovery-port"))
+def discovery_port_of_many(graph: CellGraph) -> Findings:
+    """Yield ports of servers that the cell's domain takes only when very many programs run on a computer."""
+    network = graph.cell.network
+    for number, server in enumerate(network.servers):
+        participant = _participant(network.domain_id, server.port)
+        if participant is not None and participant >= _MANY:
+            whose = f"participant {participant} of domain {network.domain_id}"
+            message = f"{server.port} on `{server.host}` should be free for a server, got that of {whose}"
+            yield found(graph, ("network", "servers", number, "port"), message)
+
+
+def _participant(domain_id: int, port: int) -> int | None:
+    """Return the number of the participant that has a port, -1 of all; None where none of the domain has it.
+
+    Source: DDSI-RTPS 2.5, 9.6.2.3, with the default parameters: PB 7400, DG 250, PG 2, d0 0, d1 10, d2 1, d3 11.
+    """
+    offset = port - _FIRST_PORT - _PORTS_EACH * domain_id
+    if offset in (0, 1):
+        return -1
+    return (offset - _OF_PARTICIPANTS) // 2 if _OF_PARTICIPANTS <= offset < _PORTS_EACH else None
 
 
 @rule(Severity.ERROR)

@@ -34,6 +34,44 @@ def second_state_publisher(graph: CellGraph) -> Findings:
                 first.setdefault(part, source)
 
 
+@rule(Severity.ERROR, assumes=("shared-prefix", "device-of-two-managers"))
+def joint_without_state(graph: CellGraph) -> Findings:
+    """Yield broadcasters that are given a list of joints without one whose state nothing else publishes there."""
+    listed = [
+        (manager, controller)
+        for manager in graph.cell.managers
+        for controller in manager.controllers
+        if controller.written_parameters.get("joints") and controller.parameters.get("interfaces")
+    ]
+    for manager, controller in listed:
+        names = {topic.name for topic in controller.own_topics if topic.type == JOINT_STATE_TYPE and topic.publishes}
+        for topic in graph.cell.interfaces:
+            without = _unpublished(graph.cell, manager, controller, topic) if topic.name in names else ()
+            if without:
+                more = f" and {len(without) - 1} more" if len(without) > 1 else ""
+                message = f"`{controller.name}` must publish `{without[0]}`{more}, because nothing else does"
+                path = (*controller.path, "parameters", "joints")
+                yield found(graph, path, message, f"add `{without[0]}`{more}, or delete the list")
+
+
+def _unpublished(cell: Cell, manager: ControllerManager, controller: Controller, topic: Interface) -> tuple[str, ...]:
+    """Return the joints of a manager with a state of their own of which a topic says nothing on a target."""
+    said = set[_Part]()
+    for source in topic.sources:
+        joints = _joints(cell, source)
+        if joints is None:
+            return ()  # of a node, nothing says which joints it publishes
+        said.update(joints)
+    return tuple(
+        joint.name
+        for device in map(cell.device, manager.devices)
+        for joint in device.joints
+        if device.control.hardware is not None and joint.mimics is None and "position" in joint.state_interfaces
+        for target in controller.targets[:1]
+        if target in device.control.hardware.targets and (target, joint.name) not in said
+    )
+
+
 def _parts(cell: Cell, topic: Interface, source: Endpoint, known: Iterable[_Part]) -> Iterator[_Part]:
     """Yield what a publisher speaks of; of joints, a node of which nothing says it speaks of all that have none yet."""
     if topic.type != JOINT_STATE_TYPE:
