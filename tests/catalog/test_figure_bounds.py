@@ -31,6 +31,10 @@ HELD = {
 }
 _CONTROLLER = "a parameter of a plugin means what its documentation says"
 FREE = {
+    **dict.fromkeys(
+        (f"controllers.*.parameters.*.discouraged.*.{key}" for key in ("above", "below", "value", "value.*")),
+        "a value of a parameter, in the unit of its program",
+    ),
     "camera.exposure_parameters.*": "the unit in which a node takes its exposure, whatever that is",
     "control.gpios.*.initial.*": "a signal has the range that the device gives it",
     "control.sensors.*.initial.*": "a reading has the range of its sensor",

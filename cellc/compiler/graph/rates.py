@@ -130,7 +130,7 @@ def ages_of_goals(cell: Cell) -> Iterator[Pair]:
 _EXPOSED = 32.2 / (1000.0 / 30.0)
 """Share of a period for which a camera can expose: above 32.2 ms at 30 Hz it sends every second image alone.
 
-Source: https://github.com/realsenseai/realsense-ros/pull/2612 (2023-02-01).
+Source: the page of `exposure-beyond-period`.
 """
 
 

@@ -16,9 +16,10 @@ from cellc.contract.vocabulary import TRAJECTORIES
 @rule(Severity.WARNING)
 def discouraged_parameter(graph: CellGraph) -> Findings:
     """Yield values that a controller or program accepts, of which the catalog says that they make the cell worse."""
-    for one in worse_values(graph.cell):
-        advice = "delete the line" if one.default is None else f"delete the line: the default is `{one.default}`"
-        yield found(graph, one.path, f"`{one.name}` of `{one.owner}` is `{_shown(one.value)}`: {one.does}", advice)
+    for worse in worse_values(graph.cell):
+        advice = "delete the line" if worse.default is None else f"delete the line: the default is `{worse.default}`"
+        message = f"`{worse.name}` of `{worse.owner}` is `{_shown(worse.value)}`: {worse.does}"
+        yield found(graph, worse.path, message, advice)
 
 
 @rule(Severity.WARNING, assumes=("refused-impedance",))
