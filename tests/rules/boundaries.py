@@ -195,6 +195,21 @@ BOUNDARIES: list[Case] = [
         ("5.9.4", "9.99.99"),
         ("5.9.3", "10.0.0", "10.0.1", "10"),
     ),
+    # Declared with an empty default that may not stay: force_torque_sensor_broadcaster_parameters.yaml, not_empty.
+    *_spec(
+        "missing-controller-parameter",
+        "control: {{controllers: {{force: "
+        "{{type: force_torque_sensor_broadcaster, device: arm, parameters: {value}}}}}}}",
+        ("{sensor_name: x, frame_id: tool0}",),
+        ("{sensor_name: x}",),
+    ),
+    # 85 % of 1.46 m from base to tip are 1.24 m; the floor is 780 mm below the mount.
+    *_spec(
+        "surroundings-within-reach",
+        "surroundings: {{walls: {{none: the nearest is {value} away}}}}",
+        ("1.5 m", "1500 mm", "200 cm", "far"),
+        ("1 m", "900 mm", "40 cm"),
+    ),
     *_spec(
         "parameter-out-of-range",
         "control: {{controllers: {{arm_trajectory: {{parameters: {{action_monitor_rate: {value}}}}}}}}}",

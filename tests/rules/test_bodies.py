@@ -56,6 +56,21 @@ CASES = {
     "box in millimeters": ('box size="0.2 0.2 0.1"', 'box size="200 200 100"', 2, "a measure of the shape must be"),
     "radius of nothing": ('radius="0.04"', 'radius="0.00001"', 3, "a measure of the shape must be"),
     "scale of nothing": ("0.001 0.001 0.001", "0.0000001 0.001 0.001", 4, "the scale of the mesh must be"),
+    # Within 80 by 80 by 200 mm, 1.28 liters: 78 times as dense as water, and a thousandth of it.
+    "mass of another link": (
+        'mass value="2"',
+        'mass value="100"',
+        3,
+        "the density must be from 2 kg/m^3 to 20000 kg/m^3",
+    ),
+    "mass in tons": ('mass value="2"', 'mass value="0.002"', 3, "got 1.56 kg/m^3"),
+    # sqrt(0.00001 / 2) = 2.24 mm; 8 % of 200 mm.
+    "inertia of a screw": (
+        'ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"',
+        'ixx="0.00001" ixy="0" ixz="0" iyy="0.00001" iyz="0" izz="0.00001"',
+        3,
+        "from 16 mm to 700 mm, link `arm`, within its body, which is 200 mm long, got 2.24 mm",
+    ),
     "effort of nothing": ('effort="50"', 'effort="0"', 5, "joint `turn` must have an effort above zero, got 0"),
     "range of nothing": ('lower="-2" upper="2"', 'lower="0" upper="0"', 5, "joint `turn` must have a range"),
     "without ends": (
@@ -96,6 +111,24 @@ def test_a_figure_that_no_machine_has_is_reported_at_its_line(name: str, tmp_pat
     assert ARM.count(old) == 1
     found = said_of(tmp_path, ARM.replace(old, new))
     assert [(at, said in message) for at, message in found] == [(line, True)], found
+
+
+def test_a_figure_of_a_part_of_several_lines_is_reported_at_its_element(tmp_path: Path) -> None:
+    text = ARM.replace('<limit lower="-2"', '\n<limit lower="-2"').replace('velocity="3"', 'velocity="180"')
+    text = text.replace("<inertial><origin", "\n<inertial><origin").replace('mass value="2"', 'mass value="100"')
+    assert sorted(line for line, _ in said_of(tmp_path, text)) == [4, 7]
+
+
+def test_a_mesh_of_millimeters_is_reported_at_its_element(tmp_path: Path) -> None:
+    # One triangle that reaches 250 from its origin, which is 250 m unless it is scaled.
+    corners = "".join(f"vertex {corner}\n" for corner in ("0 0 0", "250 0 0", "0 100 0"))
+    stl = f"solid rod\nfacet normal 0 0 1\nouter loop\n{corners}endloop\nendfacet\nendsolid rod\n"
+    (tmp_path / "rods").mkdir()
+    (tmp_path / "rods" / "rod.stl").write_text(stl, encoding="utf-8")
+    shape = '<collision><geometry>\n<mesh filename="package://rods/rod.stl"{}/></geometry></collision>'
+    assert said_of(tmp_path, ARM.replace(ROD, shape.format(' scale="0.001 0.001 0.001"'))) == []
+    ((line, message),) = said_of(tmp_path, ARM.replace(ROD, shape.format("")))
+    assert (line, "the reach of the mesh must be from" in message, "got 250 m" in message) == (5, True, True)
 
 
 def test_a_fast_joint_is_judged_by_what_it_moves(tmp_path: Path) -> None:

@@ -16,8 +16,8 @@ from cellc.compiler.feasibility.answers import (
     PoseAnswer,
     ViewAnswer,
 )
-from cellc.compiler.feasibility.feasibility import disabled_links, motion_answer
-from cellc.compiler.feasibility.meshes import MeshFault, mesh_faults
+from cellc.compiler.feasibility.feasibility import disabled_links, meeting_links, motion_answer
+from cellc.compiler.feasibility.meshes import MeshFault, mesh_faults, mesh_reach
 
 __all__ = [
     "MARGIN_M",
@@ -33,6 +33,8 @@ __all__ = [
     "PoseAnswer",
     "ViewAnswer",
     "disabled_links",
+    "meeting_links",
     "mesh_faults",
+    "mesh_reach",
     "motion_answer",
 ]

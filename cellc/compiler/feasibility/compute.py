@@ -40,6 +40,7 @@ from cellc.robot.planning import (
     beyond_reach,
     decided_collisions,
     disabled_collisions,
+    meetings,
 )
 
 IK_SEEDS = 24
@@ -69,6 +70,27 @@ def sample_pairs(urdf: str, mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
         return DisabledAnswer((), 0, *_too_long())
     links = tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs)
     return DisabledAnswer(links, samples)
+
+
+_POSTURES = 4000
+"""As many show what meets in one of a thousand postures, and cost half a second for a few pairs."""
+_LEAST_MET, _MOST_MET = 4, 2000
+"""Fewer may be a corner of two coarse shapes; more are shapes that overlap wherever the links are."""
+
+
+def sample_meetings(urdf: str, pairs: Sequence[tuple[str, str]], mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
+    """Find which of some pairs of links meet in postures of the joints, but not with all of them at zero."""
+    try:
+        robot = RobotModel.from_urdf(urdf, mesh_roots=mesh_roots)
+    except ModelError as error:
+        return DisabledAnswer((), 0, str(error))
+    met = meetings(robot, pairs, samples=_POSTURES, rng_seed=RNG_SEED)
+    links = (
+        DisabledLinks(*pair, f"{count * 100.0 / _POSTURES:.2g} %")
+        for pair, count in met.items()
+        if _LEAST_MET <= count <= _MOST_MET
+    )
+    return DisabledAnswer(tuple(sorted(links)), _POSTURES)
 
 
 def _budget() -> Budget:

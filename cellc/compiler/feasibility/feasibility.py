@@ -34,6 +34,26 @@ def disabled_links(graph: CellGraph) -> DisabledAnswer:
     return graph.once(_with_allowed)
 
 
+def meeting_links(graph: CellGraph, pairs: tuple[tuple[str, str], ...]) -> tuple[DisabledLinks, ...]:
+    """Return those of some pairs of links that meet in postures of their joints; ``reason`` is in how many percent.
+
+    Nothing of a description that the planner refuses, and of a pair that meets with all joints at zero.
+    """
+    if not pairs or _refused(graph):
+        return ()
+    urdf = with_shapes_at_hand(shapes_and_joints(graph.cell), graph)
+    question = f"{urdf}\0{pairs!r}"
+    roots = mesh_roots(graph.cell)
+    return _kept("meeting", question, graph, DisabledAnswer, lambda: _met(urdf, pairs, roots)).pairs
+
+
+def _met(urdf: str, pairs: tuple[tuple[str, str], ...], roots: tuple[Path, ...]) -> DisabledAnswer:
+    from cellc.compiler.feasibility.compute import sample_meetings
+
+    stage("pairs of links that are not looked at")
+    return sample_meetings(urdf, pairs, roots)
+
+
 def motion_answer(graph: CellGraph) -> MotionAnswer:
     """Return what poses and goals lead to; an empty answer where the cell has no group to move."""
     return graph.once(_motion) if graph.cell.groups else MotionAnswer()

@@ -12,6 +12,7 @@ from cellc.contract.diagnostics import Span, YamlPath
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import as_options, limits
 from cellc.contract.store.cache import recall
+from cellc.contract.transforms import Vector3
 from cellc.robot.description.meshes import (
     MESH_NOT_FOUND,
     MeshError,
@@ -68,12 +69,27 @@ def mesh_faults(graph: CellGraph) -> tuple[MeshFault, ...]:
     return graph.once(_faults)
 
 
+def mesh_reach(graph: CellGraph, mesh: Mesh) -> Vector3 | None:
+    """Return how far a mesh goes from its origin along each axis, m; None of one that is not there or unusable."""
+    files, facts = graph.once(_read)
+    file = files.get(mesh.filename)
+    known = None if file is None or isinstance(file, MeshError) else facts.get(file)
+    if known is None or known.fault is not None or not known.certain:
+        return None
+    x, y, z = (abs(factor) * length for factor, length in zip(mesh.scale, known.reach, strict=True))
+    return x, y, z
+
+
+def _read(graph: CellGraph) -> tuple[dict[str, MeshFile | MeshError], dict[MeshFile, MeshFacts]]:
+    files = identify_all([mesh for mesh, _ in _meshes(graph)], mesh_roots(graph.cell))
+    mesh_files = readable(files)
+    return files, {file: _facts(file, mesh_files, spec_of(graph)) for file in mesh_files}
+
+
 def _faults(graph: CellGraph) -> tuple[MeshFault, ...]:
     placed = _meshes(graph)
     meshes = [mesh for mesh, _ in placed]
-    files = identify_all(meshes, mesh_roots(graph.cell))
-    mesh_files = readable(files)
-    facts = {file: _facts(file, mesh_files, spec_of(graph)) for file in mesh_files}
+    files, facts = graph.once(_read)
     owners = dict(reversed(placed))  # of each file and scale the first link
     return tuple(
         MeshFault(mesh.filename, why.code, why.message, why.help_text, mesh.span or owner.span, owner.path)

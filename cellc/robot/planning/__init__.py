@@ -9,7 +9,7 @@ find the pairs of links that need no check; ``statics`` has what holds the robot
 from cellc.robot.planning.collision_matrix import DisabledPair, DisabledReason, decided_collisions, disabled_collisions
 from cellc.robot.planning.inverse_kinematics import IkSolution
 from cellc.robot.planning.model import RobotModel
-from cellc.robot.planning.pair_sampling import beyond_reach
+from cellc.robot.planning.pair_sampling import beyond_reach, meetings
 from cellc.robot.planning.planner import Planner
 from cellc.robot.planning.problem import (
     FailureReason,
@@ -53,5 +53,6 @@ __all__ = [
     "decided_collisions",
     "disabled_collisions",
     "holding_efforts",
+    "meetings",
     "time_parameterize",
 ]

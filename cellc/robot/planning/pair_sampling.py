@@ -38,6 +38,23 @@ def draw_configurations(model: RobotModel, *, samples: int, rng_seed: int) -> Ar
     return rows
 
 
+def meetings(model: RobotModel, pairs: Iterable[LinkPair], *, samples: int, rng_seed: int) -> dict[LinkPair, int]:
+    """Count in how many configurations each of some pairs touches, but for those that touch with all joints at zero.
+
+    Args:
+        pairs: names of links that have shapes; others are left out.
+    """
+    shaped = set(shape_links(model))
+    asked = {ordered(*pair) for pair in pairs if shaped.issuperset(pair)}
+    check = PairCheck(model, asked)
+    asked -= check.all_touching(np.asarray(pinocchio.neutral(model.kinematics), dtype=np.float64))
+    counts = dict.fromkeys(sorted(asked), 0)
+    for configuration in draw_configurations(model, samples=samples, rng_seed=rng_seed) if asked else ():
+        for pair in check.all_touching(configuration) & asked:
+            counts[pair] += 1
+    return counts
+
+
 def _range(model: RobotModel, joint: str) -> tuple[float, float]:
     index = model.joint_of(joint)
     if model.kinematics.nqs[index] == 1:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from cellc.compiler.feasibility import mesh_reach
 from cellc.compiler.graph.commissioning import chain_of
 from cellc.compiler.rules.bounds import Bound, Figure, outside, stated
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, rule
@@ -12,8 +13,8 @@ from cellc.contract.fault_declaration import Amount
 from cellc.robot.description.model import Cylinder, Mesh, Sphere
 
 _Owners = Iterator[tuple[YamlPath, object]]
-_THIN_M, _SMALL_M, _HALL_M = 2e-4, 5e-3, 50.0
-"""A foil, a thing that planning need not know, and a hall."""
+_THIN_M, _SMALL_M, _ROOM_M, _HALL_M = 2e-4, 5e-3, 20.0, 50.0
+"""A foil, a thing that planning need not know, a room and a hall."""
 _MAP: YamlPath = ("motion", "octomap")
 
 
@@ -68,6 +69,14 @@ def _meshes(graph: CellGraph) -> Iterator[Figure]:
     for solid in graph.cell.scene:
         if isinstance(solid.shape, Mesh):
             yield Figure((*solid.path, "mesh", "unit"), solid.shape.scale[0], 9e-4, 1.0)
+
+
+def _extents(graph: CellGraph) -> Iterator[Figure]:
+    """Yield how far each mesh goes from its frame in the unit that is stated, or in m."""
+    for solid in graph.cell.scene:
+        reach = mesh_reach(graph, solid.shape) if isinstance(solid.shape, Mesh) else None
+        if reach is not None:
+            yield Figure((*solid.path, "mesh"), max(reach), _SMALL_M, _ROOM_M)
 
 
 def _regions(graph: CellGraph) -> Iterator[Figure]:
@@ -177,6 +186,13 @@ BOUNDS = (
     ),
     Bound(("scene.*.plane", "scene.*.touched.edge"), "the edge of the plane", "m", "from a plate to a hall", _planes),
     Bound(("scene.*.mesh.unit",), "`unit`", "mm", "from a millimeter to a meter", _meshes),
+    Bound(
+        ("scene.*.mesh.unit",),
+        "the reach of the mesh",
+        "mm",
+        "from a small part to a room, in its `unit`, which is a meter where it is not stated",
+        _extents,
+    ),
     Bound(("regions.*.box", "regions.*.yaw"), "the range", "mm", "in which a part can lie", _regions),
     stated("calibrations.*.residual", _calibrations, "residual_m", 1e-6, math.inf, "mm", "what a fit leaves at least"),
     Bound(("uncertainty.repeatability.*",), "the repeatability", "mm", "what arms have by ISO 9283", _repeatability),

@@ -50,6 +50,29 @@ def tcp_off_the_tool(graph: CellGraph) -> Findings:
             yield found(graph, path, f"{message}, got `{device.robot.tcp}`")
 
 
+_SAME_M = 5e-3
+"""Nearer than this a TCP and a tip are one point that was measured twice."""
+
+
+@rule(Severity.WARNING, assumes=("frame-cycle", "tcp-off-the-tool", "tip-off-the-tool-chain"))
+def tcp_beside_the_tips(graph: CellGraph) -> Findings:
+    """Yield TCPs of robot controllers that are at no tip of the planning groups of their arm."""
+    for device in graph.cell.devices:
+        tool, tcp = device.body.tool_frame, device.robot.tcp
+        place = None if tool is None or tcp is None else graph.frames.pose_in(tcp, tool, rigid=True)
+        groups = [group for group in graph.cell.groups if group.base_link in _links(device)]
+        if place is None or tool is None or not groups:
+            continue
+        tips = [graph.frames.pose_in(group.tip_frame, tool, rigid=True) for group in groups]
+        ways = [math.dist(tip.position, place.position) for tip in tips if tip is not None]
+        if len(ways) == len(groups) and min(ways) > _SAME_M:
+            nearest = groups[ways.index(min(ways))]
+            message = f"the TCP of `{device.name}` must be at the tip of a group, got `{tcp}`, {min(ways) * 1e3:.0f} mm"
+            related = (Related("the tip of the group", graph.cell.locate(*nearest.path, "tip")),)
+            message += f" from `{nearest.tip_frame}` of `{nearest.name}`"
+            yield found(graph, (*device.path, "tcp"), message, related=related)
+
+
 @rule(Severity.ERROR)
 def tip_off_the_tool_chain(graph: CellGraph) -> Findings:
     """Yield groups of an arm with a tip that does not come after its tool frame."""

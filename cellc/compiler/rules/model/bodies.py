@@ -8,11 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from cellc.compiler.feasibility import mesh_reach
 from cellc.compiler.graph.frame_tree import ModelJoint, ModelLink
 from cellc.compiler.rules.bounds import Bound, Figure, outside
 from cellc.compiler.rules.described import is_own
 from cellc.compiler.rules.excuses import spared
 from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, rule
+from cellc.contract.diagnostics import Span
 from cellc.contract.frozen import dataclass
 from cellc.robot.description.model import (
     Box,
@@ -53,7 +55,7 @@ def continuous_with_limits(graph: CellGraph) -> Findings:
             message = (
                 f"joint `{part.joint.name}` is continuous, so its limits of {lower:g} and {upper:g} rad are not held"
             )
-            yield Finding(message, part.span, part.path)
+            yield Finding(message, _limit(part), part.path)
 
 
 @rule(Severity.WARNING)
@@ -66,13 +68,15 @@ def limits_of_nothing(graph: CellGraph) -> Findings:
             continue
         if part.joint.type != "continuous" and limit.lower == limit.upper == 0.0:
             message = f"joint `{part.joint.name}` must have a range, got 0 for both of its limits"
-            yield Finding(message, part.span, part.path)
+            yield Finding(message, _limit(part), part.path)
         elif limit.effort == 0.0 and limit.velocity != 0.0:
             message = f"joint `{part.joint.name}` must have an effort above zero, got 0"
-            yield Finding(message, part.span, part.path)
+            yield Finding(message, _limit(part), part.path)
 
 
-_LIGHT_KG = 1e-3
+_LIGHT_KG, _SMALL_M3 = 1e-3, 1e-6
+_CONCENTRATED = 0.08
+"""Share of its length that the radius of gyration of a body is at least: a uniform rod has 0.29, a dumbbell 0.5."""
 _JOINTS = 4
 """An arm has as many."""
 
@@ -156,7 +160,7 @@ def _velocities(graph: CellGraph) -> Iterator[Figure]:
         velocity = None if part.joint.limit is None else part.joint.limit.velocity
         if velocity and part.joint.movable and part.joint.mimic is None:
             most, unit = _FASTEST[part.joint.type]
-            yield Figure(part.path, velocity, 1e-5, most, f"joint `{part.joint.name}`", unit, span=part.span)
+            yield Figure(part.path, velocity, 1e-5, most, f"joint `{part.joint.name}`", unit, span=_limit(part))
 
 
 def _tips(graph: CellGraph) -> Iterator[Figure]:
@@ -165,7 +169,7 @@ def _tips(graph: CellGraph) -> Iterator[Figure]:
         if velocity and part.joint.type == "revolute" and part.joint.mimic is None:
             far = graph.once(_trees)[part.device.name].reach.get(part.joint.child, 0.0)
             why = f"joint `{part.joint.name}` with {velocity:g} rad/s: what arms reach"
-            yield Figure(part.path, velocity * far, most=25.0, because=why, span=part.span)
+            yield Figure(part.path, velocity * far, most=25.0, because=why, span=_limit(part))
 
 
 def _efforts(graph: CellGraph) -> Iterator[Figure]:
@@ -173,7 +177,7 @@ def _efforts(graph: CellGraph) -> Iterator[Figure]:
         effort = None if part.joint.limit is None else part.joint.limit.effort
         if effort and part.joint.movable and part.joint.mimic is None:
             unit = "N" if part.joint.slides else "N m"
-            yield Figure(part.path, effort, 1e-4, 1e5, f"joint `{part.joint.name}`", unit, span=part.span)
+            yield Figure(part.path, effort, 1e-4, 1e5, f"joint `{part.joint.name}`", unit, span=_limit(part))
 
 
 def _ranges(graph: CellGraph) -> Iterator[Figure]:
@@ -183,9 +187,8 @@ def _ranges(graph: CellGraph) -> Iterator[Figure]:
             continue
         if part.joint.type in ("revolute", "prismatic") and part.joint.mimic is None:
             unit, most = ("m", 100.0) if part.joint.slides else ("rad", math.inf)
-            yield Figure(
-                part.path, limit.upper - limit.lower, 1e-4, most, f"joint `{part.joint.name}`", unit, span=part.span
-            )
+            way, why = limit.upper - limit.lower, f"joint `{part.joint.name}`"
+            yield Figure(part.path, way, 1e-4, most, why, unit, span=_limit(part))
 
 
 def _offsets(graph: CellGraph) -> Iterator[Figure]:
@@ -202,26 +205,33 @@ def _masses(graph: CellGraph) -> Iterator[Figure]:
                 (5000.0, "in kg") if not limit else (min(5000.0, 150.0 * limit), "150 times the payload of the arm")
             )
             mass = part.link.inertial.mass
-            yield Figure(part.path, mass, most=most, because=f"link `{part.link.name}`, {why}", span=part.span)
+            yield Figure(part.path, mass, most=most, because=f"link `{part.link.name}`, {why}", span=_weighed(part))
+
+
+def _densities(graph: CellGraph) -> Iterator[Figure]:
+    """Yield the mass of each link by the volume of its simple shapes; a mesh tells no volume."""
+    for part in _links(graph):
+        volume = sum(math.prod(_edges(shape.geometry)) for shape in _simple(part.link))
+        mass = 0.0 if part.link.inertial is None else part.link.inertial.mass
+        if mass > _LIGHT_KG and volume > _SMALL_M3:
+            why = f"link `{part.link.name}`, by the boxes around its shapes"
+            yield Figure(part.path, mass / volume, 2.0, 2e4, why, span=_weighed(part))
 
 
 def _gyrations(graph: CellGraph) -> Iterator[Figure]:
-    """Yield the radius of gyration of each link, which its shapes and what is joined to it bound."""
+    """Yield the radius of gyration of each link, which its shapes and what is joined to it bound on both sides."""
     for part in _links(graph):
         inertial = part.link.inertial
         if inertial is None or inertial.mass <= 0.0 or spared(graph, part.device, "", "impossible-inertia"):
             continue
         largest = max(inertial.ixx, inertial.iyy, inertial.izz)
         if largest > 0.0:
+            longest = max((edge for shape in _simple(part.link) for edge in _edges(shape.geometry)), default=0.0)
+            least = _CONCENTRATED * longest if inertial.mass > _LIGHT_KG else 0.0
             why = f"link `{part.link.name}`, within its body"
-            radius = math.sqrt(largest / inertial.mass)
-            yield Figure(
-                part.path,
-                radius,
-                most=_size(graph.once(_trees)[part.device.name], part.link),
-                because=why,
-                span=part.span,
-            )
+            why += f", which is {longest * 1e3:.0f} mm long" if least else ""
+            most, radius = _size(graph.once(_trees)[part.device.name], part.link), math.sqrt(largest / inertial.mass)
+            yield Figure(part.path, radius, least or -math.inf, most, why, span=_weighed(part))
 
 
 def _centers(graph: CellGraph) -> Iterator[Figure]:
@@ -229,7 +239,34 @@ def _centers(graph: CellGraph) -> Iterator[Figure]:
         if part.link.inertial is not None:
             away = math.hypot(*part.link.inertial.pose.position)
             most = 2.0 * _size(graph.once(_trees)[part.device.name], part.link)
-            yield Figure(part.path, away, most=most, because=f"link `{part.link.name}`", span=part.span)
+            yield Figure(part.path, away, most=most, because=f"link `{part.link.name}`", span=_weighed(part))
+
+
+def _limit(part: ModelJoint) -> Span:
+    """Return where the limits of a joint are written."""
+    limit = part.joint.limit
+    return part.span if limit is None or limit.span is None else limit.span
+
+
+def _weighed(part: ModelLink) -> Span:
+    """Return where the mass of a link is written."""
+    inertial = part.link.inertial
+    return part.span if inertial is None or inertial.span is None else inertial.span
+
+
+def _simple(link: Link) -> tuple[Collision | Visual, ...]:
+    """Return the shapes of a link that collide, else those to look at; none where one of them is a mesh."""
+    shapes = link.collisions or link.visuals
+    return () if any(isinstance(shape.geometry, Mesh) for shape in shapes) else shapes
+
+
+def _edges(shape: Geometry) -> tuple[float, float, float]:
+    """Return the edges of the box around a shape that is no mesh, m."""
+    if isinstance(shape, Cylinder):
+        return 2.0 * shape.radius, 2.0 * shape.radius, shape.length
+    if isinstance(shape, Sphere):
+        return 2.0 * shape.radius, 2.0 * shape.radius, 2.0 * shape.radius
+    return shape.size if isinstance(shape, Box) else (0.0, 0.0, 0.0)
 
 
 def _size(tree: _Tree, link: Link) -> float:
@@ -265,6 +302,15 @@ def _shapes(graph: CellGraph) -> Iterator[Figure]:
                 yield Figure(part.path, measure, 5e-5, 30.0, f"link `{part.link.name}`, in m", span=part.span)
 
 
+def _mesh_extents(graph: CellGraph) -> Iterator[Figure]:
+    for part in _links(graph):
+        for mesh in part.link.collision_meshes():
+            reach = mesh_reach(graph, mesh)
+            if reach is not None:
+                why = f"link `{part.link.name}`, with its scale"
+                yield Figure(part.path, max(reach), 5e-5, 30.0, why, span=mesh.span or part.span)
+
+
 def _scales(graph: CellGraph) -> Iterator[Figure]:
     for part in _links(graph):
         for shape in _occupied(part.link):
@@ -279,9 +325,11 @@ BODIES = (
     Bound(("joint/limit",), "the range", "rad", "", _ranges),
     Bound(("joint/origin",), "the way from its parent", "m", "", _offsets),
     Bound(("link/inertial/mass",), "the mass", "kg", "", _masses),
+    Bound(("link/inertial/mass",), "the density", "kg/m^3", "", _densities),
     Bound(("link/inertial/inertia",), "the radius of gyration", "mm", "", _gyrations),
     Bound(("link/inertial/origin",), "the distance of the center of mass", "mm", "", _centers),
     Bound(("link/collision", "link/visual"), "a measure of the shape", "m", "", _shapes),
+    Bound(("link/collision/mesh",), "the reach of the mesh", "m", "", _mesh_extents),
     Bound(("link/collision/mesh",), "the scale of the mesh", "", "", _scales),
 )
 

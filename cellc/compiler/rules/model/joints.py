@@ -46,9 +46,8 @@ def degrees_as_radians(graph: CellGraph) -> Findings:
         if largest > _FOUR_TURNS:
             turns = largest / (2.0 * math.pi)
             message = f"joint `{part.joint.name}` has a limit of {largest:g} rad, which is {turns:.1f} turns"
-            yield Finding(
-                message, part.span, part.path, f"write {math.radians(largest):.6g} if {largest:g} is in degrees"
-            )
+            advice = f"write {math.radians(largest):.6g} if {largest:g} is in degrees"
+            yield Finding(message, limit.span or part.span, part.path, advice)
 
 
 _BEYOND = 0.1
@@ -145,7 +144,7 @@ def reversed_limits(graph: CellGraph) -> Findings:
         if limit is None or limit.lower is None or limit.upper is None or limit.lower <= limit.upper:
             continue
         message = f"joint `{part.joint.name}` has lower limit {limit.lower:g} above upper limit {limit.upper:g}"
-        yield Finding(message, part.span, part.path)
+        yield Finding(message, limit.span or part.span, part.path)
 
 
 @rule(Severity.ERROR)
