@@ -2,18 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
-from cellc.compiler.cell.device import Device
 from cellc.compiler.feasibility import meeting_links
 from cellc.compiler.rules.described import is_own
 from cellc.compiler.rules.geometry import SOUND_MODEL, USABLE_MESHES
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
-from cellc.compiler.source.compose import compose
-from cellc.compiler.source.document import SourceDocument
-from cellc.compiler.source.text import read_text
-from cellc.contract.diagnostics import Span
 from cellc.robot.description.model import Description
 
 
@@ -21,31 +13,21 @@ from cellc.robot.description.model import Description
 def allowed_pair_that_meets(graph: CellGraph) -> Findings:
     """Yield pairs of an arm that two joints or more move against each other, and that meet in some posture."""
     asked = {
-        frozenset(pair): (device, number)
+        frozenset(pair): device
         for device in graph.cell.devices
-        for number, pair in enumerate(device.body.allowed_collisions)
+        for pair in device.body.allowed_collisions
         if device.kind == "arm" and is_own(graph, device) and _bends(device.body.description, pair)
     }
     pairs = tuple((min(pair), max(pair)) for pair in map(tuple, asked))
     for met in meeting_links(graph, tuple(sorted(pairs))):
-        device, number = asked[frozenset((met.first, met.second))]
+        device = asked[frozenset((met.first, met.second))]
         message = f"`{met.first}` and `{met.second}` of `{device.name}` meet in {met.reason} of all postures, but"
         message += " `allowed_collisions` takes their contact out of every check"
-        related = tuple(Related("the pair is allowed here", span) for span in _written(graph, device, number))
+        links = (device.body.description.link(name) for name in (met.first, met.second))
+        related = tuple(
+            Related(f"`{link.name}`", link.span) for link in links if link is not None and link.span is not None
+        )
         yield found(graph, (*device.path, "model"), message, related=related)
-
-
-def _written(graph: CellGraph, device: Device, number: int) -> Iterator[Span]:
-    """Yield where the folder of the device has the pair."""
-    path = (*device.path, "model")
-    file = Path(graph.cell.locate(*path).file).parent / graph.cell.text(*path) / "device.yaml"
-    shown = file.as_posix()
-    text = read_text(file, shown, graph.cell.locate(*path)).value
-    root = None if text is None else compose(shown, text).value
-    if text is not None and root is not None:
-        document = SourceDocument(shown, {shown: text}, root)
-        if document.has(("allowed_collisions", number)):
-            yield document.locate(("allowed_collisions", number))
 
 
 def _bends(description: Description, pair: tuple[str, str]) -> bool:
