@@ -33,8 +33,8 @@ _TURNS = '<joint name="turn"><command_interface name="position"/></joint>'
 
 # what is replaced, by what, the code, the line
 FAULTS = {
-    "reversed limits": ('lower="-2" upper="2"', 'lower="2" upper="-2"', "reversed-limits", 6),
-    "degrees": ('lower="-2" upper="2"', 'lower="-180" upper="180"', "degrees-as-radians", 6),
+    "reversed limits": ('lower="-2" upper="2"', 'lower="2" upper="-2"', "reversed-limits", 7),
+    "degrees": ('lower="-2" upper="2"', 'lower="-180" upper="180"', "degrees-as-radians", 7),
     "no limit": ('<limit lower="-2" upper="2" velocity="1" effort="10"/>', "", "missing-joint-limits", 6),
     "zero axis": ('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>', "zero-axis", 6),
     "long axis": ('<axis xyz="0 0 1"/>', '<axis xyz="0 0 3"/>', "non-unit-axis", 6),
