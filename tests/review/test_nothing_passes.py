@@ -97,6 +97,22 @@ def test_serial_number_that_was_read_ends_no_calibration(repository: Repository,
     assert {str(change.grade) for change in found.changes} == {"review"}
 
 
+@pytest.mark.parametrize(
+    ("new", "expected"),
+    [
+        ("played_by: operator, mode: remote", "dangerous safety | arm | mode for the program | local -> remote"),
+        (
+            "played_by: shift, mode: local",
+            "dangerous safety | arm | who starts the program | operator -> shift",
+        ),
+    ],
+)
+def test_who_starts_the_program_of_a_robot_is_told_first(
+    new: str, expected: str, repository: Repository, main: Package
+) -> None:
+    assert _changes(repository, main, ("played_by: operator, mode: local", new))[0] == expected
+
+
 def test_a_blocker_that_a_comment_silences_did_not_go(repository: Repository, main: Package) -> None:
     rollback = "rollback: {image: UNKNOWN, configuration: UNKNOWN}"
     silenced = (rollback, f"{rollback}  # cellc: ignore missing-rollback no image yet")

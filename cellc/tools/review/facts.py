@@ -346,6 +346,7 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
         yield from flatten(_without_place(as_json(area)), ("area", area.name))
     for device in cell.devices:
         yield from graded_values(device, ("device", device.name))
+        yield from flatten(as_json(device.robot.program), ("spec", "program", device.name))
     for name, host in cell.hosts.items():
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
     for node in cell.nodes:

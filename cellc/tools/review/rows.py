@@ -28,6 +28,7 @@ _MOVE_GROUP = "file config/moveit/move_group.yaml {_} ros__parameters"
 _STRAIGHT = "robot_description_planning.cartesian_limits"
 _BURNS = "a tool with a lower rating is destroyed"
 _MEET = "arms may meet in it"
+_STARTS = "somebody else, or a program, starts what moves"
 _OTHER = "another device may answer at this address"
 
 _DECLARED: Sequence[Row] = tuple(
@@ -67,6 +68,8 @@ ROWS: Sequence[Row] = (
     Row("check tool_impedance {device}", Graded(_A.SAFETY, "impedance at the tool", Rule.DANGEROUS)),
     Row("check tool_voltage {device} {what}", Graded(_A.SAFETY, "tool connector", Rule.DANGEROUS, why=_BURNS)),
     Row("spec payload {device} ...", Graded(_A.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag")),
+    Row("spec program {device} mode", Graded(_A.SAFETY, "mode for the program", Rule.DANGEROUS, why=_STARTS)),
+    Row("spec program {device} played_by", Graded(_A.SAFETY, "who starts the program", Rule.DANGEROUS, why=_STARTS)),
     Row("spec surroundings {part} none", Graded(_A.SAFETY, "reason why there is nothing", Rule.DANGEROUS)),
     Row("spec surroundings {part} ...", Graded(_A.SAFETY, "what is stated around the arms", Rule.LOST, ordered=False)),
     # Frames and what measured them.
