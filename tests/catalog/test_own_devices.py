@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from cellc.compiler.catalog.load import device_names, read_device
 from cellc.compiler.pipeline import judge
 from cellc.contract.diagnostics import Diagnostic, Severity
+from tests.rules.examples import BASE, Example, diagnose_example
 
 CODES = {"gripper-against-description", "commanded-follower", "pretended-hardware", "mimic-beyond-limits"}
 FINGER = """<link name="{side}"><inertial><origin xyz="0 {center} 0.02"/><mass value="0.06"/>
@@ -150,3 +152,17 @@ def test_fingers_of_which_nothing_tells_where_they_are_get_no_word(tmp_path: Pat
     robot = robot.replace("0 0.005 0.06", "0 0 0.06").replace("0 -0.005 0.06", "0 0 0.06")
     swapped = DEVICE.replace("  open: 40 mm\n  closed: 0 mm", "  open: 0 mm\n  closed: 40 mm")
     assert found(tmp_path, robot, swapped) == []
+
+
+def test_a_mock_on_the_real_target_makes_no_mock_a_driver(tmp_path: Path) -> None:
+    # The mock of every device has the plugin that one of them names for the real target, too.
+    shutil.copytree(BASE / "stage", tmp_path / "two_faced")
+    device = tmp_path / "two_faced" / "device.yaml"
+    text = device.read_text(encoding="utf-8")
+    assert text.count("stage_driver/Hardware") == 1
+    device.write_text(text.replace("stage_driver/Hardware", "mock_components/GenericSystem"), encoding="utf-8")
+    stage = "devices: {stage: {model: ./two_faced, revision: A, firmware: stage 1.0.0}}\n"
+    diagnosed = diagnose_example(Example("yaml", stage), tmp_path)
+    assert [item.code for item in diagnosed if item.code in ("driver-on-mock", "pretended-hardware")] == [
+        "pretended-hardware"
+    ]
