@@ -67,7 +67,8 @@ def test_component_of_another_plugin_is_a_failed_bring_up(
     faults = () if kind is None else (FaultEntry(kind=kind, target="arm", phase=phase, lasting_s=1.0),)
     result, _ = brought_up(load(folder, edited=True).folder, *faults)
     assert result.outcome == "bringup_failure"
-    assert "executes mock_components/GenericSystem, and demo_simulation/Arm only" in result.reason
+    assert "demo_simulation/Arm" in result.reason
+    assert "(cellc executes mock_components/GenericSystem alone.)" in result.reason
 
 
 def with_steps(folder: GeneratedFolder, change: Change) -> GeneratedFolder:

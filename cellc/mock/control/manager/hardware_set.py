@@ -217,14 +217,12 @@ def _reads_in_cycle(component: Component, time_ns: int, rate: int) -> bool:
 def _check_plugin(kind: str, plugin: str) -> None:
     if kind not in ("system", "actuator", "sensor"):
         raise DescriptionError("Discrepancy between robot description file (urdf) and actually exported HW interfaces.")
-    if plugin not in HARDWARE_BEHAVIORS:
+    if kind != "system" or plugin not in HARDWARE_BEHAVIORS:
         known = ", ".join(HARDWARE_BEHAVIORS)
-        raise DescriptionError(f"cellc executes {known}, and {plugin} only in the launched package")
-    if kind != "system":
         raise DescriptionError(
             "Caught exception of type : N9pluginlib20LibraryLoadExceptionE while loading hardware: According to the "
             f"loaded plugin descriptions the class {plugin} with base class type "
-            f"hardware_interface::{kind.capitalize()}Interface does not exist."
+            f"hardware_interface::{kind.capitalize()}Interface does not exist. (cellc executes {known} alone.)"
         )
 
 
