@@ -26,6 +26,9 @@ FIGURES = {
     # The goal lies at 850 - 20 mm, the top of the table at 820 + 40/2.
     "goal-inside-scene": "got 10 mm within it",
     "first-motion-cannot-end": "10 deg at 1 deg/s takes 10 s",
+    "gain-against-vendor": "near the vendor's 6, at most 5 times more or less, got 600",
+    "twins-apart": "got 100% and 24%",
+    "unit-of-another-message": "carries m, by what its messages are, got `mm`",  # REP 103
     "grip-too-weak": "at least 3.92 N to hold 0.2 kg in motion, got 1 N",  # 0.2 * (9.81 + 9.81) / (2 * 0.5)
     "discovery-port-of-many": "got that of participant 75 of domain 17",  # 7400 + 250 * 17 + 11 + 2 * 75 = 11811
     "taken-discovery-port": "got that of participant 0 of domain 17",  # 7400 + 250 * 17 + 11

@@ -153,13 +153,20 @@ class ImageFacts(CatalogModel):
         width: Width of an image in pixels.
         height: Height of an image in pixels.
         bytes_per_pixel: Size of a pixel in bytes, such as ``3`` for RGB.
+        encoding: Encoding of the pixels, such as ``rgb8``, or ``16UC1`` for depth in mm.
         source: Where the resolution is set.
     """
 
     width: int = Field(ge=1, le=100_000)
     height: int = Field(ge=1, le=100_000)
     bytes_per_pixel: int = Field(ge=1, le=64)
+    encoding: Text | None = None
     source: Text
+
+    @property
+    def bytes(self) -> int:
+        """Size of an image in bytes."""
+        return self.width * self.height * self.bytes_per_pixel
 
 
 class StreamFacts(CatalogModel):

@@ -27,7 +27,7 @@ class VersionRow(CatalogModel):
     Attributes:
         part: Part of the device whose versions the row has.
         distro: Distribution for which the row holds; absent for all.
-        product: Product of the firmware, such as ``polyscope_x``.
+        product: Product of the firmware, such as ``polyscope_x``; absent where it has none.
         known: Versions that the source names.
         minimum: Oldest version that works.
         models: Oldest version that knows a model of the family, by the model, where that is a later one.

@@ -84,6 +84,7 @@ class Controller(Entity):
         declared: what the catalog says of its kind: parameters, topics, services.
         own_topics: those of the kind that it has with its parameters.
         calls: full name of a service that it answers → what a call does in the world.
+        vendor_parameters: what the vendor tells it on real hardware, whatever the spec states.
         plugin_parameters: names of parameters that the plugin of a device's own controller has besides.
         parameters: everything that goes to its node, dots for nesting, in the types that it declares.
         written_parameters: those of them that stand under ``parameters:`` in the spec.
@@ -103,6 +104,7 @@ class Controller(Entity):
     declared: Annotated[ControllerKind | None, ELSEWHERE] = None
     own_topics: Annotated[tuple[ControllerTopic, ...], ELSEWHERE] = ()
     calls: Annotated[Mapping[str, Effect], ELSEWHERE] = field(default_factory=dict)
+    vendor_parameters: Annotated[Mapping[str, ParameterValue], ELSEWHERE] = field(default_factory=dict)
     plugin_parameters: Annotated[frozenset[str], ELSEWHERE] = frozenset()
     device: str | None = None
     joints: tuple[str, ...] = ()

@@ -148,7 +148,7 @@ class FieldOfView:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraStream:
-    """One image stream; ``frame`` is a prefixed link, ``view`` and ``image_bytes`` are None where not stated."""
+    """One image stream; ``frame`` is a prefixed link, and what the catalog does not state of the images is None."""
 
     topic: str
     type: str
@@ -157,6 +157,7 @@ class CameraStream:
     rate_hz: float
     view: FieldOfView | None = None
     image_bytes: int | None = None
+    encoding: str | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Annotated
 
-from cellc.compiler.cell.entity import Entity
+from cellc.compiler.cell.entity import ELSEWHERE, Entity
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.contract.faults import FaultKind
 from cellc.contract.frozen import dataclass
@@ -31,6 +32,7 @@ class Pipeline:
     Args:
         timed: it states its own times, and needs no time parameterization.
         joint_goals: it takes goals of joints alone.
+        avoids_nothing: it moves straight, and refuses a motion with something in its way.
         capabilities: of move_group, which it brings along.
     """
 
@@ -40,6 +42,7 @@ class Pipeline:
     parameters: Mapping[str, ParameterValue]
     timed: bool
     joint_goals: bool
+    avoids_nothing: Annotated[bool, ELSEWHERE]
     capabilities: tuple[str, ...]
 
 

@@ -172,6 +172,7 @@ def _controller(
         declared=kind,
         own_topics=tuple(bind_topics(kind, place.namespace, own, parameters, context.distro)),
         calls=dict(_calls(kind, own, context.distro)),
+        vendor_parameters=_vendor_parameters(chosen),
         plugin_parameters=_plugin_parameters(chosen.own),
         device=written.device,
         joints=interfaces.joints,
@@ -213,6 +214,11 @@ def _behavior(chosen: _Chosen, distro: Distro) -> Behavior:
         return usual  # where the upstream plugin is used it takes the factor by parameters of its own
     follows = scaling.state_interface in chosen.plugin.parameters.values()
     return Behavior.SCALED_JOINT_TRAJECTORY if follows else usual
+
+
+def _vendor_parameters(chosen: _Chosen) -> Mapping[str, ParameterValue]:
+    told = chosen.plugin.parameters | ({} if chosen.on_real is None else chosen.on_real.parameters)
+    return told if chosen.bound is None or not told else chosen.bound.names.fill_parameters(told)
 
 
 def _plugin_parameters(own: DeviceController | None) -> frozenset[str]:

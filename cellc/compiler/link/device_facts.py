@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from cellc.compiler.catalog.device_bring_up import CommissioningStep as CommissioningFacts
 from cellc.compiler.catalog.device_bring_up import SafetyStateFacts
-from cellc.compiler.catalog.device_graph import ImageFacts, ViewFacts
+from cellc.compiler.catalog.device_graph import ViewFacts
 from cellc.compiler.catalog.device_model import DeviceModel, PackageFacts
 from cellc.compiler.catalog.robot_facts import HumanStep
 from cellc.compiler.cell.device import (
@@ -296,15 +296,12 @@ def _camera(facts: DeviceModel, known: Placeholders, prefix: str) -> Camera | No
                 frame=prefix + stream.frame,
                 rate_hz=stream.rate.si,
                 view=field_of_view(stream.view),
-                image_bytes=_bytes(stream.image),
+                image_bytes=stream.image.bytes if stream.image else None,
+                encoding=stream.image.encoding if stream.image else None,
             )
             for stream in camera.streams.values()
         ),
     )
-
-
-def _bytes(facts: ImageFacts | None) -> int | None:
-    return None if facts is None else facts.width * facts.height * facts.bytes_per_pixel
 
 
 def field_of_view(facts: ViewFacts | None) -> FieldOfView | None:

@@ -36,6 +36,7 @@ def link_pipelines(spec: CellSpec, document: SourceDocument, distro: Distro) -> 
                 parameters=dict(facts.parameters),
                 timed=facts.timed,
                 joint_goals=facts.joint_goals,
+                avoids_nothing=facts.avoids_nothing,
                 capabilities=facts.capabilities,
             )
         )

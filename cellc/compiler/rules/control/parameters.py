@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from cellc.compiler.catalog.controller_kind import ParameterFacts, is_named
@@ -20,6 +21,26 @@ def discouraged_parameter(graph: CellGraph) -> Findings:
         advice = "delete the line" if worse.default is None else f"delete the line: the default is `{worse.default}`"
         message = f"`{worse.name}` of `{worse.owner}` is `{_shown(worse.value)}`: {worse.does}"
         yield found(graph, worse.path, message, advice)
+
+
+_GAIN = re.compile(r"gains\.(.+)\.[pid]")
+_OTHER_GAIN = 5.0
+"""Ratio above which a loop has another bandwidth, not another tuning."""
+
+
+@rule(Severity.WARNING)
+def gain_against_vendor(graph: CellGraph) -> Findings:
+    """Yield gains of the spec that are many times those of the vendor for the same joint, or a fraction of them."""
+    for parameter in written_parameters(graph.cell):
+        value, usual = parameter.value, parameter.controller.vendor_parameters.get(parameter.name)
+        named = _GAIN.fullmatch(parameter.name)
+        if named is None or not isinstance(value, float) or not isinstance(usual, float) or min(value, usual) <= 0.0:
+            continue
+        if not 1.0 / _OTHER_GAIN <= value / usual <= _OTHER_GAIN:
+            message = f"`{parameter.name}` of `{parameter.controller.name}` must be near the vendor's {usual:g}"
+            advice = "delete the line: the vendor's gain is used"
+            message = f"{message}, at most {_OTHER_GAIN:g} times more or less, got {value:g}"
+            yield found(graph, parameter.path, message, advice)
 
 
 @rule(Severity.WARNING, assumes=("refused-impedance",))

@@ -91,6 +91,40 @@ def type_of_another_distribution(graph: CellGraph) -> Findings:
             )
 
 
+_OF_DEPTH = {"16UC1": "mm", "32FC1": "m"}
+"""Unit of a depth image by its encoding; source: REP 118."""
+_UNITS = frozenset(
+    ("m", "mm", "cm", "km", "um", "in", "rad", "deg", "rad/s", "deg/s", "m/s", "mm/s", "m/s^2", "N", "kN", "N m", "Nm")
+) | {"px", "s", "ms", "us", "K", "degC", "V", "mV", "A", "mA", "%"}
+"""Units that a message could have; other words are the author's own."""
+
+
+@rule(Severity.ERROR)
+def unit_of_another_message(graph: CellGraph) -> Findings:
+    """Yield units of the spec that are not those which the type of a message, or the encoding of an image, fixes."""
+    streams = {
+        (device.name, stream.topic): _OF_DEPTH.get(stream.encoding or "")
+        for device in graph.cell.devices
+        for stream in (() if device.sensing.camera is None else device.sensing.camera.streams)
+    }
+    types = interface_types()
+    for interface in graph.cell.interfaces:
+        if interface.derived or interface.unit is None:
+            continue
+        ends = (streams.get((source.node, interface.name)) for source in interface.sources)
+        facts = types.get(interface.type)
+        fixed = next(filter(None, ends), None) or (None if facts is None else facts.unit)
+        stated = _units(interface.unit)
+        if fixed is not None and stated and stated <= _UNITS and not stated & _units(fixed):
+            message = f"`{interface.name}` carries {fixed}, by what its messages are, got `{interface.unit}`"
+            advice = f"write `unit: {fixed}`, and convert in the consumer"
+            yield found(graph, (*interface.path, "unit"), message, advice)
+
+
+def _units(text: str) -> frozenset[str]:
+    return frozenset(filter(None, (word.strip() for word in re.split(r",| and | or ", text))))
+
+
 _ALIKE = 0.8  # ratio of difflib: one letter in a word of four, two in a word of ten
 
 

@@ -62,6 +62,18 @@ def planner_of_joint_goals(graph: CellGraph) -> Findings:
         yield found(graph, ("motion", "pipelines", 0), message)
 
 
+@rule(Severity.WARNING)
+def straight_planner_first(graph: CellGraph) -> Findings:
+    """Yield a default pipeline that goes around nothing, where another one of the cell does."""
+    pipelines = graph.cell.pipelines
+    around = next((index for index, pipeline in enumerate(pipelines) if not pipeline.avoids_nothing), 0)
+    if pipelines and pipelines[0].avoids_nothing and around:
+        message = f"the default pipeline must go around obstacles, as `{pipelines[around].name}` does, got"
+        related = (Related("this one goes around them", graph.cell.locate("motion", "pipelines", around)),)
+        path = ("motion", "pipelines", 0)
+        yield found(graph, path, f"{message} `{pipelines[0].name}`", related=related)
+
+
 @rule(Severity.ERROR, assumes=("unit-of-another-joint",))
 def pose_outside_limits(graph: CellGraph) -> Findings:
     """Yield each joint of a pose that is below its lower or above its upper limit."""

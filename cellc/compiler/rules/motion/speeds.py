@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from cellc.compiler.cell.device import DeviceJoint
+from cellc.compiler.cell.device import Device, DeviceJoint
 from cellc.compiler.graph.commissioning import tip_bounds
 from cellc.compiler.rules.bounds import Bound, Figure, outside, stated
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.contract.fault_declaration import Amount
 
 _Owners = Iterator[tuple[YamlPath, object]]
@@ -119,3 +119,31 @@ BOUNDS = (
 def implausible_speed(graph: CellGraph) -> Findings:
     """Yield speeds that no joint of the cell reaches, and such that nothing seems to move with."""
     yield from outside(graph, BOUNDS)
+
+
+_TWINS = 4.0
+"""Ratio of shares above which one of two equal arms is not meant."""
+
+
+@rule(Severity.WARNING, assumes=("limit-share-of-nothing", "limit-share-above-full"))
+def twins_apart(graph: CellGraph) -> Findings:
+    """Yield the arm of two equal ones that may be many times as fast as the other."""
+    twins: dict[object, list[Device]] = {}
+    for device in graph.cell.devices:
+        share = device.limits.limit_shares.velocity
+        own = tuple((joint.type, round((joint.velocity or 0.0) / share, 6)) for joint in device.actuated_joints)
+        if device.kind == "arm" and own and any(speed for _, speed in own):
+            twins.setdefault((device.software.packages.driver, own), []).append(device)
+    for same in (same for same in twins.values() if len(same) > 1):
+        slowest = min(same, key=_velocity_share)
+        for device in same:
+            if _velocity_share(device) > _TWINS * _velocity_share(slowest):
+                path, other = (*device.path, "limits", "velocity"), (*slowest.path, "limits", "velocity")
+                message = f"`{device.name}` and `{slowest.name}` are equal arms and must have like limits of velocity,"
+                got = f"got {_velocity_share(device):.0%} and {_velocity_share(slowest):.0%}"
+                related = (Related("the other arm", graph.cell.locate(*other)),)
+                yield found(graph, path, f"{message} {got}", related=related)
+
+
+def _velocity_share(device: Device) -> float:
+    return device.limits.limit_shares.velocity

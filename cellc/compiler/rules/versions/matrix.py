@@ -22,9 +22,9 @@ def firmware_outside_matrix(graph: CellGraph) -> Findings:
     """Yield firmware below the minimum or beyond the range of the rows for its product."""
     for device in graph.cell.devices:
         text = device.software.versions.firmware
-        rows = [
-            row for row in device.software.version_rows if row.part == "firmware" and row.product == text.split()[0]
-        ]
+        product = text.split()[0]
+        firmware = (row for row in device.software.version_rows if row.part == "firmware")
+        rows = [row for row in firmware if row.product in (None, product)]
         numbers = version_numbers(text)
         for row in rows if numbers else ():
             minimum, below = version_numbers(row.minimum or ""), version_numbers(row.below or "")
