@@ -12,8 +12,12 @@ from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, fou
 from cellc.contract.diagnostics import Span
 
 
-def _gripped(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Span]]:
-    """Yield each gripper with each part that it closes on, once, and the first step that does so."""
+def _gripped(graph: CellGraph) -> tuple[tuple[str, Gripper, Frame, Span], ...]:
+    """Return each gripper with each part that it closes on, once, and the first step that does so."""
+    return tuple(_closed(graph))
+
+
+def _closed(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Span]]:
     parts, seen = gripped_parts(graph.cell, graph.frames), set[tuple[str, str]]()
     for step in (step for rehearsal in graph.cell.rehearsals for step in rehearsal.steps):
         part = parts.get(step.path)
@@ -24,7 +28,7 @@ def _gripped(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Span]]:
 
 
 def _stated(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Grasp, float, Span]]:
-    for name, gripper, frame, span in _gripped(graph):
+    for name, gripper, frame, span in graph.once(_gripped):
         if frame.grasp is not None and frame.grasp.width_m is not None:
             yield name, gripper, frame, frame.grasp, frame.grasp.width_m, span
 
@@ -33,7 +37,7 @@ def _stated(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Grasp, floa
 def unknown_grasp(graph: CellGraph) -> Findings:
     """Yield parts that a rehearsal grips and whose width, tolerance or mass is not stated."""
     reported = set[str]()
-    for name, _, frame, span in _gripped(graph):
+    for name, _, frame, span in graph.once(_gripped):
         grasp = frame.grasp
         stated = (
             {} if grasp is None else {"width": grasp.width_m, "tolerance": grasp.tolerance_m, "mass": grasp.mass_kg}
@@ -107,7 +111,7 @@ _GRAVITY, _FRICTION, _ARM = 9.81, 0.5, 9.81
 @rule(Severity.WARNING)
 def grip_too_weak(graph: CellGraph) -> Findings:
     """Yield parts that fall out of the fingers at the stated force, or at the largest where none is stated."""
-    for name, gripper, frame, span in _gripped(graph):
+    for name, gripper, frame, span in graph.once(_gripped):
         mass_kg = None if frame.grasp is None else frame.grasp.mass_kg
         force = gripper.max_force if gripper.grip_force is None else gripper.grip_force
         needed = (mass_kg or 0.0) * (_GRAVITY + _ARM) / (2.0 * _FRICTION)
