@@ -44,6 +44,7 @@ class NetworkFacts(CatalogModel):
         dedicated_link: Whether the device needs a network card of the host for itself.
         by_carrier: Whether the device has no address of its own: it is reached at that of the device on which it is
             mounted.
+        usual_port: Serial or CAN port at which the vendor's own launch files expect this model, such as ``can1``.
         powered: Whether the device answers, and shows its firmware, only while its drives have power.
         realtime: Whether the host needs a real-time kernel; ``required`` and ``recommended`` are checked against the
             kernel of the host.
@@ -54,6 +55,7 @@ class NetworkFacts(CatalogModel):
     default_subnet: Text | None = None
     dedicated_link: bool
     by_carrier: bool = False
+    usual_port: Text | None = None
     powered: bool = False
     realtime: Literal["required", "recommended", "not_needed"]
     source: Text

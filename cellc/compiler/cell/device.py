@@ -172,11 +172,12 @@ class NetworkNeeds:
     """What a device asks: ``realtime`` is required, recommended or not_needed; its driver ``listens`` on ports.
 
     It answers only while its drives are ``powered``, where that is so. A device that is reached ``by_carrier`` has no
-    address of its own.
+    address of its own. The vendor's launch files expect the model at its ``usual_port``, None where they name none.
     """
 
     dedicated_link: bool
     by_carrier: bool
+    usual_port: str | None
     powered: bool
     realtime: str
     listens: tuple[int, ...]

@@ -325,6 +325,7 @@ def network_needs(facts: DeviceModel, known: Placeholders) -> NetworkNeeds | Non
     return NetworkNeeds(
         dedicated_link=network.dedicated_link,
         by_carrier=network.by_carrier,
+        usual_port=network.usual_port,
         powered=network.powered,
         realtime=network.realtime,
         listens=listens,

@@ -84,6 +84,28 @@ def shared_serial_port(graph: CellGraph) -> Findings:
             yield found(graph, path, message, related=related)
 
 
+@rule(Severity.WARNING)
+def port_of_another_model(graph: CellGraph) -> Findings:
+    """Yield a device at the port where the vendor has another model of the cell, and two that changed places once."""
+    placed = [
+        (device, network.usual_port, link.port)
+        for device in graph.cell.devices
+        if (network := device.site.network) is not None
+        and (link := device.site.connection) is not None
+        and None not in (network.usual_port, link.port)
+    ]
+    usual = {port: device for device, port, _ in placed}
+    named: set[str] = set()
+    for device, own, port in placed:
+        other = usual.get(port)
+        if port == own or other is None or other.name in named:
+            continue
+        named.add(device.name)
+        message = f"the vendor has `{device.name}` at `{own}`, got `{port}`, the usual port of `{other.name}`"
+        related = (Related("that device", graph.cell.locate(*other.path, "connection", "port")),)
+        yield found(graph, (*device.path, "connection", "port"), message, related=related)
+
+
 @rule(Severity.ERROR)
 def unused_first_port(graph: CellGraph) -> Findings:
     """Yield stated ports that are not those on which a driver listens."""
