@@ -52,11 +52,13 @@ class Checked:
 
     Attributes:
         excused: what rules found, and comments in the spec take out of the findings.
+        document: what the graph was made of; None without one.
     """
 
     findings: Findings
     graph: CellGraph | None
     excused: tuple[Diagnostic, ...] = ()
+    document: SourceDocument | None = None
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
@@ -104,23 +106,31 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
     if source.value is None or not source.ok:
         texts = {} if source.value is None else source.value.texts
         return _checked(file, texts, source.diagnostics)
+    return check_document(source.value, source.diagnostics)
+
+
+def check_document(document: SourceDocument, read_with: tuple[Diagnostic, ...] = ()) -> Checked:
+    """Link a spec that was read, run every rule on its graph, and take out what comments in the spec excuse.
+
+    Args:
+        read_with: what was found when it was read.
+    """
     stage("linking")
-    texts = source.value.texts
-    if _is_device(Path(path), source.value):
+    file, texts = document.file, document.texts
+    if _is_device(Path(file), document):
         device = finding("not-a-cell", f"`{file}` is a device, not a cell", Span(file, 1, 1, 1, 1))
         return _checked(file, texts, (device,))
-    linked = _linked(source.value)
-    found = [*source.diagnostics, *linked.diagnostics]
+    linked = _linked(document)
+    found = [*read_with, *linked.diagnostics]
     if linked.value is None or not linked.ok:
-        return _checked(file, texts, _unexcused([*found, *_beyond_what_stopped(source.value, linked)], texts))
+        return _checked(file, texts, _unexcused([*found, *_beyond_what_stopped(document, linked)], texts))
     graph = build_graph(linked.value)
     stage("rules")
     found += run_rules(graph)
     kept = _excused(found, texts)
     known = frozenset(kept)
-    return replace(
-        _checked(file, texts, kept, graph), excused=tuple(diagnostic for diagnostic in found if diagnostic not in known)
-    )
+    excused = tuple(diagnostic for diagnostic in found if diagnostic not in known)
+    return replace(_checked(file, texts, kept, graph), excused=excused, document=document)
 
 
 def _linked(document: SourceDocument) -> Outcome[Cell]:

@@ -15,7 +15,8 @@ from cellc.compiler.cell.site import Clock, JointFigure
 from cellc.compiler.cell.switched import Switched
 from cellc.compiler.cell.vendor import Procedures
 from cellc.contract.frozen import dataclass
-from cellc.contract.vocabulary import UNKNOWN, InterfaceKind
+from cellc.contract.grading import FURTHER, Graded, Rule
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, ReviewArea
 
 EVERY_JOINT = "*"
 """Name of what the mock adds to every joint that is commanded."""
@@ -228,7 +229,7 @@ class Software(Part):
 class Sensing(Part):
     """What a sensor measures; ``exposure_s`` is that of the spec, else of the catalog, else zero."""
 
-    stamp: Stamp | None = None
+    stamp: Annotated[Stamp | None, Graded(ReviewArea.TIME, "stamp")] = None
     exposure_s: Annotated[float, ELSEWHERE] = 0.0
     camera: Annotated[Camera | None, ELSEWHERE] = None
 
@@ -239,12 +240,16 @@ class DeviceLimits(Part):
 
     Args:
         payload_limit_kg: what may hang on the flange, tool included.
+        reach_m: from the axis of the first joint, as its vendor gives it.
         repeatability_m: pose repeatability of its tip (ISO 9283).
         tilt_rad: how far from upright its controller compensates gravity.
     """
 
     limit_shares: LimitShares = field(default_factory=LimitShares)
-    payload_limit_kg: Annotated[float | None, ELSEWHERE] = None
+    payload_limit_kg: Annotated[
+        float | None, ELSEWHERE, Graded(ReviewArea.PAYLOAD, "largest payload", Rule.FEWER, "kg")
+    ] = None
+    reach_m: Annotated[float | None, ELSEWHERE, Graded(ReviewArea.LIMITS, "reach", Rule.MORE, "m", why=FURTHER)] = None
     repeatability_m: Annotated[float | None, ELSEWHERE] = None
     tilt_rad: Annotated[float | None, ELSEWHERE] = None
 

@@ -8,8 +8,10 @@ from typing import Annotated
 
 from cellc.compiler.cell.entity import ELSEWHERE, STATED, Part
 from cellc.contract.frozen import dataclass
+from cellc.contract.grading import Graded, Rule
 from cellc.contract.stated import RobotProgram
 from cellc.contract.transforms import Vector3
+from cellc.contract.vocabulary import ReviewArea
 
 Moments6 = tuple[float, float, float, float, float, float]
 """ixx, iyy, izz, ixy, ixz, iyz in kg m^2."""
@@ -191,8 +193,10 @@ class RobotController(Part):
         accepts: what the controller takes.
     """
 
-    payload: Annotated[Payload | None, STATED] = None
-    tcp: Annotated[str | None, STATED] = None
+    payload: Annotated[
+        Payload | None, STATED, Graded(ReviewArea.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag")
+    ] = None
+    tcp: Annotated[str | None, STATED, Graded(ReviewArea.PAYLOAD, "TCP", Rule.DANGEROUS, why="the TCP moves")] = None
     program: Annotated[RobotProgram | None, STATED] = None
     collision: Annotated[CollisionThresholds | None, STATED] = None
     impedance: Annotated[Impedance | None, STATED] = None

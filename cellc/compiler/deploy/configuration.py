@@ -41,7 +41,7 @@ _NOT_OF_AN_ENTITY = frozenset(
     {
         *("span", "places", "declared", "own_topics", "owner"),
         *("endpoints", "inside", "version_rows", "commissioning", "mock_cannot_prove"),  # the catalog's
-        "vendor_mounts",  # the catalog's
+        *("vendor_mounts", "reach_m"),  # the catalog's
         "vendor_description",  # its shapes are those of the links
         "fixed_joint_names",  # a fact of the driver, which the names of the cell follow
         *("plug", "tool_facts", "load_service", "impedance_facts"),  # settings that a tool and its connector accept

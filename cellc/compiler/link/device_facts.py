@@ -99,10 +99,12 @@ def device_sensing(facts: DeviceModel, written: DeviceSpec, known: Placeholders,
 
 def device_limits(facts: DeviceModel, written: DeviceSpec) -> DeviceLimits:
     """Return what a device may do as a whole."""
-    payload, repeatability, tilt = facts.limits.payload, facts.limits.repeatability, facts.limits.tilt
+    payload, reach = facts.limits.payload, facts.limits.reach
+    repeatability, tilt = facts.limits.repeatability, facts.limits.tilt
     return DeviceLimits(
         limit_shares=limit_shares(written),
         payload_limit_kg=None if payload is None else payload.value.si,
+        reach_m=None if reach is None else reach.value.si,
         repeatability_m=None if repeatability is None else repeatability.value.si,
         tilt_rad=None if tilt is None else tilt.value.si,
     )

@@ -67,7 +67,6 @@ ROWS: Sequence[Row] = (
     Row("check joint_impedance {device}", Graded(_A.SAFETY, "impedance of the joints", Rule.DANGEROUS)),
     Row("check tool_impedance {device}", Graded(_A.SAFETY, "impedance at the tool", Rule.DANGEROUS)),
     Row("check tool_voltage {device} {what}", Graded(_A.SAFETY, "tool connector", Rule.DANGEROUS, why=_BURNS)),
-    Row("spec payload {device} ...", Graded(_A.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag")),
     Row("spec program {device} mode", Graded(_A.SAFETY, "mode for the program", Rule.DANGEROUS, why=_STARTS)),
     Row("spec program {device} played_by", Graded(_A.SAFETY, "who starts the program", Rule.DANGEROUS, why=_STARTS)),
     Row("spec surroundings {part} none", Graded(_A.SAFETY, "reason why there is nothing", Rule.DANGEROUS)),
@@ -223,6 +222,9 @@ FOLLOWS: Sequence[str] = (
     "file config/moveit/controllers.mock.yaml ...",
     "file config/moveit/controllers.real.yaml ...",
     "right ...",
+    "device {device} payload ...",
+    "device {device} tcp",
+    "device {device} stamp ...",
     "spec ...",
 )
 """Values that repeat others: listed where no other change explains them, by their row or without one."""

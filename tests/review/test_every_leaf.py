@@ -1,0 +1,55 @@
+"""Nothing is passed over: every scalar of every spec, changed alone to another valid value, is a fact with a name.
+
+A session takes one leaf of eighteen, another of them in each cell; with ``--long`` every leaf of every cell is tried.
+"""
+
+from __future__ import annotations
+
+import zlib
+from functools import cache
+
+import pytest
+
+from cellc.compiler.pipeline import check
+from cellc.contract.review import Review
+from cellc.tools.review.review import review
+from cellc.tools.review.sides import Package, package_of
+from tests.cells import EVERY_CELL, spec_of
+from tests.review.leaves import SpecLeaf, changed, leaves_of
+
+_SHARE = 18
+WITHOUT_EFFECT: dict[str, str] = {}
+"""Keys whose text reaches nothing, and why: no evidence, no file and no person at the cell depends on it."""
+
+
+@cache
+def _before(cell: str) -> Package:
+    return package_of("main", check(spec_of(cell)))
+
+
+def _names_a_fact(found: Review) -> bool:
+    """Whether a change has a name of its own, and is not a line of a file or a value that no file shows."""
+    return any(
+        "(not classified)" not in change.quantity and "that no file of the package shows" not in change.quantity
+        for change in found.changes
+    )
+
+
+def _is_taken(leaf: SpecLeaf, *, every: bool) -> bool:
+    return every or zlib.crc32(leaf.name.encode()) % _SHARE == 0
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_a_leaf_that_changed_is_a_fact_with_a_name(cell: str, request: pytest.FixtureRequest) -> None:
+    taken = [leaf for leaf in leaves_of(cell) if _is_taken(leaf, every=request.config.option.long)]
+    silent, tried = dict[str, str](), 0
+    for leaf in taken:
+        other = changed(leaf)
+        if other is None or leaf.key in WITHOUT_EFFECT:
+            continue
+        text, checked = other
+        tried += 1
+        if not _names_a_fact(review(_before(cell), package_of("after", checked))):
+            silent[leaf.name] = f"{leaf.text} -> {text}"
+    assert not silent
+    assert tried > 0.5 * len(taken) or len(taken) < 40
