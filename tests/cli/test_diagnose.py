@@ -76,7 +76,8 @@ def test_command_to_copy_holds_a_hostile_name_as_one_word(tmp_path: Path) -> Non
 def test_sentence_without_quotes_is_read_as_users_write() -> None:
     ran = run("diagnose", *["robot", "drops", "when", "brakes", "release"])
     assert ran.code == 0
-    assert ran.out.startswith("tool and load: the arm sags or drops as brakes open or a controller takes over\n")
+    assert ran.out.startswith("likely, not sure: tool and load\none question decides: ")
+    assert "\ntool and load: the arm sags or drops as brakes open or a controller takes over\n" in ran.out
     assert "the device counts with less load than hangs on it" in ran.out
 
 
@@ -108,3 +109,21 @@ def test_unknown_symptom_gets_the_question_that_narrows_most() -> None:
 def test_words_that_look_like_options_belong_to_the_sentence() -> None:
     assert run("diagnose", "joint", "is", "off", "by", "-90", "deg", "after", "homing").code == 0
     assert run("diagnose", "--lgo", "x").code == 2
+
+
+def test_folder_of_a_spec_stands_for_the_spec_and_another_folder_is_no_word(tmp_path: Path) -> None:
+    folder = Path(PICK).parent.as_posix()
+    assert run("diagnose", "topic exists, no data", folder).out == run("diagnose", "topic exists, no data", PICK).out
+    ran = run("diagnose", "arm", "sags", tmp_path.as_posix())
+    assert (ran.code, "got a folder without cell.yaml" in ran.err) == (2, True)
+
+
+def test_log_is_answered_as_its_lines_are_when_pasted(tmp_path: Path) -> None:
+    lines = [
+        "[ERROR] [1795859474.1] [arm_driver]: open /dev/ttyUSB0: Permission denied",
+        "[ERROR] [1795859475.1] [arm-1]: process has died [pid 7, exit code 1, cmd 'arm']",
+    ]
+    (tmp_path / "a.log").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    pasted = run("diagnose", "\n".join(lines)).out
+    assert pasted.startswith("not sure: network and discovery, or lifecycle?\none question decides: ")
+    assert run("diagnose", "--log", tmp_path.as_posix()).out.endswith(f"\n\n{pasted}")

@@ -37,9 +37,7 @@ def test_sentences_of_users_are_led_to_the_layer_of_their_cause() -> None:
     missed = [str(THREADS[thread]["says"]) for thread in found if not layers[thread] & set(layers_of(found[thread]))]
     assert len(THREADS) >= 60
     assert len(missed) <= len(THREADS) // 10, missed
-    certain = {thread: layers_of(each)[0] for thread, each in found.items() if is_certain(each)}
-    assert certain
-    assert [thread for thread, layer in certain.items() if layer not in layers[thread]] == []
+    assert [thread for thread, each in found.items() if is_certain(each)] == []  # words alone make nothing certain
 
 
 def safe_layers(case: Mapping[str, object]) -> set[str]:

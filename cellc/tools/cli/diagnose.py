@@ -12,6 +12,8 @@ from cellc.contract.printing import refuse, show
 from cellc.tools.cli.findings import linked
 from cellc.tools.cli.limit_option import limit_option
 
+_SPEC = "cell.yaml"
+
 
 @click.command(context_settings={"ignore_unknown_options": True})  # a pasted line has `--ros-args`, a sentence `-5 mm`
 @click.argument("words", nargs=-1, metavar="[SYMPTOM]... [FILE]", type=click.Path(path_type=str))
@@ -27,13 +29,13 @@ def diagnose(words: tuple[str, ...], logs: Path | None) -> None:
     """Say which layer SYMPTOM, a sentence or pasted log lines, points to, and what rules out each cause.
 
     No quotes are needed. Up to three symptoms are proposed, each with its causes and the read-only observation that
-    rules each one out. Where more than one layer fits, the answer begins with `not sure` and the one question that
-    decides. Without SYMPTOM, list all known symptoms. With FILE, a cell spec, the commands use the controllers, topics
-    and frames of that cell. Nothing is executed, and no command bypasses a protection. Exit code 1 if no known symptom
-    fits; the nearest are listed, with the question that narrows most.
+    rules each one out. Unless a line names the cause, the answer begins with `not sure` and the one question that
+    decides. Without SYMPTOM, list all known symptoms. With FILE, a cell spec or the folder of its cell.yaml, the
+    commands use the controllers, topics and frames of that cell. Nothing is executed, and no command bypasses a
+    protection. Exit code 1 if no known symptom fits; the nearest are listed, with the question that narrows most.
 
     With --log, read folders such as `~/.ros/log` and journals (`journalctl -o short` or `-o json`), and name the layer
-    that spoke first, in the order of time over all files; an error that no symptom has is classified by its words.
+    that spoke first, in the order of time over all files; its first errors are answered as if they had been pasted.
     Exit code 0 if nothing was found, 1 if something was.
 
     \b
@@ -68,9 +70,8 @@ def _classify(symptom: str, file: str | None) -> None:
 
 def _search(path: Path, file: str | None) -> None:
     from cellc.tools.diagnose.diagnose import diagnose as answer_to
-    from cellc.tools.diagnose.diagnose import suspicion_of
     from cellc.tools.diagnose.logs import LogError, search
-    from cellc.tools.report.diagnosis_text import render_answer, render_suspicions
+    from cellc.tools.report.diagnosis_text import render_answer
     from cellc.tools.report.log_text import render_searched
 
     cell = _cell(file)
@@ -80,20 +81,20 @@ def _search(path: Path, file: str | None) -> None:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
     show(*render_searched(searched))
-    first = searched.first
-    if first is not None:
-        show("", *render_suspicions((suspicion_of(first.match, first.text, cell),)))
-    elif searched.unread is not None:
-        show("", *render_answer(answer_to(searched.unread.text, cell)))
-    if first is not None or searched.unread is not None:
+    if searched.told:
+        show("", *render_answer(answer_to(searched.told, cell)))
         raise click.exceptions.Exit(1)
 
 
 def _read(words: tuple[str, ...], *, is_alone: bool) -> tuple[str, str | None]:
-    """Return the symptom, and the spec where the last word names a file."""
+    """Return the symptom, and the spec where the last word names a file, or a folder with one."""
     *symptom, last = words or ("",)
     if words and words[0].startswith("-"):
         raise click.NoSuchOption(words[0])
+    if os.path.isdir(last) and os.path.isfile(os.path.join(last, _SPEC)):
+        last = os.path.join(last, _SPEC)
+    elif os.path.isdir(last) and os.sep in last:
+        raise click.UsageError(f"`{last}` must be a cell spec, got a folder without {_SPEC}; `--log` takes logs.")
     if not last.endswith((".yaml", ".yml")) and not os.path.isfile(last):
         return " ".join(words), None
     if not symptom and not is_alone:

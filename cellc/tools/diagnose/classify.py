@@ -1,34 +1,32 @@
 """Which symptoms a text is like, how sure that is, and the one question that decides where it is not.
 
-A layer is certain where the text is the name of a symptom, holds a text of a source that is long or names something, or
-where it has a whole phrase that weighs enough, says most of what the text says, and no other layer comes near it. All
-else is a proposal.
+A layer is certain where the text is the name of a symptom, or has a line that names the cause and none that names the
+cause in another layer. All else is a proposal: first other lines that programs write and errors of the operating system
+whose object is told, then what is like the words, at last lines that any failure leads to.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import islice
 
-from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, length, plain
+from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, length, plain, spoken
+from cellc.tools.diagnose.os_errors import os_errors
 from cellc.tools.diagnose.symptoms import LayerKnowledge, Symptom, knowledge, questions, synonyms
 from cellc.tools.diagnose.words import Likeness, Words
 
 _AT_MOST = 3
 _LEAST_POINTS = 600
 """Of a symptom none of whose phrases a text has as a whole: less is no likeness."""
-_CERTAIN_WHOLE = 800
-"""Weight of a phrase that makes certain: two rare words, or three."""
-_CERTAIN_SHARE = 0.6
-"""Part of what a text says that this phrase has to be."""
+_LEAST_BESIDES = 1500
+"""Of a symptom by its words beside a line that shows one."""
 _AHEAD = 1.8
-"""How many times the points of the best of another layer make a layer likely; certain with such a phrase alone."""
+"""How many times the points of the best of another layer make a layer likely."""
 _NEAR = 0.4
 """Part of the points of the best that a further proposal has."""
-_CERTAIN_TEXT = 20
-"""Letters of a text of a source that is found nowhere else by chance."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +37,16 @@ class Match:
     symptom: Symptom
     named: Named = ()
     template: str = ""
+
+    @property
+    def names_cause(self) -> bool:
+        """The line says by itself what went wrong."""
+        return self.template in self.symptom.names_cause
+
+    @property
+    def says_little(self) -> bool:
+        """Any failure may lead to the line."""
+        return not self.template or self.template in self.symptom.says_little
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +70,7 @@ class Classified:
 
     Attributes:
         matches: up to three symptoms, the best first.
-        question: what decides between their layers; None where the first one's layer is certain, or nothing fits.
+        question: what decides between them; None where the first one's layer is certain, or nothing fits.
         fits: False where the matches are merely the nearest.
     """
 
@@ -84,24 +92,31 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     if asked:
         return Classified(tuple(asked))
     logged = _logged(known, plain(text)) or _logged(known, plain(text), is_typed=True)
-    if logged and (logged[0].named or length(logged[0].template) >= _CERTAIN_TEXT):
-        return Classified(tuple(logged[:_AT_MOST]))
+    causes = [match for match in logged if match.names_cause]
+    if len({match.layer.layer for match in causes}) == 1:
+        return Classified(tuple(causes[:_AT_MOST]))
     possible = [match for match in known if _is_of(match, drivers)]
-    words = _words_of(possible)
-    like = words.likenesses(text)
-    best = _proposed([*logged, *_near(like, possible)])
-    if not logged and (not like or (like[0].points < _LEAST_POINTS and not like[0].whole)):
+    like = _words_of(possible).likenesses(_besides(logged, spoken(text)))
+    told, untold = _failed_calls(known, text)
+    said = [*causes, *(match for match in logged if not match.names_cause and not match.says_little), *told]
+    least = _LEAST_BESIDES if said else _LEAST_POINTS
+    is_like = bool(like) and (like[0].points >= least or (not said and like[0].whole > 0))
+    near = list(_near(like, possible, _LEAST_BESIDES if said else 0))
+    little = [*untold, *(match for match in logged if match.says_little)]
+    best = _proposed([*said, *near, *little] if is_like else [*said, *little, *near])
+    if not is_like and not said and not little:
         return Classified(best, fits=False)
-    is_ahead = not logged and _is_ahead(like, possible)
-    if is_ahead and like[0].whole >= max(_CERTAIN_WHOLE, _CERTAIN_SHARE * words.weight(text)):
-        return Classified(best)
+    is_ahead = not logged and not told and _is_ahead(like, possible) if like else False
     return Classified(best, _question(best, is_ahead=is_ahead))
 
 
 def logged(text: str) -> tuple[Match, ...]:
     """Return the symptoms that a log line shows, the longest text of a source first: no words are guessed from."""
     pasted = plain(text)
-    return tuple(_logged(_known(), pasted)) if any(begin in pasted for begin in _begins()) else ()
+    found = _logged(_known(), pasted) if any(begin in pasted for begin in _begins()) else []
+    told, untold = _failed_calls(_known(), pasted)
+    little = [match for match in found if match.says_little]
+    return (*(match for match in found if not match.says_little), *told, *little, *untold)
 
 
 @cache
@@ -115,6 +130,25 @@ def _begins() -> tuple[str, ...]:
     return tuple(sorted({fixed_begin(text) for match in _known() for text in match.symptom.logged}))
 
 
+def _failed_calls(known: Sequence[Match], text: str) -> tuple[list[Match], list[Match]]:
+    """Return what errors of the operating system mean: those whose object is told, and the others."""
+    by_name = {match.symptom.name: match for match in known}
+    told: list[Match] = []
+    untold: list[Match] = []
+    for meaning in os_errors(text):
+        if meaning.symptom in by_name:
+            match = by_name[meaning.symptom]
+            named = (("error", meaning.error), *((("object", meaning.kind),) if meaning.kind else ()))
+            (told if meaning.kind else untold).append(Match(match.layer, match.symptom, named))
+    return told, untold
+
+
+def _besides(logged: Sequence[Match], text: str) -> str:
+    """Return a text without the lines that any failure leads to: their words say nothing more."""
+    begins = {fixed_begin(match.template) for match in logged if match.says_little}
+    return re.sub("|".join(map(re.escape, begins)), " ", text, flags=re.IGNORECASE) if begins else text
+
+
 def _is_of(match: Match, drivers: Collection[str] | None) -> bool:
     of = match.symptom.drivers
     return drivers is None or not of or any(driver in drivers for driver in of)
@@ -126,8 +160,11 @@ def _words_of(known: Sequence[Match]) -> Words:
     return Words(table.words, [match.symptom.said for match in known], heard, table.together, table.ignored)
 
 
-def _near(like: Sequence[Likeness], possible: Sequence[Match]) -> Iterator[Match]:
-    """Yield what comes near the likest; at last the likest of another layer, however far it is."""
+def _near(like: Sequence[Likeness], possible: Sequence[Match], least: float) -> Iterator[Match]:
+    """Yield what comes near the likest; at last the likest of another layer, unless it has less than asked for."""
+    like = [each for each in like if each.points >= least]
+    if not like:
+        return
     yield from (possible[each.number] for each in like if each.points >= _NEAR * like[0].points)
     others = (possible[each.number] for each in like if possible[each.number].layer != possible[like[0].number].layer)
     yield from islice(others, 1)
@@ -154,12 +191,18 @@ def _is_ahead(like: Sequence[Likeness], possible: Sequence[Match]) -> bool:
 
 
 def _question(matches: Sequence[Match], *, is_ahead: bool) -> Question:
-    """Return what decides between the layers of some proposals, or whether the first one's is right."""
-    layers = {match.layer.layer for match in matches[: 1 if is_ahead else _AT_MOST]}
+    """Return what separates the first proposal from the others best: its own question, or that of the two layers."""
+    first, *rest = matches
+    if first.symptom.ask is not None:
+        return Question(first.symptom.ask, (first,), tuple(rest), is_ahead)
+    other = next((match.layer.layer for match in rest if match.layer.layer != first.layer.layer), None)
+    layers = {first.layer.layer} if is_ahead or other is None else {first.layer.layer, other}
+    of_both = (each for each in questions().between if set(each.layers) == layers)
+    between = next(of_both, None)
     asked = next(question for question in questions().deciding if question.layer in layers)
-    yes = tuple(match for match in matches if match.layer.layer == asked.layer)
-    no = tuple(match for match in matches if match.layer.layer != asked.layer)
-    return Question(asked.ask, yes, no, is_ahead)
+    ask, layer = (asked.ask, asked.layer) if between is None else (between.ask, between.layers[0])
+    yes = tuple(match for match in matches if match.layer.layer == layer)
+    return Question(ask, yes, tuple(match for match in matches if match not in yes), is_ahead)
 
 
 def _logged(known: Sequence[Match], pasted: str, *, is_typed: bool = False) -> list[Match]:

@@ -16,6 +16,12 @@ Named = tuple[tuple[str, str], ...]
 
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _HOLE = re.compile(r"\{(\w*)\}")
+_MINOR = re.compile(r"\[ ?(?:INFO|DEBUG)\]")
+_UNSAID = re.compile(
+    r"\[[\w .-]+-\d+\]|\[ ?(?:INFO|DEBUG|WARN|WARNING|ERROR|FATAL)\]|\[\d[\d. ,-]*\]:?|, cmd '[^']*'?|\[pid \d+"
+    r"|(?<![\w/])/(?!dev/)[\w.+~-]+(?:/[\w.+~-]+){2,}|0x[0-9a-fA-F]+|\b\d{4,}(?:\.\d+)?\b"
+)
+"""Of a log line: its process, level and time, a command, a path that is no device, and long numbers."""
 _LONGEST_NAME = 200
 _AROUND = " '\"`.,:;()[]!"
 _REST = "reason"
@@ -25,6 +31,13 @@ _NEXT_LINE = " ["
 def plain(text: str) -> str:
     """Return a pasted text as one line without colors."""
     return " ".join(_COLOUR.sub("", text).split())
+
+
+def spoken(text: str) -> str:
+    """Return what a text says in words: without heads, paths, commands and numbers, and without lines of no gravity."""
+    lines = _COLOUR.sub("", text).splitlines()
+    grave = [line for line in lines if not _MINOR.search(line)]
+    return "\n".join(_UNSAID.sub(" ", line) for line in grave or lines)
 
 
 def found_in(template: str, text: str) -> Named | None:

@@ -25,6 +25,9 @@ _HEAD = 8192
 _READ_WHOLE = 1000
 """Lines of a file of which each is read for its time; later ones of no gravity are passed over."""
 _MOST_FILES = 10_000
+_MOST_ODD = 5
+"""Errors of a file that no symptom has which are kept."""
+_MOST_TOLD = 8
 _QUARTER_NS = 15 * 60 * 1_000_000_000
 """Zones are whole quarters of an hour away from UTC."""
 
@@ -82,6 +85,7 @@ class Searched:
         spoken: in the order of time, at last those without one.
         unread: None where every error is one that a symptom has.
         notes: what was left out, or is less certain, one line each.
+        odd: the first errors that no symptom has, in the order of time.
     """
 
     spoken: tuple[Spoken, ...]
@@ -89,6 +93,14 @@ class Searched:
     lines: int
     notes: tuple[str, ...]
     unread: Unread | None = None
+    odd: tuple[Unread, ...] = ()
+
+    @property
+    def told(self) -> str:
+        """The first errors, a line each; the first warning where there is no error; empty where there is neither."""
+        grave: list[Spoken | Unread] = [each for each in self.spoken if each.gravity is not Gravity.WARNING]
+        lines = sorted([*grave, *self.odd], key=_order) or self.spoken[:1]
+        return "\n".join(dict.fromkeys(each.text for each in lines[:_MOST_TOLD]))
 
     @property
     def first(self) -> Spoken | None:
@@ -110,7 +122,7 @@ class _File:
         offset_ns: how far its local time is ahead of UTC.
         epoch_ns: the first time whose zone is known.
         passed: the line before, where it was passed over.
-        odd: the first error that no symptom has.
+        odd: the first errors that no symptom has; ``odd_count`` all of them.
         unstated: what its times do not state.
     """
 
@@ -121,7 +133,8 @@ class _File:
     offset_ns: int | None = None
     epoch_ns: int | None = None
     passed: str = ""
-    odd: tuple[Stamp | None, Unread] | None = None
+    odd: list[tuple[Stamp | None, Unread]] = field(default_factory=list)
+    odd_count: int = 0
     unstated: dict[str, None] = field(default_factory=dict)
 
 
@@ -235,11 +248,10 @@ def _take(found: _File, line: str, before: Stamp | None) -> Stamp | None:
 
 
 def _take_odd(found: _File, text: str, stamp: Stamp | None) -> None:
-    """Keep an error that no symptom has; of several the first."""
-    if found.odd is None:
-        found.odd = (stamp, Unread(None, found.name, found.lines, _shown(text)))
-    else:
-        found.odd = (found.odd[0], replace(found.odd[1], count=found.odd[1].count + 1))
+    """Count an error that no symptom has, and keep the first of them."""
+    found.odd_count += 1
+    if len(found.odd) < _MOST_ODD:
+        found.odd.append((stamp, Unread(None, found.name, found.lines, _shown(text))))
 
 
 def _shown(text: str) -> str:
@@ -266,7 +278,8 @@ def _joined(files: list[_File], notes: list[str]) -> Searched:
             if key not in first or _order(timed) < _order(first[key]):
                 first[key] = timed
     ordered = sorted((replace(each, count=counts[key]) for key, each in first.items()), key=_order)
-    unread = _first_unread(files, epochs)
+    odd = _first_odd(files, epochs)
+    unread = replace(odd[0], count=sum(file.odd_count for file in files)) if odd else None
     uncertain = [
         f"{file.name}: its times state no {' and no '.join(file.unstated)}: its order among other files may be wrong"
         for file in files
@@ -274,12 +287,12 @@ def _joined(files: list[_File], notes: list[str]) -> Searched:
     ]
     timeless = [f"{each.file}: line {each.line} has no time" for each in ordered if each.at_ns is None]
     lines = sum(file.lines for file in files)
-    return Searched(tuple(ordered), len(files), lines, (*notes, *uncertain, *timeless), unread)
+    return Searched(tuple(ordered), len(files), lines, (*notes, *uncertain, *timeless), unread, odd)
 
 
-def _first_unread(files: list[_File], epochs: list[int]) -> Unread | None:
-    odd = [replace(file.odd[1], at_ns=_utc_ns(file, file.odd[0], epochs)) for file in files if file.odd is not None]
-    return replace(min(odd, key=_order), count=sum(each.count for each in odd)) if odd else None
+def _first_odd(files: list[_File], epochs: list[int]) -> tuple[Unread, ...]:
+    timed = [replace(odd, at_ns=_utc_ns(file, stamp, epochs)) for file in files for stamp, odd in file.odd]
+    return tuple(sorted(timed, key=_order)[:_MOST_ODD])
 
 
 def _utc_ns(file: _File, stamp: Stamp | None, epochs: list[int]) -> int | None:

@@ -36,11 +36,11 @@ LAYERS: tuple[Topic, ...] = get_args(Topic)
 _READING = re.compile(
     r"ros2 (topic (info|list|echo --once|hz|bw|delay|type)|node (list|info)|param (get|list|dump|describe)"
     r"|action (info|list)|service (list|type)|lifecycle (get|nodes)|control list_\w+|pkg (prefix|xml)|doctor --report"
-    r"|bag info|interface show|run tf2_ros tf2_(echo|monitor))\b[^;&|<>`$]*"
+    r"|bag info|interface show|run tf2_ros tf2_(echo|monitor)|run image_transport list_transports)\b[^;&|<>`$]*"
     r"|printenv [A-Z_]+|ip -brief (address|link)|ip (-details )?-statistics link show"
     r"|ip route get [\w{}.]+|ping -c 5 [\w{}.]+"
     r"|chronyc (tracking|sources)|uname -v|ulimit -r|id -nG|lsusb -t|ls -l /dev/(shm|serial/by-id)|df -h( /dev/shm)?"
-    r"|sysctl net\.core\.rmem_max net\.core\.rmem_default|ss -lntup|top -b -n 1"
+    r"|sysctl net\.core\.rmem_max net\.core\.rmem_default|ss -lntup|top -b -n 1|ps -ef|nvidia-smi|glxinfo -B"
 )
 
 
@@ -98,6 +98,9 @@ class Symptom(CatalogModel):
         logged: texts of log lines, with ``{kind}`` where they name something, as ``log_lines`` reads them.
         shows: layer of an attempt in which such a line shows a failure; UNKNOWN where it is of none.
         shows_else: texts of ``logged`` that show another layer.
+        names_cause: texts of ``logged`` that name the cause: these alone make a layer certain.
+        says_little: texts of ``logged`` that any failure leads to: whatever else is said counts more.
+        ask: question whose yes speaks for this symptom; that of its layer where it has none.
         hypotheses: causes, the likeliest first.
         never: the shortcut that hides the cause or takes a protection away.
     """
@@ -111,13 +114,17 @@ class Symptom(CatalogModel):
     logged: tuple[Template, ...] = ()
     shows: LayerName | None = None
     shows_else: dict[LayerName, tuple[Template, ...]] = Field(default_factory=dict)
+    names_cause: tuple[Template, ...] = ()
+    says_little: tuple[Template, ...] = ()
+    ask: Text | None = None
     hypotheses: tuple[Hypothesis, ...] = Field(min_length=1)
 
     @model_validator(mode="after")
     def _what_is_logged_shows_a_layer(self) -> Symptom:
-        if bool(self.logged) != (self.shows is not None):
-            raise ValueError("`logged` and `shows` belong together")
-        unknown = {text for texts in self.shows_else.values() for text in texts} - set(self.logged)
+        if self.logged and self.shows is None:
+            raise ValueError("what is `logged` shows a layer: state `shows`")
+        graded = (*self.shows_else.values(), self.names_cause, self.says_little)
+        unknown = {text for texts in graded for text in texts} - set(self.logged)
         if unknown:
             raise ValueError(f"`logged` has no {', '.join(sorted(unknown))}")
         return self
@@ -154,6 +161,13 @@ class Deciding(CatalogModel):
     ask: Text
 
 
+class Between(CatalogModel):
+    """A question between two layers: yes speaks for the first, no for the second."""
+
+    layers: tuple[Topic, Topic]
+    ask: Text
+
+
 class Narrowing(CatalogModel):
     """A question that leaves fewer layers, whatever the answer."""
 
@@ -163,10 +177,36 @@ class Narrowing(CatalogModel):
 
 
 class Questions(CatalogModel):
-    """What is asked where no layer is certain: the first of several; where nothing fits, the narrowing one."""
+    """What is asked where no layer is certain: that between the first two layers, or the first of several of a layer.
 
+    Args:
+        narrowing: what is asked where nothing fits.
+    """
+
+    between: tuple[Between, ...]
     deciding: tuple[Deciding, ...]
     narrowing: Narrowing
+
+
+class OsError(CatalogModel):
+    """An error of the operating system, and which symptom it is on which kind of object.
+
+    Args:
+        texts: as ``strerror`` gives them, in small letters.
+        means: kind of object → name of a symptom; ``other`` where no kind is told.
+    """
+
+    numbers: tuple[int, ...]
+    names: tuple[Token, ...]
+    texts: tuple[Text, ...]
+    means: dict[Token, Text]
+
+
+class SystemErrors(CatalogModel):
+    """Errors of the operating system, and the words by which the object of a call is known: kind → words."""
+
+    kinds: dict[Token, tuple[Text, ...]]
+    errors: tuple[OsError, ...]
 
 
 @cache
@@ -197,6 +237,16 @@ def questions() -> Questions:
         ValueError: as ``knowledge``.
     """
     return _read("symptoms/questions.yaml", Questions)
+
+
+@cache
+def system_errors() -> SystemErrors:
+    """Return what errors of the operating system mean.
+
+    Raises:
+        ValueError: as ``knowledge``.
+    """
+    return _read("symptoms/errors.yaml", SystemErrors)
 
 
 def _read(file: str, model: type[_ModelT]) -> _ModelT:
