@@ -61,3 +61,16 @@ def test_line_that_names_the_cause_counts_more_than_what_it_leads_to() -> None:
     )
     assert not answer.ask
     assert answer.suspicions[0].symptom == "a library of another release is loaded"
+
+
+CROSSED: Mapping[str, Mapping[str, list[str]]] = safe_load(
+    (ROOT / "tests/diagnose/crossed.yaml").read_text(encoding="utf-8")
+)
+
+
+@pytest.mark.parametrize("subject", CROSSED)
+def test_what_users_say_of_an_object_leads_to_a_short_list_and_one_question(subject: str) -> None:
+    for said, layers in CROSSED[subject].items():
+        answer = diagnose(f"{subject} {said}", None)
+        assert (answer.fits, bool(answer.ask)) == (True, True), said
+        assert answer.suspicions[0].layer in {TITLES[layer] for layer in LAYERS if layer in layers}, said

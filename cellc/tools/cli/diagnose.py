@@ -81,8 +81,8 @@ def _search(path: Path, file: str | None) -> None:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
     show(*render_searched(searched))
-    if searched.told:
-        show("", *render_answer(answer_to(searched.told, cell)))
+    if searched.pasted:
+        show("", *render_answer(answer_to(searched.pasted, cell)))
         raise click.exceptions.Exit(1)
 
 

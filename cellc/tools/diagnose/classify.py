@@ -2,7 +2,7 @@
 
 A layer is certain where the text is the name of a symptom, or has a line that names the cause and none that names the
 cause in another layer. All else is a proposal: first other lines that programs write and errors of the operating system
-whose object is told, then what is like the words, at last lines that any failure leads to.
+whose object is known, then what is like the words, at last lines that any failure leads to.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Match:
 
     @property
     def names_cause(self) -> bool:
-        """The line says by itself what went wrong."""
+        """The line says the cause by itself."""
         return self.template in self.symptom.names_cause
 
     @property
@@ -97,16 +97,16 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
         return Classified(tuple(causes[:_AT_MOST]))
     possible = [match for match in known if _is_of(match, drivers)]
     like = _words_of(possible).likenesses(_besides(logged, spoken(text)))
-    told, untold = _failed_calls(known, text)
-    said = [*causes, *(match for match in logged if not match.names_cause and not match.says_little), *told]
+    calls, bare = _failed_calls(known, text)
+    said = [*causes, *(match for match in logged if not match.names_cause and not match.says_little), *calls]
     least = _LEAST_BESIDES if said else _LEAST_POINTS
     is_like = bool(like) and (like[0].points >= least or (not said and like[0].whole > 0))
     near = list(_near(like, possible, _LEAST_BESIDES if said else 0))
-    little = [*untold, *(match for match in logged if match.says_little)]
+    little = [*bare, *(match for match in logged if match.says_little)]
     best = _proposed([*said, *near, *little] if is_like else [*said, *little, *near])
     if not is_like and not said and not little:
         return Classified(best, fits=False)
-    is_ahead = not logged and not told and _is_ahead(like, possible) if like else False
+    is_ahead = not logged and not calls and _is_ahead(like, possible) if like else False
     return Classified(best, _question(best, is_ahead=is_ahead))
 
 
@@ -114,9 +114,9 @@ def logged(text: str) -> tuple[Match, ...]:
     """Return the symptoms that a log line shows, the longest text of a source first: no words are guessed from."""
     pasted = plain(text)
     found = _logged(_known(), pasted) if any(begin in pasted for begin in _begins()) else []
-    told, untold = _failed_calls(_known(), pasted)
+    calls, bare = _failed_calls(_known(), pasted)
     little = [match for match in found if match.says_little]
-    return (*(match for match in found if not match.says_little), *told, *little, *untold)
+    return (*(match for match in found if not match.says_little), *calls, *little, *bare)
 
 
 @cache
@@ -131,16 +131,16 @@ def _begins() -> tuple[str, ...]:
 
 
 def _failed_calls(known: Sequence[Match], text: str) -> tuple[list[Match], list[Match]]:
-    """Return what errors of the operating system mean: those whose object is told, and the others."""
+    """Return what errors of the operating system mean: those whose object is known, and the others."""
     by_name = {match.symptom.name: match for match in known}
-    told: list[Match] = []
-    untold: list[Match] = []
+    calls: list[Match] = []
+    bare: list[Match] = []
     for meaning in os_errors(text):
         if meaning.symptom in by_name:
             match = by_name[meaning.symptom]
             named = (("error", meaning.error), *((("object", meaning.kind),) if meaning.kind else ()))
-            (told if meaning.kind else untold).append(Match(match.layer, match.symptom, named))
-    return told, untold
+            (calls if meaning.kind else bare).append(Match(match.layer, match.symptom, named))
+    return calls, bare
 
 
 def _besides(logged: Sequence[Match], text: str) -> str:

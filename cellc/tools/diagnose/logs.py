@@ -96,7 +96,7 @@ class Searched:
     odd: tuple[Unread, ...] = ()
 
     @property
-    def told(self) -> str:
+    def pasted(self) -> str:
         """The first errors, a line each; the first warning where there is no error; empty where there is neither."""
         grave: list[Spoken | Unread] = [each for each in self.spoken if each.gravity is not Gravity.WARNING]
         lines = sorted([*grave, *self.odd], key=_order) or self.spoken[:1]

@@ -17,7 +17,7 @@ _OTHER = "other"
 
 @dataclass(frozen=True, slots=True)
 class Meaning:
-    """An error on an object: the symptom that it is; ``kind`` is empty where no object is told."""
+    """An error on an object: the symptom that it is; ``kind`` is empty where no object is known."""
 
     symptom: str
     error: str
@@ -25,7 +25,7 @@ class Meaning:
 
 
 def os_errors(text: str) -> tuple[Meaning, ...]:
-    """Return what the errors of a text mean, those whose object is told first."""
+    """Return what the errors of a text mean, those whose object is known first."""
     small = text.casefold()
     found = [
         _meaning(error, name, small[max(0, start - _BEFORE) : end + _AFTER])
@@ -47,7 +47,7 @@ def _meaning(error: OsError, name: str, around: str) -> Meaning:
 
 
 def _errors(text: str) -> Iterator[tuple[OsError, str, int, int]]:
-    """Yield each error of a text, its name there, and where it stands."""
+    """Yield each error of a text, its name there, and where it begins and ends."""
     by_number = {
         number: (error, name)
         for error in system_errors().errors

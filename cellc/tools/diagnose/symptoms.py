@@ -193,7 +193,7 @@ class OsError(CatalogModel):
 
     Args:
         texts: as ``strerror`` gives them, in small letters.
-        means: kind of object → name of a symptom; ``other`` where no kind is told.
+        means: kind of object → name of a symptom; ``other`` where no kind fits.
     """
 
     numbers: tuple[int, ...]
