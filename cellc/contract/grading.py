@@ -20,12 +20,13 @@ class Rule(Enum):
     DANGEROUS = "dangerous"
     MORE = "dangerous where it grew or vanished, else safe"
     LESS = "dangerous where it shrank or vanished, else safe"
-    LOOSER = "dangerous where it grew or vanished, else review"
+    LOOSER = "dangerous where it grew by more than 5 % or vanished, else review"
+    MEASURED = "dangerous where it grew by more than 5 % or vanished without a new revision, else review"
     FEWER = "dangerous where it shrank or vanished, else review"
     BACK = "dangerous where it is lower, else review"
     NAMED = "dangerous where it became UNKNOWN or vanished, else review"
     MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
-    PLACED = "dangerous where the calibration that measured it has no new revision, else review"
+    PLACED = "dangerous for the base of an arm, and without a new revision of its calibration; else review"
     CLAIM = "dangerous where another claims it than before, else review"
     LOST = "dangerous where something of it is lost, else review"
 
@@ -41,6 +42,7 @@ class Graded(NamedTuple):
         ordered: whether the order of a list says something.
         why: what the change means, beside the rule.
         each: what a key of a mapping names, such as `frame`; it is then the subject of the change.
+        share: whether how much it changed is told as a share; of a length or a mass that people know, it is not.
     """
 
     area: ReviewArea
@@ -51,6 +53,7 @@ class Graded(NamedTuple):
     ordered: bool = True
     why: str = ""
     each: str = ""
+    share: bool = True
 
 
 GRIPPED = "another part may be taken for the right one"

@@ -21,6 +21,17 @@ class ReviewSide(ContractModel):
     configuration_id: str = Field(description="Id over all that evidence rests on.")
 
 
+class ReviewCause(ContractModel):
+    """A line of the spec, or a part of it, that causes changes."""
+
+    line: str = Field(description="Path of the value in the spec, such as `devices.arm.model`.")
+    before: str | None = Field(None, description="What it said; null where it is new.")
+    after: str | None = Field(None, description="What it says; null where it is gone.")
+    place: str = Field("", description="File, line and column; of what is gone, those before.")
+    lines: int = Field(1, description="How many values of that part are told as one.")
+    renamed: bool = Field(False, description="It only has another name.")
+
+
 class ReviewChange(ContractModel):
     """One change, of one subject or of several that changed alike."""
 
@@ -35,6 +46,7 @@ class ReviewChange(ContractModel):
     why: str = Field("", description="Why it has this grade, by the rules of docs/review.md.")
     approval: ApprovalArea = Field(description="Area of approval.")
     owner: str = Field(description="Who approves it, by the spec after the change.")
+    cause: int | None = Field(None, description="Number of its cause in `causes`, from 0; null where no line is known.")
 
 
 class ReviewFinding(ContractModel):
@@ -72,6 +84,7 @@ class Review(ContractModel):
     before: ReviewSide = Field(description="The state before.")
     after: ReviewSide = Field(description="The state after.")
     changes: tuple[ReviewChange, ...] = Field(description="By grade, the worst first, then by area.")
+    causes: tuple[ReviewCause, ...] = Field((), description="Lines of the spec that cause the changes.")
     new_findings: tuple[ReviewFinding, ...] = Field((), description="New findings of the check.")
     gone_findings: tuple[ReviewFinding, ...] = Field((), description="Findings of the check that are resolved.")
     rehearsals: tuple[ReviewRehearsal, ...] = Field((), description="Outcomes, where rehearsals were asked for.")

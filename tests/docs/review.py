@@ -45,6 +45,18 @@ of both sides on the mock and compares how they end. `--format markdown` writes 
 65,000 characters,
 `--format json` the object of `review.schema.json` (`cellc schema review`).
 
+What is printed fits on a screen of 25 lines, and so does what a comment shows unfolded; `--all` prints every value,
+finding and gate. New findings come first, those that fail before others. Then each line of the spec that changed is a
+heading with what it causes under it: the worst first, and of one grade what safety approves first. To know what a line
+causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
+device and its controllers, are told together; so are those of one part of the spec where there are many. Folders have
+no spec: their changes are told by area.
+
+A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line, with how many
+names follow and which of those break consumers. What else changed is compared under the new names. A namespace is a
+name too. A finding that says another figure of the same thing, or the same of a part with another name, is neither new
+nor resolved.
+
 ## Another distribution
 
 `cellc upgrade cells/ur5e_pick/cell.yaml --ros kilted` shows what another distribution of ROS 2, newer or older, would
@@ -91,7 +103,7 @@ def _areas() -> Iterator[str]:
     yield ""
     yield "The owner is that of the approval area in `owners.approvals` before the change, with a new one beside them;"
     yield "a change cannot choose its own approver. Gates and layers rest on those before them, so that"
-    yield "the evidence from the first one on is no longer valid."
+    yield "the evidence from the first one on is no longer valid. Under the same configuration id none is."
     yield ""
     yield "| area | approval | gate | layer |"
     yield "|---|---|---|---|"

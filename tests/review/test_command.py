@@ -39,12 +39,26 @@ def test_a_diff_ends_with_one_and_begins_with_its_sum() -> None:
     lines = ran.out.splitlines()
     assert lines[0] == f"longer:{SMALL}: 1 change (1 dangerous)"
     assert lines[1].startswith(f"before  main:{SMALL}, cfg-")
+    cause, told = "...controllers.arm_trajectory.goal_time: 1 s -> 2 s (cell.yaml:16)", "time past the end 1 s -> 2 s"
+    # Tolerances are looked at by G2 and L6, and everything after them rests on that.
+    assert lines[3:] == [
+        f"dangerous  {cause}",
+        f"  control  {told} (+100 %): arm_trajectory",
+        "  asks controller (UNKNOWN)",
+        "gates to repeat: G2, G3, G4, G5, G6, G7, L6",
+        "--all prints every value, finding and gate",
+    ]
+
+
+@pytest.mark.usefixtures("_inside")
+def test_all_of_a_diff_has_every_value_with_its_reason_and_every_gate() -> None:
+    lines = run("diff", "main..longer", SMALL, "--all").out.splitlines()
+    assert lines[4].startswith("dangerous  control.controllers.arm_trajectory.goal_time")
     assert lines[5:8] == [
-        "  control  arm_trajectory: time past the end",
+        "  dangerous control  arm_trajectory: time past the end",
         "      1 s -> 2 s (+100 %)",
         "      older data may be used, or a failure goes unseen for longer; approval controller: UNKNOWN",
     ]
-    # Tolerances are looked at by G2 and L6, and everything after them rests on that.
     again = lines[lines.index("gates to repeat (their evidence is no longer valid)") + 1 :]
     assert [line.split()[0] for line in again] == ["G2", "G3", "G4", "G5", "G6", "G7", "L6"]
 

@@ -21,4 +21,6 @@ def test_outcomes_are_compared(tmp_path: Path) -> None:
     assert ran.code == 1
     lines = ran.out.splitlines()
     assert f"note: {folder.as_posix()}: `contract.json` was edited after it was generated" in lines
-    assert any(line.startswith("  ready: succeeded -> ") and line.endswith(", not as declared") for line in lines)
+    assert any(
+        line.startswith("rehearsal ready: succeeded -> ") and line.endswith(", not as declared") for line in lines
+    )

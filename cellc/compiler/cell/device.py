@@ -247,9 +247,11 @@ class DeviceLimits(Part):
 
     limit_shares: LimitShares = field(default_factory=LimitShares)
     payload_limit_kg: Annotated[
-        float | None, ELSEWHERE, Graded(ReviewArea.PAYLOAD, "largest payload", Rule.FEWER, "kg")
+        float | None, ELSEWHERE, Graded(ReviewArea.PAYLOAD, "largest payload", Rule.FEWER, "kg", share=False)
     ] = None
-    reach_m: Annotated[float | None, ELSEWHERE, Graded(ReviewArea.LIMITS, "reach", Rule.MORE, "m", why=FURTHER)] = None
+    reach_m: Annotated[
+        float | None, ELSEWHERE, Graded(ReviewArea.LIMITS, "reach", Rule.MORE, "m", why=FURTHER, share=False)
+    ] = None
     repeatability_m: Annotated[float | None, ELSEWHERE] = None
     tilt_rad: Annotated[float | None, ELSEWHERE] = None
 

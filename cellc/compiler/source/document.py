@@ -57,6 +57,10 @@ class Child:
     span: Span
     key_span: Span | None
 
+    def with_node(self, node: Node) -> Child:
+        """Return another value in the same place."""
+        return replace(self, node=node)
+
     @property
     def place(self) -> Span:
         """What a finding about this value marks: a scalar itself, else the key, else the start of the collection."""
@@ -143,6 +147,18 @@ class SourceDocument:
         node = Node(self.root.span, value)
         return replace(self, root=_changed(self.root, (key,), Child(node, node.span, None)))
 
+    def with_child(self, path: YamlPath, child: Child | None, texts: Mapping[str, str]) -> SourceDocument:
+        """Return the same with what another document has at a path, or without what is there; what holds it exists.
+
+        Args:
+            texts: of the files of the other document.
+        """
+        return replace(self, root=_changed(self.root, path, child), texts={**texts, **self.texts})
+
+    def with_root(self, root: Node) -> SourceDocument:
+        """Return the same with other values."""
+        return replace(self, root=root)
+
     def _child(self, path: YamlPath) -> Child | None:
         node, child = self.root, None
         for part in path:
@@ -162,17 +178,26 @@ class SourceDocument:
         return found
 
 
+def rebuilt(node: Node, children: Mapping[str | int, Child], text: str = "") -> Node:
+    """Return a collection with other children, or a scalar with another text."""
+    if isinstance(node.data, list):
+        listed = list(children.values())
+        return replace(node, data=[child.node.data for child in listed], children=dict(enumerate(listed)))
+    if isinstance(node.data, dict):
+        return replace(node, data={str(key): child.node.data for key, child in children.items()}, children=children)
+    return replace(node, data=text, text=text)
+
+
 def _changed(node: Node, path: YamlPath, child: Child | None) -> Node:
     """Return a collection with another child at a path, or without the one there."""
     first, rest = path[0], path[1:]
     if rest:
         held = node.children[first]
-        child = replace(held, node=_changed(held.node, rest, child))
-    kept = {key: changed for key, changed in {**node.children, first: child}.items() if changed is not None}
-    if isinstance(node.data, list):
-        listed = list(kept.values())
-        return replace(node, data=[child.node.data for child in listed], children=dict(enumerate(listed)))
-    return replace(node, data={str(key): child.node.data for key, child in kept.items()}, children=kept)
+        child = held.with_node(_changed(held.node, rest, child))
+    return rebuilt(
+        node,
+        {key: changed for key, changed in {**node.children, first: child}.items() if changed is not None},
+    )
 
 
 def _renamed(node: Node, path: YamlPath, key: str) -> Node:
@@ -180,9 +205,5 @@ def _renamed(node: Node, path: YamlPath, key: str) -> Node:
     first, rest = path[0], path[1:]
     held = node.children[first]
     if rest:
-        children = {**node.children, first: replace(held, node=_renamed(held.node, rest, key))}
-    else:
-        children = {key if each == first else each: child for each, child in node.children.items()}
-    if isinstance(node.data, list):
-        return replace(node, data=[child.node.data for child in children.values()], children=children)
-    return replace(node, data={str(each): child.node.data for each, child in children.items()}, children=children)
+        return rebuilt(node, {**node.children, first: held.with_node(_renamed(held.node, rest, key))})
+    return rebuilt(node, {key if each == first else each: child for each, child in node.children.items()})

@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 @click.option(
     "--rehearse", is_flag=True, help="Run the rehearsals of both sides on the mock and compare their outcomes."
 )
+@click.option("--all", "whole", is_flag=True, help="Print every value, finding and gate, not a screenful.")
 @limit_option
-def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: bool) -> None:
+def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: bool, whole: bool) -> None:
     """Show what changed in a cell, between specs, generated folders or their Git revisions; exit 1 if anything did.
 
     With one path, compare HEAD with the work tree, as `git diff` does.
@@ -39,6 +40,7 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     # Comparing loads the compiler.
     from cellc.tools.review.markdown import render_markdown
     from cellc.tools.review.review import review
+    from cellc.tools.review.short import render_short
     from cellc.tools.review.sides import SideError, packages
     from cellc.tools.review.sides import sides as asked
     from cellc.tools.review.text import render_review
@@ -49,7 +51,7 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     except SideError as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
-    tell(result, output_format, render_markdown, render_review)
+    tell(result, output_format, render_markdown, render_review if whole else render_short)
     counted = [change for change in result.changes if change.breaking or not breaking]
     if counted or (result.rehearsals_differ() and not breaking):
         raise click.exceptions.Exit(1)

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 
 from cellc.contract.diagnostics.wording import count
-from cellc.contract.grading import Graded
-from cellc.contract.review import ReviewChange
+from cellc.contract.grading import Graded, Rule
+from cellc.contract.review import ApprovalArea, ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.edges import edge_changes, offers_less
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import moved_places
-from cellc.tools.review.grading import grade
+from cellc.tools.review.grading import ELSEWHERE, grade, is_reaching
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
 from cellc.tools.review.rows import FOLLOWS, ROWS
@@ -27,6 +27,7 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
+_PINNED = ("contract", "version_tuple")
 _SHOWS = ("graph/", "README.md")
 """Files that show people what the others say, in the order of the spec: they are reported where a hand edited them."""
 
@@ -38,6 +39,7 @@ class Change:
     Attributes:
         words: words and figures that it explains in other files.
         names: names of things added or removed with it.
+        approval: that of its area where it is None.
     """
 
     area: ReviewArea
@@ -49,6 +51,7 @@ class Change:
     delta: str = ""
     breaking: bool = False
     why: str = ""
+    approval: ApprovalArea | None = None
     words: frozenset[str] = field(default=frozenset(), compare=False)
     names: frozenset[str] = field(default=frozenset(), compare=False)
     differing: frozenset[str] = field(default=frozenset(), compare=False)
@@ -56,15 +59,20 @@ class Change:
 
 def changes_between(before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
     """Return every change, the worst first, those that are alike as one."""
-    reported = _reported(before, after)
+    return merged([(None, change) for change in reported(before, after)], before, after)
+
+
+def merged(found: Sequence[tuple[int | None, Change]], before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
+    """Return changes with the numbers of their causes, the worst first, those of one cause that are alike as one."""
     owners = _approvers(before, after)
-    merged: dict[Change, list[str]] = {}
-    for change in reported:
-        merged.setdefault(replace(change, subject=""), []).append(change.subject)
-    found = [
-        _reviewed(change, tuple(subjects), owners.get(APPROVAL[change.area], "")) for change, subjects in merged.items()
+    alike: dict[tuple[int | None, Change], list[str]] = {}
+    for cause, change in found:
+        alike.setdefault((cause, replace(change, subject="")), []).append(change.subject)
+    changes = [
+        _reviewed(change, cause, tuple(subjects), owners.get(change.approval or APPROVAL[change.area], ""))
+        for (cause, change), subjects in alike.items()
     ]
-    return tuple(sorted(found, key=_order))
+    return tuple(sorted(changes, key=_order))
 
 
 def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
@@ -81,7 +89,7 @@ def _order(change: ReviewChange) -> tuple[int, int, str, tuple[str, ...]]:
     return (-tuple(Grade).index(change.grade), areas.index(change.area), change.quantity, change.subjects)
 
 
-def _reviewed(change: Change, subjects: Sequence[str], owner: str) -> ReviewChange:
+def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owner: str) -> ReviewChange:
     return ReviewChange(
         area=change.area,
         subjects=tuple(subjects),
@@ -92,12 +100,14 @@ def _reviewed(change: Change, subjects: Sequence[str], owner: str) -> ReviewChan
         grade=change.grade,
         breaking=change.breaking,
         why=change.why,
-        approval=APPROVAL[change.area],
+        approval=change.approval or APPROVAL[change.area],
         owner=owner,
+        cause=cause,
     )
 
 
-def _reported(before: Facts, after: Facts) -> list[Change]:
+def reported(before: Facts, after: Facts) -> list[Change]:
+    """Return every change by itself, in the order of what tells it."""
     # What only specs say is compared where both sides were made of one.
     both = before.cell is not None and after.cell is not None
     one_sided = (*(() if both else OF_SPEC), *(() if before.has_gates and after.has_gates else OF_GATES))
@@ -105,14 +115,16 @@ def _reported(before: Facts, after: Facts) -> list[Change]:
         difference for difference in differences(before.leaves, after.leaves) if difference.path[0] not in one_sided
     ]
     whole_things, rest = _things(deltas, before, after)
-    primary = [delta for delta in rest if not _follows(delta.path)]
+    rest, pins = _pins(rest)
+    primary = [delta for delta in rest if not follows(delta.path)]
     reported = [*whole_things, *_effects(before, after)]
-    reported += [change for delta in primary if (change := _of_value(delta, before, after)) is not None]
+    told = [change for delta in primary if (change := change_of(delta, before, after)) is not None]
+    reported += [_with_matrix(change, pins, before, after) for change in told]
     ids = _ids(before) | _ids(after)
     known = _known(reported, ids)
     for delta in rest:
-        if _follows(delta.path) and not known.explains_leaf(delta):
-            change = _of_value(delta, before, after)
+        if follows(delta.path) and not known.explains_leaf(delta):
+            change = change_of(delta, before, after)
             reported += [] if change is None else [change]
     known = _known(reported, ids)
     edited = before.edited | after.edited
@@ -193,7 +205,7 @@ def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[
             rest.append(delta)
         else:
             folded.setdefault(place, []).append(delta)
-    things = [(thing, _of_thing(path, thing, inner)) for (path, thing), inner in folded.items()]
+    things = [(thing, _of_thing(path, thing, inner, after)) for (path, thing), inner in folded.items()]
     reported = [change for thing, change in things if not thing.follows]
     return reported + [change for thing, change in things if thing.follows and not _is_covered(change, reported)], rest
 
@@ -212,34 +224,57 @@ def _folds(path: Path, old: frozenset[Path], new: frozenset[Path]) -> Iterator[t
             yield from ((prefix, thing) for thing in THINGS if fits(thing.parts, prefix) is not None)
 
 
-def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta]) -> Change:
+def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) -> Change:
     added = inner[0].before is None
     fit = fits(thing.parts, path)
     names = () if fit is None else fit.subject
     shown_leaf = next((delta for delta in inner if delta.path == (*path, thing.shown)), None)
     value = "present" if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
+    taken = thing.added if added else thing.removed
+    reaches = added and path[:2] == ("contract", "devices") and is_reaching(after.contract, path[2])
     return Change(
         thing.area,
         " ".join(names),
         f"{thing.noun} {'added' if added else 'removed'}",
         None if added else value,
         value if added else None,
-        thing.added if added else thing.removed,
+        Grade.DANGEROUS if reaches else taken,
         breaking=thing.breaking and not added,
-        why=thing.why if (thing.added if added else thing.removed) is Grade.DANGEROUS else "",
+        why=ELSEWHERE if reaches else thing.why if taken is Grade.DANGEROUS else "",
+        approval="safety" if reaches else None,
         words=frozenset(word for delta in inner for word in (*words(delta.before), *words(delta.after), *delta.path)),
         names=frozenset(names[-1:]),
     )
 
 
-def _follows(path: Path) -> bool:
+def _pins(deltas: Sequence[Delta]) -> tuple[list[Delta], dict[str, Delta]]:
+    """Take out what the matrix says of pins that changed themselves: a pin is told once."""
+    pinned = {delta.path[2] for delta in deltas if delta.path[:2] == _PINNED}
+    judged = {delta.path[1]: delta for delta in deltas if delta.path[0] == "matrix" and delta.path[1] in pinned}
+    return [delta for delta in deltas if delta not in judged.values()], judged
+
+
+def _with_matrix(change: Change, pins: Mapping[str, Delta], before: Facts, after: Facts) -> Change:
+    delta = pins.get(change.subject) if change.quantity == "pinned version" else None
+    if delta is None:
+        return change
+    verdict = grade(Rule.MATRIX, delta, before, after)
+    worse = max(change.grade, verdict.grade, key=tuple(Grade).index)
+    was, now = (shown(leaf, "") or "nothing" for leaf in (delta.before, delta.after))
+    said = f"by the compatibility matrix {now}, before {was}"
+    known = change.words | {*words(delta.before), *words(delta.after)}
+    return replace(change, grade=worse, why="; ".join(filter(None, (change.why, said))), words=known)
+
+
+def follows(path: Path) -> bool:
+    """Return whether a value repeats others."""
     return any(fits(pattern, path) is not None for pattern in _FOLLOWS)
 
 
 _FOLLOWS = tuple(tuple(pattern.split(" ")) for pattern in FOLLOWS)
 
 
-def _of_value(delta: Delta, before: Facts, after: Facts) -> Change | None:
+def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
     """Return a value that changed as a change; None where its order alone did, and that says nothing."""
     row, fit = _row(delta.path)
     if (
@@ -253,13 +288,14 @@ def _of_value(delta: Delta, before: Facts, after: Facts) -> Change | None:
     return Change(
         verdict.area or row.grade.area,
         " ".join(fit.subject) or "cell",
-        " ".join((row.grade.quantity, ".".join(fit.of))).rstrip(),
+        " ".join((row.grade.quantity, ".".join(fit.of).removesuffix("_kg"))).rstrip(),
         shown(delta.before, unit),
         shown(delta.after, unit),
         verdict.grade,
-        difference(delta.before, delta.after, unit),
-        row.grade.breaking,
+        difference(delta.before, delta.after, unit, share=row.grade.share),
+        row.grade.breaking and delta.before is not None,
         verdict.why or (row.grade.why if verdict.grade is Grade.DANGEROUS else ""),
+        verdict.approval,
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),
     )
@@ -282,7 +318,9 @@ def area_of_file(file: str) -> ReviewArea:
 
 def _unit_in(name: str) -> str:
     """Return the unit that the name of a value ends in."""
-    return next((unit for end, unit in (("_s", "s"), ("_hz", "Hz"), ("_m", "m")) if name.endswith(end)), "")
+    return next(
+        (unit for end, unit in (("_s", "s"), ("_hz", "Hz"), ("_m", "m"), ("_kg", "kg")) if name.endswith(end)), ""
+    )
 
 
 def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cellc.contract.contract import Contract
 from cellc.contract.grading import Rule
+from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Delta, Leaf, said
@@ -13,11 +15,12 @@ from cellc.tools.review.measured import unmeasured
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A grade, with what it rests on where the rule says more than the row; an area where the rule decides it."""
+    """A grade, with what it rests on where the rule says more than the row; area and approval where it decides them."""
 
     grade: Grade
     why: str = ""
     area: ReviewArea | None = None
+    approval: ApprovalArea | None = None
 
 
 def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
@@ -36,6 +39,8 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(_FIXED[rule])
     if rule is Rule.PLACED:
         return _of_placement(delta, before, after)
+    if rule is Rule.MEASURED:
+        return _of_measurement(delta, before, after)
     return Verdict(_GRADES[rule](delta.before, delta.after))
 
 
@@ -50,10 +55,15 @@ def _less(before: Leaf | None, after: Leaf | None) -> Grade:
     return Grade.DANGEROUS if after is None or _greater(before, after) else Grade.SAFE
 
 
+_SLIGHTLY = 1.05
+"""What a bound may grow by, all in all, before it is another: less is a matter of rounding and of units."""
+
+
 def _looser(before: Leaf | None, after: Leaf | None) -> Grade:
     """Zero is no bound at all: ros2_control checks no tolerance and no time that is zero."""
     was_bound = before is not None and before != 0
-    loosened = after is None or after == 0 or _greater(after, before)
+    allowed = before * _SLIGHTLY if isinstance(before, (int, float)) else before
+    loosened = after is None or after == 0 or _greater(after, allowed)
     return Grade.DANGEROUS if was_bound and loosened else Grade.REVIEW
 
 
@@ -107,8 +117,10 @@ def _greater(one: Leaf | None, other: Leaf | None) -> bool:
 
 
 def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
-    """A transform that was measured does not change without another measurement."""
+    """A transform that was measured does not change without another measurement; an arm that moved is elsewhere."""
     frame = delta.path[1]
+    if delta.before is not None and delta.after is not None and frame in _bases(before) & _bases(after):
+        return Verdict(Grade.DANGEROUS, ELSEWHERE, approval="safety")
     was, now = (side.contract.frames.get(frame) for side in (before, after))
     name = None if now is None else now.calibration
     if was is None or name is None or was.calibration != name:
@@ -120,3 +132,26 @@ def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(Grade.REVIEW, f"calibration `{name}` changed from revision {old.revision} to {new.revision}")
     why = f"calibration `{name}` measured it, and has no new revision after {old.revision}"
     return Verdict(Grade.DANGEROUS, why, ReviewArea.CALIBRATION)
+
+
+def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    """A residual that grew is that of a new measurement, or it is not."""
+    old, new = (side.contract.calibrations.get(delta.path[3]) for side in (before, after))
+    if old is not None and new is not None and new.revision > old.revision:
+        return Verdict(Grade.REVIEW)
+    return Verdict(_looser(delta.before, delta.after))
+
+
+ELSEWHERE = "the arm reaches where people at the cell do not expect it"
+_REACHING = ("arm", "axis")
+"""Kinds of devices that carry what they hold to other places."""
+
+
+def is_reaching(contract: Contract, device: str) -> bool:
+    """Tell whether a device takes what it holds to other places, as an arm does."""
+    return device in contract.devices and contract.devices[device].kind in _REACHING
+
+
+def _bases(facts: Facts) -> set[str]:
+    contract = facts.contract
+    return {device.root_link for name, device in contract.devices.items() if is_reaching(contract, name)}

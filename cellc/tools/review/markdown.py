@@ -1,23 +1,32 @@
 """A review as a comment of a pull request: GitHub's Markdown, no longer than GitHub takes.
 
 Source: GitHub refuses a comment of more than 65536 characters ("body is too long (maximum is 65536 characters)").
-Everything that comes from a file is written as code, so that it mentions no user and links nowhere.
+Of what comes from a file, plain words are prose, and everything else is code, so that it mentions no user and links
+nowhere.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from itertools import groupby
 
 from cellc.compiler.formats.escape import code
 from cellc.contract.diagnostics.unsafe_text import harmless_line
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import Review, ReviewChange, ReviewFinding
 from cellc.contract.vocabulary import Grade
+from cellc.tools.review.groups import Group, grades_of, groups_of
 from cellc.tools.review.text import gate_line, outcomes, subjects_of, summed_up
 
 LONGEST = 65_000
 _LONGEST_CELL = 300
+_OPEN_GROUPS = 6
+"""Groups that have a line of their own; the others fold up under one, so that 25 lines show the comment."""
+_OPEN_FINDINGS = 4
+_PLAIN = re.compile(r"[-+]?[0-9]{1,6}(?:[.-][0-9]{1,6})*%?|[A-Za-z]{1,30}|->|[-+%]|")
+"""Words that no reader of Markdown takes for anything else."""
+_CODE = re.compile(r"(?<![^\s(])`([^`\s][^`]*)`(?![^\s.,;:)])")
+_WORD = re.compile(r"(\(*)(.*?)([.,;:)]*)")
 
 
 def render_markdown(review: Review, longest: int = LONGEST) -> str:
@@ -27,24 +36,24 @@ def render_markdown(review: Review, longest: int = LONGEST) -> str:
         longest: characters; what does not fit is counted at the end.
     """
     head, tail = [*_head(review)], [*_tail(review)]
-    room = longest - _length(head) - _length(tail) - 200
+    room = longest - _length(head) - _length(tail) - 300
+    groups = groups_of(review)
     shown, left = list[str](), 0
-    for grade, changes in groupby(review.changes, key=lambda change: change.grade):
-        section, of_grade = [*_opening(grade)], list(changes)
-        for number, change in enumerate(of_grade):
-            row = _row(change)
-            if _length(shown) + _length(section) + len(row) + 30 > room:
-                left += len(of_grade) - number
-                break
-            section.append(row)
-        shown += [*section, "", "</details>", ""] if len(section) > _OPENING else []
-    note = [f"**{left} more changes do not fit into a comment; `cellc diff` prints them all.**", ""] if left else []
+    for number, group in enumerate(groups):
+        if number == _OPEN_GROUPS:
+            rest = sum(len(each.changes) for each in groups[number:])
+            shown += [
+                f"<details><summary>{count(len(groups) - number, 'cause')} more with {count(rest, 'change')}</summary>",
+                "",
+            ]
+        section, over = _of_group(group, room - _length(shown))
+        shown += section
+        left += over
+    shown += ["</details>", ""] if len(groups) > _OPEN_GROUPS else []
+    note = [f"**{left} more changes do not fit into a comment; `cellc diff --all` prints them.**", ""] if left else []
     text = "\n".join([*head, *shown, *note, *tail]).rstrip("\n") + "\n"
     # A line is whole or not there: what is cut off in the middle of code is no code any more.
     return text if len(text) <= longest else text[: text.rfind("\n", 0, longest) + 1]
-
-
-_OPENING = 4
 
 
 def _length(lines: Iterable[str]) -> int:
@@ -52,39 +61,66 @@ def _length(lines: Iterable[str]) -> int:
 
 
 def _head(review: Review) -> Iterator[str]:
-    yield f"### {as_code(summed_up(review))}"
+    yield f"### {as_prose(summed_up(review))}"
     yield ""
     yield f"{as_code(review.before.name)} ({as_code(review.before.configuration_id)}) → "
     yield f"{as_code(review.after.name)} ({as_code(review.after.configuration_id)})"
     yield ""
+    found = review.new_findings
+    if found:
+        yield f"**New findings: {len(found)}**"
+        yield from (f"- {_finding(each)}" for each in found[:_OPEN_FINDINGS])
+        yield ""
+        yield from folded("More new findings", map(_finding, found[_OPEN_FINDINGS:]))
 
 
-def _opening(grade: Grade) -> Iterator[str]:
-    yield f"<details{'' if grade is Grade.SAFE else ' open'}><summary>{grade}</summary>"
-    yield ""
-    yield "| area | what | before | after | difference | approval |"
-    yield "|---|---|---|---|---|---|"
+def _of_group(group: Group, room: int) -> tuple[list[str], int]:
+    """Return the lines of a group, and how many of its changes have no room."""
+    figures = f": {as_prose('; '.join(group.figures))}" if group.figures else ""
+    asks = f"; asks {as_prose(group.asks)}" if group.asks else ""
+    lines = [
+        f"**{group.grade}** {as_prose(group.title)}{figures}",
+        f"<details><summary>{', '.join(grades_of(group.changes))}</summary>",
+        "",
+        *([asks[2:], ""] if asks else []),
+        "| grade | area | what | before | after | difference | approval |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    ends = ["", "</details>", ""]
+    if _length(lines) + _length(ends) > room:
+        return [], len(group.changes)
+    rows = list[str]()
+    for change in group.changes:
+        row = _row(change)
+        if _length(lines) + _length(rows) + _length(ends) + len(row) + 1 > room:
+            break
+        rows.append(row)
+    return [*lines, *rows, *ends], len(group.changes) - len(rows)
 
 
 def _row(change: ReviewChange) -> str:
-    what = f"{as_code(subjects_of(change))} {as_code(change.quantity)}"
+    what = f"{as_code(subjects_of(change))} {as_prose(change.quantity)}"
     what += "<br>**breaks consumers**" if change.breaking else ""
-    what += f"<br>{as_code(change.why)}" if change.why else ""
-    approval = (
-        ""
-        if change.grade is Grade.SAFE
-        else f"{change.approval}: {as_code(change.owner) if change.owner else 'no owner'}"
+    what += f"<br>{as_prose(change.why)}" if change.why else ""
+    owner = as_prose(change.owner) if change.owner else "no owner"
+    approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {owner}"
+    cells = (
+        change.grade,
+        change.area,
+        what,
+        _value(change.before),
+        _value(change.after),
+        _value(change.delta),
+        approval,
     )
-    cells = (change.area, what, _value(change.before), _value(change.after), _value(change.delta), approval)
     return f"| {' | '.join(cells)} |"
 
 
 def _tail(review: Review) -> Iterator[str]:
-    yield from folded("New findings", map(_finding, review.new_findings))
     yield from folded("Resolved findings", map(_finding, review.gone_findings))
-    yield from folded("Rehearsals", (as_code(outcomes(rehearsal)) for rehearsal in review.rehearsals))
-    yield from folded("Gates to repeat", (as_code(gate_line(gate)) for gate in review.gates))
-    yield from folded("Notes", map(as_code, review.notes))
+    yield from folded("Rehearsals", (as_prose(outcomes(rehearsal)) for rehearsal in review.rehearsals))
+    yield from folded("Gates to repeat", (as_prose(gate_line(gate)) for gate in review.gates))
+    yield from folded("Notes", map(as_prose, review.notes))
 
 
 _MOST = 40
@@ -106,11 +142,29 @@ def folded(title: str, items: Iterable[str], *, is_open: bool = False) -> Iterat
 
 
 def _finding(found: ReviewFinding) -> str:
-    return f"{found.severity} {as_code(found.code)}: {as_code(found.message)}"
+    return f"{found.severity} {as_code(found.code)}: {as_prose(found.message)}"
 
 
 def _value(text: str | None) -> str:
-    return as_code(text) if text else ""
+    return as_prose(text) if text else ""
+
+
+def as_prose(text: str) -> str:
+    """Return a text whose plain words stay words; all others, and what it has in backticks, are code."""
+    short = text if len(text) <= _LONGEST_CELL else f"{text[: _LONGEST_CELL - 3]}..."
+    pieces = _CODE.split(" ".join(harmless_line(short).split()))
+    shown = (as_code(piece) if number % 2 else _words(piece) for number, piece in enumerate(pieces))
+    return "".join(shown)
+
+
+def _words(text: str) -> str:
+    return " ".join(map(_word, text.split(" ")))
+
+
+def _word(text: str) -> str:
+    match = _WORD.fullmatch(text)
+    before, word, after = ("", text, "") if match is None else match.groups()
+    return f"{before}{word if _PLAIN.fullmatch(word) else as_code(word)}{after}"
 
 
 def as_code(text: str) -> str:

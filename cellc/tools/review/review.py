@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from cellc.compiler.deploy.gates import GateText, gate_texts
-from cellc.contract.review import Review, ReviewFinding, ReviewGate, ReviewRehearsal, ReviewSide
+from cellc.contract.diagnostics import Severity
+from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal, ReviewSide
 from cellc.contract.vocabulary import ReviewArea
-from cellc.tools.review.compare import changes_between
+from cellc.tools.review.explained import explained
+from cellc.tools.review.renames import Names, Rename, names_of
 from cellc.tools.review.rules import REPEATED
 from cellc.tools.review.sides import Package
 
 
 def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal] = ()) -> Review:
     """Return what changed from one package to another, and what that means."""
-    changes = changes_between(before.facts, after.facts)
+    told = explained(before, after)
     specs = before.is_spec and after.is_spec
     return Review(
         format=1,
         before=_side(before),
         after=_side(after),
-        changes=changes,
-        new_findings=_more(after.findings, before.findings) if specs else (),
-        gone_findings=_more(before.findings, (*after.findings, *after.excused)) if specs else (),
+        changes=told.changes,
+        causes=told.causes,
+        new_findings=_more(after.findings, before.findings, told.renames) if specs else (),
+        gone_findings=_more(before.findings, (*after.findings, *after.excused), told.renames) if specs else (),
         rehearsals=tuple(rehearsals),
-        gates=gates_again(tuple(dict.fromkeys(change.area for change in changes))),
+        gates=_gates(before, after, told.changes),
         files=tuple(
             path for path in sorted({*before.files, *after.files}) if before.files.get(path) != after.files.get(path)
         ),
@@ -32,21 +37,44 @@ def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal
     )
 
 
+def _gates(before: Package, after: Package, changes: Sequence[ReviewChange]) -> tuple[ReviewGate, ...]:
+    """Return the gates to pass again: none where the configuration that evidence rests on is the same."""
+    same = before.facts.contract.configuration_id == after.facts.contract.configuration_id
+    return () if same else gates_again(tuple(dict.fromkeys(change.area for change in changes)))
+
+
 def _side(package: Package) -> ReviewSide:
     contract = package.facts.contract
     return ReviewSide(name=package.name, cell=contract.cell, configuration_id=contract.configuration_id)
 
 
-def _more(one: Sequence[ReviewFinding], other: Sequence[ReviewFinding]) -> tuple[ReviewFinding, ...]:
-    """Return the findings of one side that the other has not, wherever in the file they stand."""
-    known = [(finding.code, finding.message) for finding in other]
+_RANK = (Severity.ERROR, Severity.BLOCKER, Severity.WARNING)
+_FIGURE = re.compile(r"(?<!\w)\d[\w.:/-]*")
+_GOT = re.compile(r"\bgot .*")
+
+
+def _more(
+    one: Sequence[ReviewFinding], other: Sequence[ReviewFinding], renames: Sequence[Rename]
+) -> tuple[ReviewFinding, ...]:
+    """Return the findings of one side that the other has not, those that fail first.
+
+    A finding that says the same of another figure, or of a part that has another name, is neither new nor gone.
+    """
+    names = names_of(renames) if renames else None
+    known = Counter(_said(finding, names) for finding in other)
     more = []
     for finding in one:
-        if (finding.code, finding.message) in known:
-            known.remove((finding.code, finding.message))
+        if known[_said(finding, names)]:
+            known[_said(finding, names)] -= 1
         else:
             more.append(finding)
-    return tuple(more)
+    return tuple(sorted(more, key=lambda finding: _RANK.index(finding.severity) if finding.severity in _RANK else 9))
+
+
+def _said(finding: ReviewFinding, names: Names | None) -> tuple[str, str]:
+    """Return what a finding says, without the figures and what it got."""
+    message = finding.message if names is None else names.in_text(finding.message)
+    return finding.code, _FIGURE.sub("#", _GOT.sub("", message))
 
 
 def gates_again(areas: Sequence[ReviewArea]) -> tuple[ReviewGate, ...]:

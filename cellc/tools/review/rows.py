@@ -75,7 +75,7 @@ ROWS: Sequence[Row] = (
     Row("placement {frame}", Graded(_A.FRAMES, "pose in its parent", Rule.PLACED)),
     Row(
         "file config/frames.yaml calibrations {calibration} residual_m",
-        Graded(_A.CALIBRATION, "residual", Rule.LOOSER, "m"),
+        Graded(_A.CALIBRATION, "residual", Rule.MEASURED, "m"),
     ),
     Row("file config/frames.yaml calibrations {calibration} {what}", Graded(_A.CALIBRATION, "measurement")),
     # What moves, and how far.

@@ -25,6 +25,7 @@ from cellc.tools.review.revisions import repository_of
 
 if TYPE_CHECKING:
     from cellc.compiler.pipeline import Checked
+    from cellc.compiler.source.document import SourceDocument
 
 
 class SideError(CellcError):
@@ -58,6 +59,7 @@ class Package:
         findings: what the check says, where the side is a spec.
         excused: what it would say without the comments of the spec.
         is_spec: whether it is one.
+        document: the spec, where it is one.
     """
 
     name: str
@@ -67,6 +69,7 @@ class Package:
     excused: tuple[ReviewFinding, ...] = ()
     is_spec: bool = False
     notes: tuple[str, ...] = ()
+    document: SourceDocument | None = None
 
 
 def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
@@ -215,7 +218,8 @@ def package_of(name: str, checked: Checked) -> Package:
     files = {artifact.path: artifact.text for artifact in emitted.value}
     findings = tuple(as_review_finding(diagnostic) for diagnostic in checked.diagnostics)
     excused = tuple(as_review_finding(diagnostic) for diagnostic in checked.excused)
-    return Package(name, files, facts_of(files, checked.graph.cell, checked.excused), findings, excused, is_spec=True)
+    facts = facts_of(files, checked.graph.cell, checked.excused)
+    return Package(name, files, facts, findings, excused, is_spec=True, document=checked.document)
 
 
 def _of_folder(name: str, folder: Path) -> Package:

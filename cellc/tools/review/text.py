@@ -1,16 +1,16 @@
-"""A review for people at a terminal: one line that sums it up, then changes by grade and area."""
+"""A whole review for people at a terminal: one line that sums it up, then every change under what causes it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import groupby
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal
 from cellc.contract.vocabulary import Grade
+from cellc.tools.review.groups import groups_of
 
-_STYLE = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
+STYLES = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
 _FEW = 4
 
 
@@ -21,12 +21,12 @@ def render_review(review: Review) -> Iterator[Line]:
     yield f"after   {review.after.name}, {review.after.configuration_id}"
     for note in review.notes:
         yield f"note: {note}"
-    for grade, changes in groupby(review.changes, key=lambda change: change.grade):
-        yield ""
-        yield (Styled(grade.value, _STYLE[grade]),)
-        for change in changes:
-            yield from _change(change)
     yield from finding_lines("new findings", review.new_findings)
+    for group in groups_of(review):
+        yield ""
+        yield (Styled(group.grade.value, STYLES[group.grade]), "  ", Styled(group.title, Style.BOLD))
+        for change in group.changes:
+            yield from _change(change)
     yield from finding_lines("resolved findings", review.gone_findings)
     if review.rehearsals:
         yield ""
@@ -51,9 +51,9 @@ def summed_up(review: Review) -> str:
     return f"{review.after.name}: {count(len(review.changes), 'change')} ({listed}){more}"
 
 
-def subjects_of(change: ReviewChange) -> str:
+def subjects_of(change: ReviewChange, few: int = _FEW) -> str:
     """Return what changed; of many, the first and their number."""
-    shown = change.subjects if len(change.subjects) <= _FEW else change.subjects[:_FEW]
+    shown = change.subjects if len(change.subjects) <= few else change.subjects[:few]
     more = len(change.subjects) - len(shown)
     return ", ".join(shown) + (f" and {more} more" if more else "")
 
@@ -84,7 +84,8 @@ def approved_by(change: ReviewChange) -> str:
 
 def _change(change: ReviewChange) -> Iterator[Line]:
     breaking: tuple[str | Styled, ...] = ("  ", Styled("breaks consumers", Style.RED)) if change.breaking else ()
-    yield ("  ", Styled(change.area.value, Style.BOLD), f"  {subjects_of(change)}: {change.quantity}", *breaking)
+    grade = Styled(change.grade.value, STYLES[change.grade])
+    yield ("  ", grade, f" {change.area}  {subjects_of(change)}: {change.quantity}", *breaking)
     yield f"      {values_of(change)}"
     said = "; ".join(part for part in (change.why, approved_by(change)) if part)
     if said:

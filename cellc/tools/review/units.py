@@ -66,8 +66,12 @@ def _number(value: float) -> str:
     return f"{round(value, 6) + 0.0:.7g}"
 
 
-def difference(before: Leaf | None, after: Leaf | None, unit: str) -> str:
-    """Return how much a value differs; empty where that has no size."""
+def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: bool = True) -> str:
+    """Return how much a value differs; empty where that has no size.
+
+    Args:
+        share: whether it is told as a share of what was there.
+    """
     if isinstance(before, Pose) and isinstance(after, Pose):
         return motion(*apart(before, after))
     if isinstance(before, tuple) and isinstance(after, tuple):
@@ -78,7 +82,7 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str) -> str:
         return ""
     if isinstance(before, int) and isinstance(after, int):
         return ""
-    if before and (unit not in ("m", "rad") or before > 0.0 < after):
+    if share and before and (unit not in ("m", "rad") or before > 0.0 < after):
         return f"{_rounded(100.0 * (after - before) / abs(before)):+.10g} %"
     sign = "+" if after > before else ""
     return sign + _with_unit(after - before, unit)

@@ -78,7 +78,8 @@ def plan_upgrade(file: str, target: Distro) -> Planned:
 def _upgrade(
     cell: Cell, target: Distro, moves: Sequence[PinMove], before: Package, after: Package | None, moved: Checked
 ) -> Upgrade:
-    compared = None if after is None else review(before, after)
+    # What changes is the version tuple as a whole: no pin of it is tried alone.
+    compared = None if after is None else review(replace(before, document=None), after)
     parameters = parameter_changes(cell, target, _given(before.facts), _given((after or before).facts))
     asked = (
         *(move.question for move in moves),

@@ -1,0 +1,153 @@
+"""Which lines of a spec cause which changes: each is tried alone, on the state before, or undone in that after."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from cellc.compiler.pipeline import check_document
+from cellc.compiler.source.document import Child, SourceDocument
+from cellc.contract.diagnostics import YamlPath
+from cellc.contract.review import ReviewCause
+from cellc.tools.review.compare import Change, reported
+from cellc.tools.review.facts import Facts
+from cellc.tools.review.sides import SideError, package_of
+from cellc.tools.review.spec_edits import SpecEdit, spec_edits, undone, with_edits
+
+_MOST = 16
+"""Causes that are tried one by one; of more edits, those of one part of the spec are one cause."""
+_TOGETHER = 3
+"""Values of one mapping that are told as one: of a calibration, its revision, its day and its residual."""
+_LONGEST = 60
+
+Cause: TypeAlias = tuple[SpecEdit, ...]
+"""Edits of a spec that are told as one."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """A spec with the facts of the package that is made of it."""
+
+    document: SourceDocument
+    facts: Facts
+
+
+@dataclass(frozen=True, slots=True)
+class _Trial:
+    """What a cause changes by itself; not told where the spec has errors both with it alone and with all but it."""
+
+    changes: Mapping[tuple[str, str], Change]
+    told: bool
+
+
+def causes_between(before: SourceDocument, after: SourceDocument) -> tuple[Cause, ...]:
+    """Return the edits between two states of a spec, those of one part as one where there are many."""
+    edits = spec_edits(before, after)
+    beside = Counter(edit.path[:-1] for edit in edits)
+    causes = _grouped(edits, [edit.path[:-1] if beside[edit.path[:-1]] >= _TOGETHER else edit.path for edit in edits])
+    for depth in (3, 2, 1):
+        if len(causes) > _MOST:
+            causes = _grouped(edits, [edit.path[:depth] for edit in edits])
+    return causes
+
+
+def _grouped(edits: Sequence[SpecEdit], paths: Sequence[YamlPath]) -> tuple[Cause, ...]:
+    grouped: dict[YamlPath, list[SpecEdit]] = {}
+    for edit, path in zip(edits, paths, strict=True):
+        grouped.setdefault(path, []).append(edit)
+    return tuple(map(tuple, grouped.values()))
+
+
+def attributed(
+    told: Sequence[Change], causes: Sequence[Cause], before: State, after: State
+) -> tuple[tuple[Cause, ...], list[tuple[int | None, Change]]]:
+    """Return the causes that change something, and each change with the number of its cause; None where none has it.
+
+    Causes that cannot be tried alone, such as a device and its controllers, are one.
+    """
+    if len(causes) < 2:
+        return tuple(causes), [(0 if causes else None, change) for change in told]
+    trials = [_tried(cause, before, after) for cause in causes]
+    alone = [cause for cause, trial in zip(causes, trials, strict=True) if trial.told]
+    together = tuple(edit for cause, trial in zip(causes, trials, strict=True) if not trial.told for edit in cause)
+    known = [trial.changes for trial in trials if trial.told]
+    rest = len(alone) if together else None
+    found = [(_cause_of(change, known, rest), change) for change in told]
+    kept = sorted({number for number, _ in found if number is not None})
+    every = (*alone, together)
+    return (
+        tuple(every[number] for number in kept),
+        [(None if number is None else kept.index(number), change) for number, change in found],
+    )
+
+
+def _cause_of(change: Change, known: Sequence[Mapping[tuple[str, str], Change]], rest: int | None) -> int | None:
+    having = [number for number, changes in enumerate(known) if _key(change) in changes]
+    exact = [number for number in having if known[number][_key(change)].after == change.after]
+    return next(iter((*exact, *having)), rest)
+
+
+def _tried(cause: Cause, before: State, after: State) -> _Trial:
+    alone = facts_of_document(with_edits(before.document, cause, after.document))
+    if alone is not None:
+        return _Trial(_by_key(reported(before.facts, alone)), told=True)
+    without = facts_of_document(with_edits(after.document, undone(cause), before.document))
+    if without is not None:
+        return _Trial(_by_key(reported(without, after.facts)), told=True)
+    return _Trial({}, told=False)
+
+
+def facts_of_document(document: SourceDocument) -> Facts | None:
+    """Return what the package of a spec in memory says; None where the spec has errors."""
+    try:
+        return package_of(document.file, check_document(document)).facts
+    except SideError:
+        return None
+
+
+def _by_key(changes: Sequence[Change]) -> dict[tuple[str, str], Change]:
+    return {_key(change): change for change in changes}
+
+
+def _key(change: Change) -> tuple[str, str]:
+    # A cause alone may be graded otherwise, and with that in another area: a pose without its new revision.
+    return change.subject, change.quantity
+
+
+def as_told(cause: Cause) -> ReviewCause:
+    """Return a cause as a review tells it: its line, or the part of the spec that holds its lines."""
+    first = cause[0]
+    if len(cause) == 1:
+        before, after = _text(first.before), _text(first.after)
+        return ReviewCause(line=_dotted(first.path), before=before, after=after, place=str(first.place))
+    return ReviewCause(line=_dotted(_common(cause)) or _dotted(first.path), place=str(first.place), lines=len(cause))
+
+
+def _common(cause: Cause) -> YamlPath:
+    first = cause[0].path
+    length = next((at for at in range(len(first)) if any(edit.path[: at + 1] != first[: at + 1] for edit in cause)), 0)
+    return first[:length]
+
+
+def _dotted(path: YamlPath) -> str:
+    return ".".join(map(str, path))
+
+
+def _text(child: Child | None) -> str | None:
+    if child is None:
+        return None
+    text = _flow(child)
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
+
+
+def _flow(child: Child) -> str:
+    """Return a value in one line, as YAML has it in flow style."""
+    node = child.node
+    if not node.is_collection:
+        return node.text
+    inner = [_flow(each) for each in node.children.values()]
+    if isinstance(node.data, list):
+        return f"[{', '.join(inner)}]"
+    return "{" + ", ".join(f"{key}: {text}" for key, text in zip(node.children, inner, strict=True)) + "}"

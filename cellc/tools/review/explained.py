@@ -1,0 +1,142 @@
+"""What changed from one package to another under what causes it: names first, then lines of the spec."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from cellc.contract.diagnostics.wording import count
+from cellc.contract.review import ReviewCause, ReviewChange
+from cellc.contract.vocabulary import Grade
+from cellc.tools.review.causes import State, as_told, attributed, causes_between, facts_of_document
+from cellc.tools.review.compare import Change, change_of, changes_between, follows, merged, reported
+from cellc.tools.review.facts import Facts
+from cellc.tools.review.groups import NAME_OF
+from cellc.tools.review.leaves import Leaf, Path, Prose, differences, same
+from cellc.tools.review.renames import Names, Rename, names_of, renamed, renames_between
+from cellc.tools.review.sides import Package
+
+_FEW = 4
+_LETTERS = "[A-Za-z0-9]"
+"""What goes on with a name where it is a part of another: `arm` is one of `arm_base_link`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Explained:
+    """Causes in the order in which they are told, changes with the number of theirs, and the names that changed."""
+
+    causes: tuple[ReviewCause, ...]
+    changes: tuple[ReviewChange, ...]
+    renames: tuple[Rename, ...] = ()
+
+
+def explained(before: Package, after: Package) -> Explained:
+    """Return every change with what causes it; of folders, of which no spec is there, the changes alone."""
+    if before.document is None or after.document is None:
+        return Explained((), changes_between(before.facts, after.facts))
+    was, now = State(before.document, before.facts), State(after.document, after.facts)
+    renames, base = _with_names_after(was, now)
+    names = [_of_rename(rename, was.facts, base.facts) for rename in renames]
+    told = reported(base.facts, now.facts)
+    causes, found = attributed(told, causes_between(base.document, now.document), base, now)
+    first = [
+        ReviewCause(line=_line(rename), before=rename.before, after=rename.after, renamed=True) for rename in renames
+    ]
+    numbered: list[tuple[int | None, Change]] = list(enumerate(names))
+    numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
+    numbered += [(None if number is None else number + len(first), change) for number, change in found]
+    return Explained((*first, *map(as_told, causes)), merged(numbered, before.facts, after.facts), renames)
+
+
+def _with_names_after(was: State, now: State) -> tuple[tuple[Rename, ...], State]:
+    """Return the names that changed, and the state before with those after; none where that is no valid spec."""
+    renames = renames_between(was.document, now.document)
+    if not renames:
+        return (), was
+    document = renamed(was.document, now.document, renames)
+    facts = facts_of_document(document)
+    return ((), was) if facts is None else (renames, State(document, facts))
+
+
+def _line(rename: Rename) -> str:
+    return ".".join((*map(str, rename.section), rename.after))
+
+
+def _of_rename(rename: Rename, before: Facts, after: Facts) -> Change:
+    """Return another name as one change: what follows it, and what of it consumers outside the cell know."""
+    followed = _followed(rename, before, after)
+    known = [name for name in _known_outside(before) if name in followed or name == rename.before]
+    more = f" and {len(known) - _FEW} more" if len(known) > _FEW else ""
+    return Change(
+        rename.area,
+        rename.after,
+        f"{NAME_OF}{rename.noun}",
+        rename.before,
+        rename.after,
+        Grade.REVIEW,
+        f"{count(len(followed), 'name')} follow{'s' * (len(followed) == 1)}" if followed else "",
+        breaking=bool(known),
+        why=f"consumers of {', '.join(known[:_FEW])}{more}" if known else "",
+    )
+
+
+def _beside_names(renames: Sequence[Rename], before: Facts, after: Facts) -> Iterator[Change]:
+    """Yield what else changed where names alone should have: nothing, as a rule."""
+    if not renames:
+        return
+    bare = [replace(rename, before=rename.before.strip("/"), after=rename.after.strip("/")) for rename in renames]
+    names = names_of(bare, inside=_LETTERS)
+    was, now = (
+        {_path_with(names, path): _with_names(leaf, names) for path, leaf in facts.leaves.items()}
+        for facts in (before, after)
+    )
+    for delta in differences(was, now):
+        is_order = (
+            delta.before is not None and delta.after is not None and same(delta.before, delta.after, ordered=False)
+        )
+        change = None if is_order or follows(delta.path) else change_of(delta, before, after)
+        if change is not None:
+            yield change
+
+
+def _path_with(names: Names, path: Path) -> Path:
+    now = tuple(map(names.in_text, path))
+    return (*now[:-1], " and ".join(sorted(now[-1].split(" and ")))) if path[0] == "pair" else now
+
+
+def _with_names(leaf: Leaf, names: Names) -> Leaf:
+    if isinstance(leaf, str):
+        return names.in_text(leaf)
+    if isinstance(leaf, Prose):
+        return Prose(names.in_text(leaf.text))
+    if isinstance(leaf, tuple):
+        return tuple(names.in_text(item) if isinstance(item, str) else item for item in leaf)
+    return leaf
+
+
+def _followed(rename: Rename, before: Facts, after: Facts) -> frozenset[str]:
+    """Return the names of a package that went with a name, where the same came with the other."""
+    names = names_of([rename], inside=_LETTERS)
+    was, now = _names_in(before), _names_in(after)
+    return frozenset(name for name in was - now if name != rename.before and names.in_text(name) in now - was)
+
+
+def _names_in(facts: Facts) -> frozenset[str]:
+    """Return the names that a package gives: of interfaces, frames, joints, controllers, devices and what moves."""
+    contract, controllers = facts.contract, [m.controllers for m in facts.contract.managers.values()]
+    body = facts.description
+    return frozenset(
+        (
+            *_known_outside(facts),
+            *(name for held in controllers for name in held),
+            *(name for held in (contract.devices, contract.groups, contract.goals, contract.clock_of) for name in held),
+            *(link.name for link in body.links),
+            *(joint.name for joint in body.joints),
+            *(component.name for component in body.hardware),
+        )
+    )
+
+
+def _known_outside(facts: Facts) -> Sequence[str]:
+    """Return the names by which others know a cell: of interfaces and of frames."""
+    return (*facts.contract.interfaces, *facts.contract.frames)
