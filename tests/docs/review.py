@@ -50,7 +50,8 @@ finding and gate. New findings come first, those that fail before others. Then e
 heading with what it causes under it: the worst first, and of one grade what safety approves first. To know what a line
 causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
 device and its controllers, are told together; so are those of one part of the spec where there are many. Folders have
-no spec: their changes are told by area.
+no spec: their changes are told by area. In a pull request the action annotates what is new, and what fails
+(`cellc check --format github --against REVISION`).
 
 A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line, with how many
 names follow and which of those break consumers. What else changed is compared under the new names. A namespace is a

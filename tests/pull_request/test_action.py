@@ -38,6 +38,18 @@ def test_findings_are_not_written_through_a_link_of_the_branch(name: str, reposi
     assert not list(elsewhere.iterdir())
 
 
+def test_only_what_is_new_or_fails_is_annotated_against_the_base(repository: Path) -> None:
+    base = git(repository, "rev-parse", "HEAD").strip()
+    file = repository / "cells/line/cell.yaml"
+    every = re.findall(r"^::\w+ ", run_step(repository, "Check")[1], re.MULTILINE)
+    assert every
+    assert run_step(repository, "Check", base=base)[1].count("::") == 0
+    file.write_text(file.read_text().replace("100 Hz", "100"), encoding="utf-8")
+    code, out, _ = run_step(repository, "Check", base=base)
+    assert code == 1
+    assert len(re.findall(r"^::error ", out, re.MULTILINE)) == 1
+
+
 def test_edited_folder_is_not_held(repository: Path) -> None:
     (repository / "generated/line/package.xml").write_text("<package/>", encoding="utf-8")
     assert run_step(repository, "Hold the generated folders")[0] == 1

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from cellc.contract.diagnostics import Severity
+from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.errors import reason_of
 from cellc.contract.printing import Stream, progress, show
 from cellc.tools.cli.batch import cell_files, results
@@ -39,6 +42,11 @@ _PASSES = 16
 @click.option(
     "--sarif", metavar="FILE", type=click.Path(path_type=Path), help="Also write the findings to FILE, as SARIF 2.1.0."
 )
+@click.option(
+    "--against",
+    metavar="REVISION",
+    help="Annotate what fails and what this Git revision has not; for --format github.",
+)
 @fleet_options
 @limit_option
 def check(
@@ -49,6 +57,7 @@ def check(
     output_format: str,
     fail_on: str,
     sarif: Path | None,
+    against: str | None,
     fleet: FleetOptions,
 ) -> None:
     """Check each cell in FILES and report problems with file, line and fix.
@@ -63,6 +72,8 @@ def check(
     cellc check . --format github              annotations of a pull request
     cellc check . --matrix ros=humble,jazzy    each cell with each distribution
     """
+    if against is not None and output_format != "github":
+        raise click.UsageError("--against needs --format github.")
     wanted = read_selection(select, ignore)
     files = cell_files(files)
     with progress("fixing") as update:
@@ -72,8 +83,9 @@ def check(
     tasks = fleet.tasks(files)
     computed = list(results("check", tasks, fleet.fan))
     shown = [selected(result.findings, wanted) for result in computed]
+    told = shown if against is None else [_new_or_failing(each, against, fail_on) for each in shown]
     show_checked(
-        fleet, [(task, result.findings) for task, result in zip(tasks, computed, strict=True)], shown, output_format
+        fleet, [(task, result.findings) for task, result in zip(tasks, computed, strict=True)], told, output_format
     )
     if sarif is not None:
         write_sarif(shown, sarif)
@@ -81,6 +93,22 @@ def check(
         row_of(task, result, findings, fail_on) for task, result, findings in zip(tasks, computed, shown, strict=True)
     ]
     finish_rows(fleet, rows, output_format)
+
+
+def _new_or_failing(findings: Findings, revision: str, fail_on: str) -> Findings:
+    """Return the findings that fail, and those that a file had not in a revision."""
+    from cellc.tools.report.json_report import as_review_finding
+    from cellc.tools.review.review import new_among
+    from cellc.tools.review.sides import SideError, findings_at
+
+    try:
+        before = findings_at(revision, findings.file)
+    except SideError as problem:
+        raise click.UsageError(str(problem)) from None
+    new = new_among([as_review_finding(each) for each in findings.diagnostics], before)
+    worst = Severity(fail_on).rank
+    told = (each for number, each in enumerate(findings.diagnostics) if number in new or each.severity.rank <= worst)
+    return replace(findings, diagnostics=tuple(told))
 
 
 def fix_file(file: str) -> None:

@@ -60,15 +60,23 @@ def _more(
 
     A finding that says the same of another figure, or of a part that has another name, is neither new nor gone.
     """
-    names = names_of(renames) if renames else None
-    known = Counter(_said(finding, names) for finding in other)
-    more = []
-    for finding in one:
-        if known[_said(finding, names)]:
-            known[_said(finding, names)] -= 1
-        else:
-            more.append(finding)
+    more = [one[number] for number in new_among(one, other, renames)]
     return tuple(sorted(more, key=lambda finding: _RANK.index(finding.severity) if finding.severity in _RANK else 9))
+
+
+def new_among(
+    found: Sequence[ReviewFinding], before: Sequence[ReviewFinding], renames: Sequence[Rename] = ()
+) -> tuple[int, ...]:
+    """Return the numbers of the findings that were not there before."""
+    names = names_of(renames) if renames else None
+    known = Counter(_said(finding, names) for finding in before)
+    new = []
+    for number, finding in enumerate(found):
+        said = _said(finding, names)
+        known[said] -= 1
+        if known[said] < 0:
+            new.append(number)
+    return tuple(new)
 
 
 def _said(finding: ReviewFinding, names: Names | None) -> tuple[str, str]:

@@ -21,7 +21,7 @@ from cellc.mock.folder import read_text
 from cellc.tools.report.json_report import as_review_finding
 from cellc.tools.review.facts import MANIFEST, Facts, FactsError, facts_of
 from cellc.tools.review.objects import RevisionError
-from cellc.tools.review.revisions import repository_of
+from cellc.tools.review.revisions import Taken, repository_of
 
 if TYPE_CHECKING:
     from cellc.compiler.pipeline import Checked
@@ -167,13 +167,39 @@ def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
     path = PurePosixPath(side.path).as_posix()
     taken = stack.enter_context(repository.taken(revision, path))
     package = _read(side.name, taken.path, taken.path.as_posix())
-    shown = f"{side.revision}:{PurePosixPath(path).parent.as_posix()}/"
-    named = {f"{taken.folder.as_posix()}/": shown, f"{taken.top.as_posix()}/": f"{side.revision}:"}
+    named = _names_shown(side, taken)
     findings, excused = (
         tuple(_shown_from(finding, named) for finding in each) for each in (package.findings, package.excused)
     )
     links = (f"{side.name}: {taken.links} links or submodules were left out",) if taken.links else ()
     return replace(package, findings=findings, excused=excused, notes=(*package.notes, *links)), taken.path
+
+
+def _names_shown(side: Side, taken: Taken) -> Mapping[str, str]:
+    shown = f"{side.revision}:{PurePosixPath(side.path).parent.as_posix()}/"
+    return {f"{taken.folder.as_posix()}/": shown, f"{taken.top.as_posix()}/": f"{side.revision}:"}
+
+
+def findings_at(revision: str, file: str) -> tuple[ReviewFinding, ...]:
+    """Return what a check says of a file as it is in a revision; nothing where the revision has no such file.
+
+    Raises:
+        SideError: there is no such revision.
+    """
+    from cellc.compiler.pipeline import judge
+
+    side = _revised(revision, file)
+    repository = repository_of(side.within.absolute())
+    try:
+        repository.commit(revision)
+    except RevisionError as problem:
+        raise SideError(str(problem)) from None
+    try:
+        with repository.taken(revision, side.path) as taken:
+            named = _names_shown(side, taken)
+            return tuple(_shown_from(as_review_finding(each), named) for each in judge(taken.path).diagnostics)
+    except RevisionError:
+        return ()
 
 
 def _shown_from(found: ReviewFinding, named: Mapping[str, str]) -> ReviewFinding:
