@@ -128,6 +128,19 @@ def test_each_change_stands_under_its_own_line_the_worst_first_and_safety_before
     assert len(_lines(found)) <= MOST_LINES
 
 
+def test_what_a_comment_excuses_is_not_caused_by_the_line_that_changed_beside_it() -> None:
+    rollback = "rollback: {image: UNKNOWN, configuration: UNKNOWN}"
+    found = _of(
+        "ur5e_pick",
+        (rollback, f"{rollback}  # cellc: ignore missing-rollback no image yet"),
+        ("plan_to_execute: 500 ms", "plan_to_execute: 600 ms"),
+    )
+    assert [re.sub(r" \(.*", "", title) for title in _titles(found)] == [
+        "dangerous gates",
+        "review kpis.plan_to_execute: 500 ms -> 600 ms",
+    ]
+
+
 def test_many_lines_of_a_spec_still_fit_on_a_screen() -> None:
     text = re.sub(r"(\d+) mm", lambda found: f"{int(found[1]) + 1} mm", spec_text("ur5e_pick"))
     found = _of_text("ur5e_pick", text.replace("500 ms", "600 ms").replace("goal_time: 1 s", "goal_time: 2 s"))

@@ -65,10 +65,9 @@ def attributed(
 ) -> tuple[tuple[Cause, ...], list[tuple[int | None, Change]]]:
     """Return the causes that change something, and each change with the number of its cause; None where none has it.
 
-    Causes that cannot be tried alone, such as a device and its controllers, are one.
+    Causes that cannot be tried alone, such as a device and its controllers, are one. What comes from elsewhere, such as
+    a comment that excuses a finding or a file that the spec names, has none.
     """
-    if len(causes) < 2:
-        return tuple(causes), [(0 if causes else None, change) for change in told]
     trials = [_tried(cause, before, after) for cause in causes]
     alone = [cause for cause, trial in zip(causes, trials, strict=True) if trial.told]
     together = tuple(edit for cause, trial in zip(causes, trials, strict=True) if not trial.told for edit in cause)
