@@ -42,7 +42,7 @@ class Graded(NamedTuple):
         ordered: whether the order of a list says something.
         why: what the change means, beside the rule.
         each: what a key of a mapping names, such as `frame`; it is then the subject of the change.
-        share: whether how much it changed is told as a share; of a length or a mass that people know, it is not.
+        share: whether how much it changed is shown as a share; of a length or a mass that people know, it is not.
     """
 
     area: ReviewArea

@@ -28,7 +28,7 @@ class ReviewCause(ContractModel):
     before: str | None = Field(None, description="What it said; null where it is new.")
     after: str | None = Field(None, description="What it says; null where it is gone.")
     place: str = Field("", description="File, line and column; of what is gone, those before.")
-    lines: int = Field(1, description="How many values of that part are told as one.")
+    lines: int = Field(1, description="How many values of that part are listed as one.")
     renamed: bool = Field(False, description="It only has another name.")
 
 

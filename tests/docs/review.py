@@ -49,8 +49,8 @@ What is printed fits on a screen of 25 lines, and so does what a comment shows u
 finding and gate. New findings come first, those that fail before others. Then each line of the spec that changed is a
 heading with what it causes under it: the worst first, and of one grade what safety approves first. To know what a line
 causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
-device and its controllers, are told together; so are those of one part of the spec where there are many. Folders have
-no spec: their changes are told by area. In a pull request the action annotates what is new, and what fails
+device and its controllers, are listed together; so are those of one part of the spec where there are many. Folders have
+no spec: their changes are listed by area. In a pull request the action annotates what is new, and what fails
 (`cellc check --format github --against REVISION`).
 
 A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line, with how many

@@ -19,11 +19,11 @@ from cellc.tools.review.spec_edits import SpecEdit, spec_edits, undone, with_edi
 _MOST = 16
 """Causes that are tried one by one; of more edits, those of one part of the spec are one cause."""
 _TOGETHER = 3
-"""Values of one mapping that are told as one: of a calibration, its revision, its day and its residual."""
+"""Values of one mapping that are listed as one: of a calibration, its revision, its day and its residual."""
 _LONGEST = 60
 
 Cause: TypeAlias = tuple[SpecEdit, ...]
-"""Edits of a spec that are told as one."""
+"""Edits of a spec that are listed as one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,10 +36,10 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class _Trial:
-    """What a cause changes by itself; not told where the spec has errors both with it alone and with all but it."""
+    """What a cause changes by itself; not valid where the spec has errors both with it alone and with all but it."""
 
     changes: Mapping[tuple[str, str], Change]
-    told: bool
+    valid: bool
 
 
 def causes_between(before: SourceDocument, after: SourceDocument) -> tuple[Cause, ...]:
@@ -61,7 +61,7 @@ def _grouped(edits: Sequence[SpecEdit], paths: Sequence[YamlPath]) -> tuple[Caus
 
 
 def attributed(
-    told: Sequence[Change], causes: Sequence[Cause], before: State, after: State
+    changes: Sequence[Change], causes: Sequence[Cause], before: State, after: State
 ) -> tuple[tuple[Cause, ...], list[tuple[int | None, Change]]]:
     """Return the causes that change something, and each change with the number of its cause; None where none has it.
 
@@ -69,11 +69,11 @@ def attributed(
     a comment that excuses a finding or a file that the spec names, has none.
     """
     trials = [_tried(cause, before, after) for cause in causes]
-    alone = [cause for cause, trial in zip(causes, trials, strict=True) if trial.told]
-    together = tuple(edit for cause, trial in zip(causes, trials, strict=True) if not trial.told for edit in cause)
-    known = [trial.changes for trial in trials if trial.told]
+    alone = [cause for cause, trial in zip(causes, trials, strict=True) if trial.valid]
+    together = tuple(edit for cause, trial in zip(causes, trials, strict=True) if not trial.valid for edit in cause)
+    known = [trial.changes for trial in trials if trial.valid]
     rest = len(alone) if together else None
-    found = [(_cause_of(change, known, rest), change) for change in told]
+    found = [(_cause_of(change, known, rest), change) for change in changes]
     kept = sorted({number for number, _ in found if number is not None})
     every = (*alone, together)
     return (
@@ -91,11 +91,11 @@ def _cause_of(change: Change, known: Sequence[Mapping[tuple[str, str], Change]],
 def _tried(cause: Cause, before: State, after: State) -> _Trial:
     alone = facts_of_document(with_edits(before.document, cause, after.document))
     if alone is not None:
-        return _Trial(_by_key(reported(before.facts, alone)), told=True)
+        return _Trial(_by_key(reported(before.facts, alone)), valid=True)
     without = facts_of_document(with_edits(after.document, undone(cause), before.document))
     if without is not None:
-        return _Trial(_by_key(reported(without, after.facts)), told=True)
-    return _Trial({}, told=False)
+        return _Trial(_by_key(reported(without, after.facts)), valid=True)
+    return _Trial({}, valid=False)
 
 
 def facts_of_document(document: SourceDocument) -> Facts | None:
@@ -115,8 +115,8 @@ def _key(change: Change) -> tuple[str, str]:
     return change.subject, change.quantity
 
 
-def as_told(cause: Cause) -> ReviewCause:
-    """Return a cause as a review tells it: its line, or the part of the spec that holds its lines."""
+def as_cause(cause: Cause) -> ReviewCause:
+    """Return a cause as a review lists it: its line, or the part of the spec that holds its lines."""
     first = cause[0]
     if len(cause) == 1:
         before, after = _text(first.before), _text(first.after)

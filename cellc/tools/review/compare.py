@@ -118,8 +118,8 @@ def reported(before: Facts, after: Facts) -> list[Change]:
     rest, pins = _pins(rest)
     primary = [delta for delta in rest if not follows(delta.path)]
     reported = [*whole_things, *_effects(before, after)]
-    told = [change for delta in primary if (change := change_of(delta, before, after)) is not None]
-    reported += [_with_matrix(change, pins, before, after) for change in told]
+    values = [change for delta in primary if (change := change_of(delta, before, after)) is not None]
+    reported += [_with_matrix(change, pins, before, after) for change in values]
     ids = _ids(before) | _ids(after)
     known = _known(reported, ids)
     for delta in rest:
@@ -248,7 +248,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) ->
 
 
 def _pins(deltas: Sequence[Delta]) -> tuple[list[Delta], dict[str, Delta]]:
-    """Take out what the matrix says of pins that changed themselves: a pin is told once."""
+    """Take out what the matrix says of pins that changed themselves: a pin is listed once."""
     pinned = {delta.path[2] for delta in deltas if delta.path[:2] == _PINNED}
     judged = {delta.path[1]: delta for delta in deltas if delta.path[0] == "matrix" and delta.path[1] in pinned}
     return [delta for delta in deltas if delta not in judged.values()], judged

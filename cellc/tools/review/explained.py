@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.causes import State, as_told, attributed, causes_between, facts_of_document
+from cellc.tools.review.causes import State, as_cause, attributed, causes_between, facts_of_document
 from cellc.tools.review.compare import Change, change_of, changes_between, follows, merged, reported
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.groups import NAME_OF
@@ -23,7 +23,7 @@ _LETTERS = "[A-Za-z0-9]"
 
 @dataclass(frozen=True, slots=True)
 class Explained:
-    """Causes in the order in which they are told, changes with the number of theirs, and the names that changed."""
+    """Causes in the order in which they are listed, changes with the number of theirs, and the names that changed."""
 
     causes: tuple[ReviewCause, ...]
     changes: tuple[ReviewChange, ...]
@@ -37,15 +37,15 @@ def explained(before: Package, after: Package) -> Explained:
     was, now = State(before.document, before.facts), State(after.document, after.facts)
     renames, base = _with_names_after(was, now)
     names = [_of_rename(rename, was.facts, base.facts) for rename in renames]
-    told = reported(base.facts, now.facts)
-    causes, found = attributed(told, causes_between(base.document, now.document), base, now)
+    changes = reported(base.facts, now.facts)
+    causes, found = attributed(changes, causes_between(base.document, now.document), base, now)
     first = [
         ReviewCause(line=_line(rename), before=rename.before, after=rename.after, renamed=True) for rename in renames
     ]
     numbered: list[tuple[int | None, Change]] = list(enumerate(names))
     numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
     numbered += [(None if number is None else number + len(first), change) for number, change in found]
-    return Explained((*first, *map(as_told, causes)), merged(numbered, before.facts, after.facts), renames)
+    return Explained((*first, *map(as_cause, causes)), merged(numbered, before.facts, after.facts), renames)
 
 
 def _with_names_after(was: State, now: State) -> tuple[tuple[Rename, ...], State]:
@@ -115,7 +115,7 @@ def _with_names(leaf: Leaf, names: Names) -> Leaf:
 
 
 def _followed(rename: Rename, before: Facts, after: Facts) -> frozenset[str]:
-    """Return the names of a package that went with a name, where the same came with the other."""
+    """Return the names of a package that were removed with a name, where the same were added with the other."""
     names = names_of([rename], inside=_LETTERS)
     was, now = _names_in(before), _names_in(after)
     return frozenset(name for name in was - now if name != rename.before and names.in_text(name) in now - was)

@@ -68,12 +68,12 @@ class Group:
         if len(self.changes) < 2:
             return ()
         sized = [change for change in self.changes if change.delta and change.quantity in _TELLING]
-        told = dict[str, None]()
+        listed = dict[str, None]()
         for change in sorted(
             sized, key=lambda change: (_TELLING.index(change.quantity), _HOME not in change.subjects[0])
         ):
-            told[_figure(change)] = None
-        return tuple(told)[:_SAID]
+            listed[_figure(change)] = None
+        return tuple(listed)[:_SAID]
 
     @property
     def asks(self) -> str:

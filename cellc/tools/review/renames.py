@@ -31,7 +31,7 @@ _SECTIONS: Mapping[tuple[str, ...], tuple[ReviewArea, str]] = {
 }
 """Mappings of the spec whose keys are names that people chose: area and noun of what they name."""
 _ALIKE = 0.6
-"""Share of equal values from which a part that went and a part that came are one part of another name."""
+"""Share of equal values from which a part that was removed and a part that was added are one part of another name."""
 _MOST_PAIRS = 2_500
 _NAMESPACE = "namespace"
 

@@ -88,9 +88,9 @@ def _inner(group: Group, most: int) -> Iterator[Line]:
     worst = _alike([change for change in group.changes if change.grade is group.grade or change.breaking])
     others = len(group.changes) - sum(map(len, worst.values()))
     room = min(_FEW, most - len(figures) - len(asked) - (others > 0))
-    told = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
-    lines = [*figures, *(_line(text, worst[text]) for text in told)]
-    rest = [change for change in group.changes if not any(change in worst[text] for text in told)]
+    listed = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
+    lines = [*figures, *(_line(text, worst[text]) for text in listed)]
+    rest = [change for change in group.changes if not any(change in worst[text] for text in listed)]
     if rest:
         lines.append((Styled(cut(f"  {len(rest)} more: {areas_of(rest)}"), Style.DIM),))
     yield from (*lines, *asked)[: max(most, 0)]

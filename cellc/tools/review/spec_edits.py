@@ -52,7 +52,7 @@ def _differences(before: Node, after: Node, path: YamlPath) -> Iterator[SpecEdit
 
 
 def _have_parts(before: Node, after: Node) -> bool:
-    """Whether two values are told apart part by part: a list that grew is one value."""
+    """Whether two values are compared part by part: a list that grew is one value."""
     if isinstance(before.data, list) and isinstance(after.data, list):
         return len(before.data) == len(after.data) and all(isinstance(entry, dict) for entry in before.data)
     return isinstance(before.data, dict) and isinstance(after.data, dict)

@@ -70,7 +70,7 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: boo
     """Return how much a value differs; empty where that has no size.
 
     Args:
-        share: whether it is told as a share of what was there.
+        share: whether it is shown as a share of what was there.
     """
     if isinstance(before, Pose) and isinstance(after, Pose):
         return motion(*apart(before, after))
