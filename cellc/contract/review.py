@@ -26,7 +26,9 @@ class ReviewCause(ContractModel):
 
     line: str = Field(description="Path of the value in the spec, such as `devices.arm.model`.")
     before: str | None = Field(None, description="What it said; null where it is new.")
-    after: str | None = Field(None, description="What it says; null where it is gone.")
+    after: str | None = Field(
+        None, description="What it says; null where it is gone. Of several values, which they are."
+    )
     place: str = Field("", description="File, line and column; of what is gone, those before.")
     lines: int = Field(1, description="How many values of that part are listed as one.")
     renamed: bool = Field(False, description="It only has another name.")

@@ -16,7 +16,7 @@ from cellc.tools.review.facts import Facts
 from cellc.tools.review.sides import SideError, package_of
 from cellc.tools.review.spec_edits import SpecEdit, spec_edits, undone, with_edits
 
-_MOST = 16
+_MOST = 20
 """Causes that are tried one by one; of more edits, those of one part of the spec are one cause."""
 _TOGETHER = 3
 """Values of one mapping that are listed as one: of a calibration, its revision, its day and its residual."""
@@ -121,7 +121,9 @@ def as_cause(cause: Cause) -> ReviewCause:
     if len(cause) == 1:
         before, after = _text(first.before), _text(first.after)
         return ReviewCause(line=_dotted(first.path), before=before, after=after, place=str(first.place))
-    return ReviewCause(line=_dotted(_common(cause)) or _dotted(first.path), place=str(first.place), lines=len(cause))
+    common = _common(cause)
+    parts = ", ".join(_dotted(edit.path[len(common) :]) for edit in cause)
+    return ReviewCause(line=_dotted(common) or "spec", after=_short(parts), place=str(first.place), lines=len(cause))
 
 
 def _common(cause: Cause) -> YamlPath:
@@ -137,7 +139,10 @@ def _dotted(path: YamlPath) -> str:
 def _text(child: Child | None) -> str | None:
     if child is None:
         return None
-    text = _flow(child)
+    return _short(_flow(child))
+
+
+def _short(text: str) -> str:
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
 
 

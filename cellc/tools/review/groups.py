@@ -57,7 +57,7 @@ class Group:
         file, _, rest = place.partition(":")
         where = f"{file}:{rest.partition(':')[0]}" if rest else place
         if cause.lines > 1:
-            return f"{line}: {cause.lines} values ({where})"
+            return f"{line} ({where}): {cause.after}"
         if cause.before is None or cause.after is None:
             return f"{line} {'added' if cause.before is None else 'removed'} ({where})"
         return f"{line}: {cause.before} -> {cause.after} ({where})"

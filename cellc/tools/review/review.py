@@ -39,8 +39,11 @@ def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal
 
 def _gates(before: Package, after: Package, changes: Sequence[ReviewChange]) -> tuple[ReviewGate, ...]:
     """Return the gates to pass again: none where the configuration that evidence rests on is the same."""
-    same = before.facts.contract.configuration_id == after.facts.contract.configuration_id
-    return () if same else gates_again(tuple(dict.fromkeys(change.area for change in changes)))
+    if before.facts.contract.configuration_id == after.facts.contract.configuration_id:
+        return ()
+    again = gates_again(tuple(dict.fromkeys(change.area for change in changes)))
+    # Evidence of another configuration does not count, even where no gate looks at what changed.
+    return again or gates_again((ReviewArea.GATES,))
 
 
 def _side(package: Package) -> ReviewSide:

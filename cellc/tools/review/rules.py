@@ -202,7 +202,7 @@ REPEATED: Mapping[ReviewArea, tuple[GateCode, ...]] = {
     _A.GATES: (_G.G0, _G.L1),
     _A.REHEARSALS: (_G.G2,),
     _A.OWNERS: (),
-    _A.FIGURES: (),
+    _A.FIGURES: (_G.G7,),
     _A.DOCUMENTS: (),
 }
 """First gate, and first layer, that a change asks for again: what comes after them rests on them."""

@@ -74,7 +74,8 @@ def _of_groups(groups: Sequence[Group], room: int) -> Iterator[Line]:
         inner = [*_inner(group, share)]
         left -= len(inner)
         grade = group.grade.value
-        yield (Styled(grade, STYLES[group.grade]), "  ", cut(group.fitting(_WIDTH - len(grade) - 2)))
+        width = _WIDTH - len(grade) - 2
+        yield (Styled(grade, STYLES[group.grade]), "  ", cut(group.fitting(width), width))
         yield from inner
     if len(shown) < len(groups):
         rest = groups[len(shown) :]
