@@ -63,6 +63,14 @@ def test_line_that_names_the_cause_counts_more_than_what_it_leads_to() -> None:
     assert answer.suspicions[0].symptom == "a library of another release is loaded"
 
 
+def test_warning_beside_an_error_makes_nothing_certain() -> None:
+    warning = (
+        "[WARN] [a]: New publisher discovered on topic '/t', offering incompatible QoS. No messages will be received."
+    )
+    assert not diagnose(warning, None).ask
+    assert diagnose(f"{warning}\n[ERROR] [b]: octopus", None).ask
+
+
 CROSSED: Mapping[str, Mapping[str, list[str]]] = safe_load(
     (ROOT / "tests/diagnose/crossed.yaml").read_text(encoding="utf-8")
 )

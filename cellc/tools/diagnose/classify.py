@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import islice
 
-from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, length, plain, spoken
+from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, graver, length, plain, spoken
 from cellc.tools.diagnose.os_errors import os_errors
 from cellc.tools.diagnose.symptoms import LayerKnowledge, Symptom, knowledge, questions, synonyms
 from cellc.tools.diagnose.words import Likeness, Words
@@ -92,13 +92,14 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     if asked:
         return Classified(tuple(asked))
     logged = _logged(known, plain(text)) or _logged(known, plain(text), is_typed=True)
-    causes = [match for match in logged if match.names_cause]
+    grave = plain(graver(text))
+    causes = [match for match in logged if match.names_cause and found_in(match.template, grave) is not None]
     if len({match.layer.layer for match in causes}) == 1:
         return Classified(tuple(causes[:_AT_MOST]))
     possible = [match for match in known if _is_of(match, drivers)]
     like = _words_of(possible).likenesses(_besides(logged, spoken(text)))
     calls, bare = _failed_calls(known, text)
-    said = [*causes, *(match for match in logged if not match.names_cause and not match.says_little), *calls]
+    said = [*causes, *(match for match in logged if match not in causes and not match.says_little), *calls]
     least = _LEAST_BESIDES if said else _LEAST_POINTS
     is_like = bool(like) and (like[0].points >= least or (not said and like[0].whole > 0))
     near = list(_near(like, possible, _LEAST_BESIDES if said else 0))

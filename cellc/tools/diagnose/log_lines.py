@@ -17,6 +17,8 @@ Named = tuple[tuple[str, str], ...]
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _HOLE = re.compile(r"\{(\w*)\}")
 _MINOR = re.compile(r"\[ ?(?:INFO|DEBUG)\]")
+_WARNING = re.compile(r"\[ ?WARN(?:ING)?\]")
+_ERROR = re.compile(r"\[ ?(?:ERROR|FATAL)\]")
 _UNSAID = re.compile(
     r"\[[\w .-]+-\d+\]|\[ ?(?:INFO|DEBUG|WARN|WARNING|ERROR|FATAL)\]|\[\d[\d. ,-]*\]:?|, cmd '[^']*'?|\[pid \d+"
     r"|(?<![\w/])/(?!dev/)[\w.+~-]+(?:/[\w.+~-]+){2,}|0x[0-9a-fA-F]+|\b\d{4,}(?:\.\d+)?\b"
@@ -38,6 +40,13 @@ def spoken(text: str) -> str:
     lines = _COLOUR.sub("", text).splitlines()
     grave = [line for line in lines if not _MINOR.search(line)]
     return "\n".join(_UNSAID.sub(" ", line) for line in grave or lines)
+
+
+def graver(text: str) -> str:
+    """Return a text without its warnings where it has errors: those may be of long ago, or of every start."""
+    lines = text.splitlines()
+    has_errors = any(_ERROR.search(line) for line in lines)
+    return "\n".join(line for line in lines if not has_errors or not _WARNING.search(line))
 
 
 def found_in(template: str, text: str) -> Named | None:
