@@ -85,6 +85,7 @@ def test_another_model_of_a_robot_is_one_group_whose_first_line_says_what_it_mea
         ("ur5e_pick", "control_pc", "ipc"),
         ("dual_ur", "loader", "feeder"),
         ("dual_ur", "/loading", "/intake"),
+        ("hybrid_sdk", "arm", "manip"),
     ],
 )
 def test_another_name_is_one_line(cell: str, old: str, new: str) -> None:

@@ -36,11 +36,12 @@ def explained(before: Package, after: Package) -> Explained:
         return Explained((), changes_between(before.facts, after.facts))
     was, now = State(before.document, before.facts), State(after.document, after.facts)
     renames, base = _with_names_after(was, now)
-    names = [_of_rename(rename, was.facts, base.facts) for rename in renames]
+    leading = _leading(renames)
+    names = [_of_rename(rename, was.facts, base.facts) for rename in leading]
     changes = reported(base.facts, now.facts)
     causes, found = attributed(changes, causes_between(base.document, now.document), base, now)
     first = [
-        ReviewCause(line=_line(rename), before=rename.before, after=rename.after, renamed=True) for rename in renames
+        ReviewCause(line=_line(rename), before=rename.before, after=rename.after, renamed=True) for rename in leading
     ]
     numbered: list[tuple[int | None, Change]] = list(enumerate(names))
     numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
@@ -56,6 +57,20 @@ def _with_names_after(was: State, now: State) -> tuple[tuple[Rename, ...], State
     document = renamed(was.document, now.document, renames)
     facts = facts_of_document(document)
     return ((), was) if facts is None else (renames, State(document, facts))
+
+
+def _leading(renames: Sequence[Rename]) -> tuple[Rename, ...]:
+    """Return the renames that no other implies: a group and a topic that are named after a device follow it."""
+    return tuple(
+        rename
+        for number, rename in enumerate(renames)
+        if not any(
+            names_of([other], inside=_LETTERS).in_text(rename.before) == rename.after
+            and (other.before != rename.before or at < number)
+            for at, other in enumerate(renames)
+            if at != number
+        )
+    )
 
 
 def _line(rename: Rename) -> str:
