@@ -8,7 +8,15 @@ from typing import Any
 import pytest
 
 from cellc.compiler.cell.interface import Endpoint, Interface
-from cellc.compiler.deploy.labels import driver_facts, folded, interface_facts, unused, unused_title, watched_stream
+from cellc.compiler.deploy.labels import (
+    driver_facts,
+    folded,
+    interface_facts,
+    rates_of_controllers,
+    unused,
+    unused_title,
+    watched_stream,
+)
 from cellc.contract.diagnostics import Span
 from cellc.contract.qos import DEFAULT
 from cellc.contract.vocabulary import InterfaceKind
@@ -33,7 +41,7 @@ def _interface(kind: str, type_: str, **changes: Any) -> Interface:
         (
             _interface("topic", "std_msgs/msg/Bool", qos=_LATCHED),
             [
-                "topic std_msgs/msg/Bool, once, latched",
+                "topic std_msgs/msg/Bool, rate not stated, latched",
                 "frame not stated, unit per message type, time none, unstamped",
                 "owner not stated; missing: readers wait",
             ],
@@ -105,11 +113,27 @@ def _interface(kind: str, type_: str, **changes: Any) -> Interface:
     ids=lambda value: f"{value.kind.value} {value.type}" if isinstance(value, Interface) else "",
 )
 def test_facts_of_an_interface(interface: Interface, facts: list[str]) -> None:
-    assert list(interface_facts(interface)) == facts
+    assert list(interface_facts(interface, {})) == facts
 
 
 def test_latched_topic_without_a_publisher_is_not_called_latched() -> None:
-    assert "rate not stated" in next(interface_facts(_interface("topic", "std_msgs/msg/Bool", sources=[])))
+    assert "rate not stated" in next(
+        interface_facts(_interface("topic", "std_msgs/msg/String", sources=[], derived=True), {})
+    )
+
+
+def test_topics_of_controllers_have_the_rate_of_their_parameter_of_their_cycle_or_change() -> None:
+    """The driver publishes the speed at state_publish_rate, inputs in each cycle, and modes as they change."""
+    cell = built("rail_arm").graph.cell
+    rates = rates_of_controllers(cell)
+    assert rates["/arm_speed/speed_scaling"] == "100 Hz"
+    assert rates["/arm_io/io_states"] == "500 Hz"
+    assert rates["/arm_io/robot_mode"] == "on change, latched"
+    facts = {each.name: list(interface_facts(each, rates)) for each in cell.interfaces}
+    assert facts["/arm_speed/speed_scaling"][0] == "topic std_msgs/msg/Float64, 100 Hz"
+    assert facts["/arm_speed/speed_scaling"][2].endswith("failure not stated")
+    assert facts["/arm_io/robot_mode"][2].endswith("missing: readers wait")
+    assert facts["/tf_static"][0].endswith(", once, latched")
 
 
 def test_watched_stream_is_that_of_the_adapter_of_the_device() -> None:

@@ -16,7 +16,7 @@ def _claim(controller: str) -> tuple[str, str]:
     """Return what is claimed, and what it reaches on real hardware and when it is active."""
     (manager,) = _cell().managers
     (one,) = (one for one in manager.controllers if one.name == controller)
-    claims, _, _, ends = claim_facts(_cell(), manager, one)
+    claims, _, _, ends = claim_facts(_cell(), manager, one, one.all_claims, _cell().device(one.device or ""))
     return claims, ends.partition("; architecture")[0]
 
 

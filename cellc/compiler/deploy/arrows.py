@@ -11,11 +11,13 @@ from cellc.compiler.deploy.labels import (
     claim_facts,
     driver_facts,
     interface_facts,
+    rates_of_controllers,
     stop_facts,
     unused,
     unused_facts,
     unused_title,
 )
+from cellc.compiler.graph.claims import claimed_by_device
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import InterfaceKind
 
@@ -44,9 +46,10 @@ def exchanges(cell: Cell) -> Iterator[Arrow]:
     """Yield the interfaces of the cell; those without a reader or client come last, by server and owner."""
     groups = unused(cell)
     alone = {interface.name for group in groups for interface in group}
+    rates = rates_of_controllers(cell)
     for interface in cell.interfaces:
         if interface.name not in alone:
-            yield _exchange(interface, interface.name, tuple(interface_facts(interface)))
+            yield _exchange(interface, interface.name, tuple(interface_facts(interface, rates)))
     for group in groups:
         yield _exchange(group[0], unused_title(group), tuple(unused_facts(group)))
 
@@ -63,16 +66,16 @@ def _labels(ends: tuple[Endpoint, ...]) -> tuple[str, ...]:
 
 
 def drives(cell: Cell) -> Iterator[Arrow]:
-    """Yield the claims of controllers, and what moves a device past every controller manager."""
+    """Yield claims at every device whose interface is claimed, and what moves a device past every controller."""
     for manager in cell.managers:
         for controller in manager.controllers:
-            if controller.device is not None and controller.command_interfaces:
-                facts = tuple(claim_facts(cell, manager, controller))
-                yield Arrow("claims", (controller.label,), (controller.device,), "claims", facts)
-    for device in cell.devices:
-        if device.control.driver is not None:
-            facts = tuple(driver_facts(cell, device, device.control.driver))
-            yield Arrow("moves", (device.control.driver.node,), (device.name,), "moves", facts)
+            for device, claimed in claimed_by_device(cell, controller).items():
+                facts = tuple(claim_facts(cell, manager, controller, claimed, cell.device(device)))
+                yield Arrow("claims", (controller.label,), (device,), "claims", facts)
+    for driven in cell.devices:
+        if driven.control.driver is not None:
+            facts = tuple(driver_facts(cell, driven, driven.control.driver))
+            yield Arrow("moves", (driven.control.driver.node,), (driven.name,), "moves", facts)
 
 
 def stop(cell: Cell) -> Iterator[Arrow]:

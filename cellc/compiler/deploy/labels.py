@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 
 from cellc.compiler.cell.cell import Cell
@@ -12,6 +12,8 @@ from cellc.compiler.cell.frame import TouchedFit
 from cellc.compiler.cell.hardware import DeviceDriver
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.formats.numbers import shortest
+from cellc.compiler.graph.claims import claimed_by_device
+from cellc.compiler.graph.time_pairs import controllers_of, cycles_hz
 from cellc.contract.vocabulary import PASSIVE, Behavior, InterfaceKind
 
 TF_RATE_HZ = 20.0
@@ -32,6 +34,8 @@ _FRAMES = {
 }
 _UNSTAMPED = ("std_msgs/msg/",)
 _PLAIN_TEXT = "std_msgs/msg/String"
+_PUBLISHED_ONCE = (_TRANSFORMS, _PLAIN_TEXT)
+"""Types of what robot_state_publisher latches at its start: fixed transforms and the description."""
 _NOT_STATED = "not stated"
 # REP-103: SI and radians; by the joint's type.
 _UNITS = {
@@ -44,11 +48,15 @@ _UNITS = {
 _NOTHING = "no driver in the catalog"
 
 
-def interface_facts(interface: Interface) -> Iterator[str]:
-    """Yield type, frame, unit, rate, time source, owner and failure behavior; what is not stated says so."""
-    yield f"{interface.kind.value} {interface.type}, {rate_label(interface)}"
+def interface_facts(interface: Interface, rates: Mapping[str, str]) -> Iterator[str]:
+    """Yield type, frame, unit, rate, time source, owner and failure behavior; what is not stated says so.
+
+    Args:
+        rates: of the topics that controllers publish.
+    """
+    yield f"{interface.kind.value} {interface.type}, {rate_label(interface, rates)}"
     yield f"frame {frame_label(interface)}, unit {_unit(interface)}, time {_time(interface)}"
-    yield f"owner {interface.owner or _NOT_STATED}; {failure_label(interface)}"
+    yield f"owner {interface.owner or _NOT_STATED}; {failure_label(interface, rates)}"
 
 
 def unused(cell: Cell) -> tuple[tuple[Interface, ...], ...]:
@@ -86,14 +94,37 @@ def _time(interface: Interface) -> str:
     return interface.time_source or ("none, unstamped" if interface.type.startswith(_UNSTAMPED) else _NOT_STATED)
 
 
-def rate_label(interface: Interface) -> str:
-    """Return how often an interface is used."""
+_ON_CHANGE = "on change, latched"
+
+
+def rates_of_controllers(cell: Cell) -> Mapping[str, str]:
+    """Return how often controllers publish each of their topics.
+
+    In each cycle, unless a parameter sets a rate; what the catalog states as latched is published as it changes.
+    """
+    rates: dict[str, str] = {}
+    for manager, controller in controllers_of(cell):
+        for topic in controller.own_topics:
+            stated = topic.declared.qos
+            is_latched = not isinstance(stated, str) and stated.durability == "transient_local"
+            rate_hz = topic.rate_hz or cycles_hz(manager, controller)
+            if topic.publishes:
+                rates[topic.name] = _ON_CHANGE if is_latched else f"{shortest(rate_hz)} Hz"
+    return rates
+
+
+def rate_label(interface: Interface, rates: Mapping[str, str]) -> str:
+    """Return how often an interface is used; ``rates`` are those of the topics that controllers publish."""
     if interface.rate_hz is not None:
         return f"{shortest(interface.rate_hz)} Hz"
     if interface.kind is not InterfaceKind.TOPIC:
         return "on request"
+    if interface.name in rates:
+        return rates[interface.name]
     if _latched(interface):
-        return "once, latched"
+        return (
+            "once, latched" if interface.derived and interface.type in _PUBLISHED_ONCE else "rate not stated, latched"
+        )
     if interface.type == _TRANSFORMS:
         others = ", dynamic frames at their own rate" if len(interface.sources) > 1 else ""
         return f"{shortest(TF_RATE_HZ)} Hz{others}"
@@ -104,16 +135,20 @@ def _latched(interface: Interface) -> bool:
     return bool(interface.sources) and all(source.qos.durability == "transient_local" for source in interface.sources)
 
 
-def failure_label(interface: Interface) -> str:
+def failure_label(interface: Interface, rates: Mapping[str, str]) -> str:
     """Return what happens on each failure that the spec speaks of."""
-    return ", ".join(_failures(interface)) or "failure not stated"
+    return ", ".join(_failures(interface, rates)) or "failure not stated"
 
 
-def _failures(interface: Interface) -> Iterator[str]:
+def _failures(interface: Interface, rates: Mapping[str, str]) -> Iterator[str]:
     if interface.on_stale is not None:
         age = "" if interface.max_age_s is None else f" after {shortest(interface.max_age_s)} s"
         yield f"stale{age}: {interface.on_stale}"
-    elif interface.kind is InterfaceKind.TOPIC and _latched(interface):
+    elif (
+        interface.kind is InterfaceKind.TOPIC
+        and rates.get(interface.name, _ON_CHANGE) == _ON_CHANGE
+        and _latched(interface)
+    ):
         yield "missing: readers wait"
     if interface.timeout_s is not None:
         yield f"timeout after {shortest(interface.timeout_s)} s: {interface.on_timeout or _NOT_STATED}"
@@ -127,26 +162,33 @@ def _failures(interface: Interface) -> Iterator[str]:
         yield f"error: {interface.on_error}"
 
 
-def claim_facts(cell: Cell, manager: ControllerManager, controller: Controller) -> Iterator[str]:
-    """Yield interfaces, frame, unit, rate, time source, owner, failure behavior and hardware of a claim."""
-    device = cell.device(controller.device) if controller.device is not None else None
+def claim_facts(
+    cell: Cell, manager: ControllerManager, controller: Controller, claimed: Sequence[str], device: Device
+) -> Iterator[str]:
+    """Yield interfaces, frame, unit, rate, time source, owner, failure behavior and hardware of a claim.
+
+    Args:
+        claimed: what of the controller's claims is of the device.
+    """
     rate = controller.update_rate_hz or manager.update_rate_hz
-    yield "; ".join(_claims(controller))
+    yield "; ".join(_claims(controller, frozenset(claimed)))
     yield (
-        f"frame joints, unit {units(cell, controller)}, {shortest(rate)} Hz, time of the update loop on "
+        f"frame joints, unit {units(cell, controller, claimed)}, {shortest(rate)} Hz, time of the update loop on "
         f"{manager.host or 'its host'}"
     )
     owner = cell.owners.responsibilities.command
-    yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(cell, controller)}"
-    if device is not None:
-        state = "active from startup" if controller.active else "alternate, inactive at startup"
-        through = f"through {real_driver(device)}" if "real" in controller.targets else "only on the mock"
-        yield f"{through}; {state}; architecture: {device.architecture}"
+    yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(device)}"
+    state = "active from startup" if controller.active else "alternate, inactive at startup"
+    through = f"through {real_driver(device)}" if "real" in controller.targets else "only on the mock"
+    yield f"{through}; {state}; architecture: {device.architecture}"
 
 
-def _claims(controller: Controller) -> Iterator[str]:
+def _claims(controller: Controller, claimed: Container[str]) -> Iterator[str]:
     """Yield what is claimed, for each target by itself where they differ."""
-    by_target = {target: ", ".join(folded(controller.claims(target))) for target in controller.targets}
+    by_target = {
+        target: ", ".join(folded(name for name in controller.claims(target) if name in claimed))
+        for target in controller.targets
+    }
     if len(set(by_target.values())) == 1:
         yield from dict.fromkeys(by_target.values())
     else:
@@ -187,12 +229,12 @@ def stop_facts(cell: Cell) -> Iterator[str]:
     )
 
 
-def units(cell: Cell, controller: Controller) -> str:
-    """Return the units of what a controller commands, each once."""
+def units(cell: Cell, controller: Controller, claimed: Sequence[str]) -> str:
+    """Return the units of what a controller commands, each once; ``claimed`` are all or some of its claims."""
     types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
     names = (
         _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
-        for joint, _, kind in (name.rpartition("/") for name in controller.all_claims)
+        for joint, _, kind in (name.rpartition("/") for name in claimed)
     )
     if controller.behavior in PASSIVE:
         return "per service type"
@@ -209,10 +251,18 @@ def folded(names: Iterable[str]) -> Iterator[str]:
             yield from (stem + count for count in counts)
 
 
-def watchdog(cell: Cell, controller: Controller) -> str:
-    """Return the vendor's watchdog of the device, which stops it when commands stop arriving."""
-    stated = None if controller.device is None else cell.device(controller.device).procedures.safety.watchdog
-    return stated or _NOT_STATED
+def watchdog(device: Device) -> str:
+    """Return the vendor's watchdog of a device, which stops it when commands stop arriving."""
+    return device.procedures.safety.watchdog or _NOT_STATED
+
+
+def watchdogs(cell: Cell, controller: Controller) -> str:
+    """Return the watchdog of each device that a controller claims something of, by its name where there are several."""
+    holders = claimed_by_device(cell, controller)
+    stated = {device.name: watchdog(device) for device in cell.devices if device.name in holders}
+    if len(stated) < 2:
+        return next(iter(stated.values()), _NOT_STATED)
+    return "; ".join(f"{name}: {text}" for name, text in stated.items())
 
 
 def real_driver(device: Device) -> str:

@@ -199,7 +199,7 @@ def _gate(gate: GateResult, *, open_: bool) -> Element:
     title = tag("summary", tag("b", f"{gate.gate} {gate.title} "), verdict, f", {text}")
     rows = tag("ul", *(_check(check) for check in gate.checks), class_="checks")
     by = tag("code", gate.signature) if gate.signature else "not signed, because the folder was edited"
-    signed = hint(f"State of the robot: {gate.state}. Signed by result: ", by)
+    signed = hint(f"State of the robot: {gate.state}. Digest of the result: ", by)
     details = tag("details", title, rows, signed, class_="gate")
     if open_:
         details.set("open", "open")

@@ -13,7 +13,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.hardware import Effect
-from cellc.compiler.deploy.labels import real_driver, watchdog
+from cellc.compiler.deploy.labels import real_driver, watchdogs
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.versions import compatibility
 from cellc.contract.diagnostics.wording import count
@@ -186,7 +186,7 @@ def _servo(cell: Cell) -> Iterator[str]:
         loop = "its own node must meet the deadline" if device.name in driven else _LOOP[device.architecture]
         yield f"{device.name} ({device.architecture}): {loop}"
     for controller in _commanding(cell):
-        yield f"{controller.label}: watchdog: {watchdog(cell, controller)}"
+        yield f"{controller.label}: watchdog: {watchdogs(cell, controller)}"
     yield f"owner {cell.owners.responsibilities.watchdogs}"
 
 

@@ -27,9 +27,10 @@ from cellc.compiler.deploy.labels import (
     frame_label,
     interface_facts,
     rate_label,
+    rates_of_controllers,
     touched_label,
     units,
-    watchdog,
+    watchdogs,
     watched_stream,
 )
 from cellc.compiler.deploy.processes import past_controllers
@@ -38,6 +39,7 @@ from cellc.compiler.formats.markdown_table import table
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.claims import claimed_by_device
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER
 from cellc.contract.vocabulary import InterfaceKind
 
@@ -159,7 +161,7 @@ def _requests(cell: Cell) -> Iterator[tuple[str, ...]]:
                 time,
                 qos,
                 watched or "none",
-                failure_label(interface),
+                failure_label(interface, {}),
             )
 
 
@@ -182,19 +184,20 @@ def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
 def _controller(
     cell: Cell, manager: ControllerManager, controller: Controller, action: Interface | None
 ) -> tuple[str, ...]:
-    device = next((device for device in cell.devices if device.name == controller.device), None)
-    hardware = "its hardware" if device is None or device.control.hardware is None else device.control.hardware.name
+    holders = claimed_by_device(cell, controller)
+    components = (device.control.hardware for device in cell.devices if device.name in holders)
+    hardware = " and ".join(component.name for component in components if component is not None) or "its hardware"
     rate = controller.update_rate_hz or manager.update_rate_hz
-    behavior = "" if action is None else f"; {failure_label(action)}"
+    behavior = "" if action is None else f"; {failure_label(action, {})}"
     name, client = controller.action or controller.full_name, controller.client or "no client"
     return (
         f"{client} → {code(name)} → {controller.label} → {hardware}{_alone(controller.targets)}",
         (action.frame if action is not None else None) or "joints",
-        units(cell, controller),
+        units(cell, controller, controller.all_claims),
         f"{shortest(rate)} Hz",
         (action.time_source if action is not None else None) or f"clock of {manager.host or 'its host'}",
         _NOT_STATED if action is None else _qos((*action.sinks, *action.sources)),
-        watchdog(cell, controller),
+        watchdogs(cell, controller),
         f"on violation {controller.on_violation}{behavior}",
     )
 
@@ -216,7 +219,8 @@ def nodes_section(cell: Cell) -> str:
 def interfaces_section(cell: Cell, kind: InterfaceKind) -> str:
     """Write the topics, services or actions, each with both ends."""
     ends = ("publishers", "subscribers") if kind is InterfaceKind.TOPIC else ("server", "clients")
-    rows = (_interface(interface) for interface in cell.interfaces if interface.kind is kind)
+    rates = rates_of_controllers(cell)
+    rows = (_interface(interface, rates) for interface in cell.interfaces if interface.kind is kind)
     return table(("name", "type", *ends, "contract"), rows)
 
 
@@ -305,9 +309,9 @@ def _of_drivers(cell: Cell) -> Iterator[tuple[str, ...]]:
                 yield code(offer.name), "service", offer.type, device.name
 
 
-def _interface(interface: Interface) -> tuple[str, ...]:
-    _, *facts = interface_facts(interface)
-    contract = "; ".join((rate_label(interface), *facts)) + _alone(interface.targets)
+def _interface(interface: Interface, rates: Mapping[str, str]) -> tuple[str, ...]:
+    _, *facts = interface_facts(interface, rates)
+    contract = "; ".join((rate_label(interface, rates), *facts)) + _alone(interface.targets)
     return code(interface.name), interface.type, _ends(interface.sources), _ends(interface.sinks), contract
 
 
