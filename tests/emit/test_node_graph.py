@@ -33,7 +33,13 @@ from tests.cells import CORPUS, graph_of, spec_of
 def test_boxes_stand_behind_those_that_command_them(spec: Path, layers: str) -> None:
     cell = graph_of(spec).cell
     found = _layers(cell, _exchanges(cell))
-    for served in ("robot_state_publisher", "controller_manager", "/hand_gripper"):
+    for served in (
+        "robot_state_publisher",
+        "controller_manager",
+        "/hand_gripper",
+        "arm_dashboard_client",
+        "arm_state_helper",
+    ):
         found.pop(served, None)
     meant = {name: at for at, names in enumerate(layers.split(" / ")) for name in names.split()}
     assert {name.strip(): at for name, at in found.items()} == meant

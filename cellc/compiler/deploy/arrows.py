@@ -6,22 +6,26 @@ from collections.abc import Iterator
 from typing import Literal
 
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.compiler.cell.interface import Endpoint, Interface, NodeSource
 from cellc.compiler.deploy.labels import (
+    NO_DRIVER,
     claim_facts,
     driver_facts,
+    helper_facts,
     interface_facts,
     rates_of_controllers,
+    real_driver,
     stop_facts,
     unused,
     unused_facts,
     unused_title,
 )
 from cellc.compiler.graph.claims import claimed_by_device
+from cellc.compiler.graph.versions import device_pins
 from cellc.contract.frozen import dataclass
-from cellc.contract.vocabulary import InterfaceKind
+from cellc.contract.vocabulary import UNKNOWN, InterfaceKind
 
-ArrowKind = Literal["topic", "service", "action", "claims", "moves", "stops"]
+ArrowKind = Literal["topic", "service", "action", "claims", "moves", "helps", "stops"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +44,11 @@ class Arrow:
     ends: tuple[str, ...]
     title: str
     facts: tuple[str, ...]
+
+    @property
+    def is_unknown(self) -> bool:
+        """Whether something of it is UNKNOWN, or nothing is known that carries it."""
+        return any(UNKNOWN in fact or NO_DRIVER in fact for fact in (*self.starts, *self.ends, *self.facts))
 
 
 def exchanges(cell: Cell) -> Iterator[Arrow]:
@@ -76,6 +85,28 @@ def drives(cell: Cell) -> Iterator[Arrow]:
         if driven.control.driver is not None:
             facts = tuple(driver_facts(cell, driven, driven.control.driver))
             yield Arrow("moves", (driven.control.driver.node,), (driven.name,), "moves", facts)
+
+
+def helpers(cell: Cell) -> Iterator[Arrow]:
+    """Yield the nodes of drivers that have no end of an interface of the cell, each with its device."""
+    named = {end.full_name for interface in cell.interfaces for end in (*interface.sources, *interface.sinks)}
+    driving = {device.control.driver.node for device in cell.devices if device.control.driver is not None}
+    for node in cell.nodes:
+        if node.source is NodeSource.DEVICE and node.full_name not in named | driving:
+            device = cell.device(str(node.path[1]))
+            facts = tuple(helper_facts(device, node))
+            yield Arrow("helps", (node.name if not node.namespace else node.full_name,), (device.name,), "helps", facts)
+
+
+def unknown_boxes(cell: Cell) -> frozenset[str]:
+    """Name devices, nodes and authorities of which something is UNKNOWN: versions, owners, or what moves a device."""
+    open_pins = {pin.holder for pin in device_pins(cell) if not pin.known}
+    moved = (device for device in cell.devices if device.control.is_driven)
+    driverless = {device.name for device in moved if real_driver(device) == NO_DRIVER}
+    nodes = {node.full_name: node.owner for node in cell.nodes}
+    unowned = {name for name, owner in nodes.items() if owner == UNKNOWN}
+    labels = {name.rpartition("/")[2] for name in unowned}
+    return frozenset({*open_pins, *driverless, *unowned, *labels, UNKNOWN})
 
 
 def stop(cell: Cell) -> Iterator[Arrow]:

@@ -10,7 +10,7 @@ from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import TouchedFit
 from cellc.compiler.cell.hardware import DeviceDriver
-from cellc.compiler.cell.interface import Interface
+from cellc.compiler.cell.interface import Interface, Node
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.graph.claims import claimed_by_device
 from cellc.compiler.graph.time_pairs import controllers_of, cycles_hz
@@ -45,7 +45,7 @@ _UNITS = {
     "effort": ("Nm", "N"),
 }
 
-_NOTHING = "no driver in the catalog"
+NO_DRIVER = "no driver in the catalog"
 
 
 def interface_facts(interface: Interface, rates: Mapping[str, str]) -> Iterator[str]:
@@ -179,7 +179,9 @@ def claim_facts(
     owner = cell.owners.responsibilities.command
     yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(device)}"
     state = "active from startup" if controller.active else "alternate, inactive at startup"
-    through = f"through {real_driver(device)}" if "real" in controller.targets else "only on the mock"
+    driver = real_driver(device)
+    on_mock = "only on the mock, " + NO_DRIVER if driver == NO_DRIVER else "only on the mock"
+    through = f"through {driver}" if "real" in controller.targets else on_mock
     yield f"{through}; {state}; architecture: {device.architecture}"
 
 
@@ -207,6 +209,15 @@ def driver_facts(cell: Cell, device: Device, driver: DeviceDriver) -> Iterator[s
     watched = watched_stream(cell, device) or device.procedures.safety.watchdog or _NOT_STATED
     yield f"owner {cell.owners.responsibilities.vendor_safety}; watchdog: {watched}"
     yield f"architecture: {device.architecture}"
+
+
+def helper_facts(device: Device, node: Node) -> Iterator[str]:
+    """Yield program, services and owner of a node of a device's driver that no node of the cell talks to."""
+    yield f"{node.package}/{node.executable}, on {'real hardware' if node.real_only else 'every target'}"
+    services = [offer.name for offer in device.control.offers if offer.node == node.full_name]
+    if services:
+        yield f"services that no node of this cell calls: {', '.join(services)}"
+    yield f"owner {node.owner}"
 
 
 def watched_stream(cell: Cell, device: Device) -> str | None:
@@ -271,7 +282,9 @@ def real_driver(device: Device) -> str:
     if plugin is not None:
         return plugin
     return (
-        _NOTHING if device.control.driver is None else f"{device.control.driver.node} ({device.control.driver.program})"
+        NO_DRIVER
+        if device.control.driver is None
+        else f"{device.control.driver.node} ({device.control.driver.program})"
     )
 
 

@@ -18,6 +18,7 @@ from cellc.compiler.formats.views import Part, two_views
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
+from cellc.robot.description.bones import bones
 from cellc.robot.description.posture import posture
 
 FILE = "graph/cell.svg"
@@ -72,12 +73,11 @@ class _Standing:
             for collision in link.collisions
             if link.name in poses
         )
-        joints = (joint for joint in placed.body.description.joints if joint.parent in poses and joint.child in poses)
         return Part(
             name,
             poses[placed.body.root_link].position,
             tuple((pose @ shape.pose, shape.geometry) for pose, shape in shapes),
-            tuple((poses[joint.parent].position, poses[joint.child].position) for joint in joints),
+            tuple(bones(placed.body.description, poses)),
             frames,
             parts,
         )

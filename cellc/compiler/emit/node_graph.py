@@ -2,19 +2,21 @@
 
 SVG 1.1 without scripts, styles or external fonts. Commands run from left to right: nodes, controllers, devices.
 Feedback runs from right to left and is drawn lighter. Interfaces between the same ends share an arrow and its number in
-the list. Vendor control and physical safety are boundaries of their own, drawn bold. Left out: interfaces that no node
-of the cell uses, and the contract of each arrow, which ``graph/responsibility.svg`` has.
+the list. Vendor control and physical safety are boundaries of their own, drawn bold. Dashed is of what something is
+UNKNOWN. Left out: interfaces that no node of the cell uses, and the contract of each arrow, which
+``graph/responsibility.svg`` has.
 """
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.deploy.arrows import ArrowKind, drives, exchanges, stop
+from cellc.compiler.cell.interface import NodeSource
+from cellc.compiler.deploy.arrows import ArrowKind, drives, exchanges, helpers, stop, unknown_boxes
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.formats.escape import one_line
 from cellc.compiler.formats.layered import Box, Columns, Layout, Line, Point, layout
@@ -22,6 +24,7 @@ from cellc.compiler.formats.svg import arrow_head, rectangle, sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.frozen import dataclass
+from cellc.contract.vocabulary import UNKNOWN
 
 _SIZE, _LINE = 13, 17  # height of letters, and of a line of text
 _BOX, _CHARACTERS = 126, 17  # width of a box, and how many characters it holds
@@ -29,6 +32,8 @@ _GAP = 84  # between two layers, where lines cross
 _MARGIN, _TITLE = 14, 50
 _BAND = 20  # between a box and the boundary around it
 _INK, _BACK, _STOP = "#30363d", "#5b87b0", "#b3310a"
+_MOVE, _HELP = "#6b3fa0", "#8a949e"
+_DASHED = {"stroke-dasharray": "6 4"}
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
@@ -43,6 +48,7 @@ class Exchange:
     kind: ArrowKind
     starts: tuple[str, ...]
     ends: tuple[str, ...]
+    is_unknown: bool
     names: tuple[str, ...]
 
     @property
@@ -52,11 +58,11 @@ class Exchange:
 
 
 def _exchanges(cell: Cell) -> tuple[Exchange, ...]:
-    found: dict[tuple[ArrowKind, tuple[str, ...], tuple[str, ...]], list[str]] = {}
+    found: dict[tuple[ArrowKind, tuple[str, ...], tuple[str, ...], bool], list[str]] = {}
     for arrow in exchanges(cell):
         if arrow.starts and arrow.ends:
             ends = tuple(dict.fromkeys(arrow.starts)), tuple(dict.fromkeys(arrow.ends))
-            found.setdefault((arrow.kind, *ends), []).append(arrow.title)
+            found.setdefault((arrow.kind, *ends, arrow.is_unknown), []).append(arrow.title)
     return tuple(Exchange(*key, tuple(names)) for key, names in found.items())
 
 
@@ -66,7 +72,10 @@ def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
     devices = [device.name for device in cell.devices]
     ends = dict.fromkeys(name for exchange in exchanges for name in (*exchange.starts, *exchange.ends))
     drivers = dict.fromkeys(device.control.driver.node for device in cell.devices if device.control.driver is not None)
-    nodes = [name for name in (ends | drivers) if name not in controllers and name not in devices]
+    heard_of = {end.full_name for interface in cell.interfaces for end in (*interface.sources, *interface.sinks)}
+    own = (node for node in cell.nodes if node.source is NodeSource.SPEC and node.full_name not in heard_of)
+    silent = dict.fromkeys(node.name for node in own)
+    nodes = [name for name in (ends | drivers | silent) if name not in controllers and name not in devices]
     asks: dict[str, set[str]] = {name: set() for name in nodes}
     for exchange in exchanges:
         for end in exchange.ends if exchange.commands else ():
@@ -85,13 +94,11 @@ def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
             layers[name] = min(heard) - 1
     first = min(layers.values(), default=0)
     after = max(layers.values(), default=0) - first + 1
-    used = [
-        controller.label for controller in cell.controllers if controller.label in ends or controller.device is not None
-    ]
-    column = 1 if used else 0
+    beside = [*(controller.label for controller in cell.controllers), *(each.starts[0] for each in helpers(cell))]
+    column = 1 if beside else 0
     return {
         **{name: layer - first for name, layer in layers.items()},
-        **dict.fromkeys(used, after),
+        **dict.fromkeys(beside, after),
         **dict.fromkeys(devices, after + column),
         _stop(cell): after + column + 1,
     }
@@ -108,15 +115,15 @@ def _depth(name: str, asks: Mapping[str, set[str]], above: tuple[str, ...]) -> i
     return max((_depth(ask, asks, inner) + 1 for ask in sorted(asks[name]) if ask not in inner), default=0)
 
 
-def _arrows(cell: Cell, exchanged: Sequence[Exchange]) -> Iterator[tuple[Line, str]]:
-    """Yield every line with what kind it is."""
+def _arrows(cell: Cell, exchanged: Sequence[Exchange]) -> Iterator[tuple[Line, str, bool]]:
+    """Yield every line with what kind it is, and whether something of it is UNKNOWN."""
     for order, one in enumerate(exchanged, start=1):
         for start in one.starts:
-            yield from ((Line(start, end, str(order)), "tells") for end in one.ends if end != start)
-    for arrow in drives(cell):
-        yield Line(arrow.starts[0], arrow.ends[0], arrow.kind), arrow.kind
+            yield from ((Line(start, end, str(order)), "tells", one.is_unknown) for end in one.ends if end != start)
+    for arrow in (*drives(cell), *helpers(cell)):
+        yield Line(arrow.starts[0], arrow.ends[0], arrow.kind), arrow.kind, arrow.is_unknown
     for arrow in stop(cell):
-        yield from ((Line(_stop(cell), end, arrow.kind), arrow.kind) for end in arrow.ends)
+        yield from ((Line(_stop(cell), end, arrow.kind), arrow.kind, arrow.is_unknown) for end in arrow.ends)
 
 
 def _sheet(cell: Cell) -> Element:
@@ -126,17 +133,17 @@ def _sheet(cell: Cell) -> Element:
     columns = Columns(tuple(_BAND * 1.5 + layer * (_BOX + _GAP) for layer in range(count)), _BOX)
     arrows = tuple(_arrows(cell, exchanged))
     boxes = [Box(key, layer, len(_wrapped(key)) * _LINE + 9.0) for key, layer in layers.items()]
-    placed = layout(boxes, [line for line, _ in arrows], columns)
+    placed = layout(boxes, [line for line, _, _ in arrows], columns)
     width = columns.lefts[-1] + _BOX + _BAND * 1.5
     bottom = _MARGIN + _TITLE + placed.height + _MARGIN
     listed, below = _list(exchanged, width, bottom + 2 * _MARGIN + _LINE)
-    graph = [*_lines(arrows, placed, layers), *_boxes(placed, layers, columns)]
+    graph = [*_lines(arrows, placed, layers), *_boxes(placed, layers, columns, unknown_boxes(cell))]
     heads = (("ink", _INK), ("back", _BACK), ("stop", _STOP))
     drawn = [
         element("defs", children=[arrow_head(*head) for head in heads]),
         *_bands(cell, layers, columns, bottom),
         element("g", {"transform": f"translate(0 {_MARGIN + _TITLE})"}, graph),
-        *_legend(bottom + _MARGIN + 6),
+        *_legend(bottom + _MARGIN + 6, {kind for _, kind, _ in arrows}),
         *listed,
     ]
     return sheet(width, below, _SIZE, drawn)
@@ -154,6 +161,7 @@ def _bands(cell: Cell, layers: Mapping[str, int], columns: Columns, bottom: floa
     for first, end, title, owner in titles:
         left, right = columns.lefts[first] - _BAND, columns.lefts[end] + columns.width + _BAND
         line = {"rx": "6", "fill": "none", "stroke": "#000000", "stroke-width": "4" if owner else "1"}
+        line |= _DASHED if UNKNOWN in owner else {}
         yield rectangle(left, _MARGIN / 2, right - left, bottom - _MARGIN / 2, line)
         yield text(left + 12, _MARGIN + 16, title, {"font-weight": "bold"})
         yield text(left + 12, _MARGIN + 32, owner)
@@ -164,23 +172,26 @@ _STYLES = {
     "tells": {"stroke": _INK, "stroke-width": "1.2", "marker-end": "url(#ink)"},
     "back": {"stroke": _BACK, "stroke-width": "1.2", "marker-end": "url(#back)"},
     "claims": {"stroke": _INK, "stroke-width": "3"},
-    "moves": {"stroke": _INK, "stroke-width": "3", "stroke-dasharray": "7 4"},
+    "moves": {"stroke": _MOVE, "stroke-width": "3"},
+    "helps": {"stroke": _HELP, "stroke-width": "2"},
     "stops": {"stroke": _STOP, "stroke-width": "3", "marker-end": "url(#stop)"},
+    "unknown": {"stroke": _INK, "stroke-width": "1.2"} | _DASHED,
 }
 
 
-def _lines(arrows: Sequence[tuple[Line, str]], placed: Layout, layers: Mapping[str, int]) -> Iterator[Element]:
+def _lines(arrows: Sequence[tuple[Line, str, bool]], placed: Layout, layers: Mapping[str, int]) -> Iterator[Element]:
     numbers: dict[Point, tuple[str, str, bool]] = {}
-    for (line, kind), route in zip(arrows, placed.routes, strict=True):
+    for (line, kind, is_unknown), route in zip(arrows, placed.routes, strict=True):
         back = kind == "tells" and layers[line.end] <= layers[line.start]
-        yield element("path", {"d": _path(route), "fill": "none"} | _STYLES["back" if back else kind])
+        style = _STYLES["back" if back else kind] | (_DASHED if is_unknown else {})
+        yield element("path", {"d": _path(route), "fill": "none"} | style)
         if kind == "tells":
             for at, towards in ((route[0], route[1]), (route[-1], route[-2])):
                 right = towards[0] > at[0] or (layers[line.start] == layers[line.end])
                 numbers[at] = (line.group, _BACK if back else _INK, right)
     for (x, y), (number, color, right) in numbers.items():
-        style = {"font-size": "10", "fill": color, "text-anchor": "start" if right else "end"} | _HALO
-        yield text(x + (9 if right else -9), y - 2, number, style)
+        beside = {"font-size": "10", "fill": color, "text-anchor": "start" if right else "end"} | _HALO
+        yield text(x + (9 if right else -9), y - 2, number, beside)
 
 
 def _path(route: Sequence[Point]) -> str:
@@ -199,10 +210,10 @@ def _path(route: Sequence[Point]) -> str:
     return "".join(pieces)
 
 
-def _boxes(placed: Layout, layers: Mapping[str, int], columns: Columns) -> Iterator[Element]:
+def _boxes(placed: Layout, layers: Mapping[str, int], columns: Columns, unknown: Container[str]) -> Iterator[Element]:
     for key, (center, height) in placed.boxes.items():
         left = columns.lefts[layers[key]]
-        outline = {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"}
+        outline = {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"} | (_DASHED if key.strip() in unknown else {})
         yield rectangle(left, center - height / 2, columns.width, height, outline)
         lines = _wrapped(key)
         first = center - (len(lines) - 1) * _LINE / 2 + _SIZE / 3
@@ -222,16 +233,21 @@ def _wrapped(name: str) -> list[str]:
     return [part for text in [*lines, line] for part in textwrap.wrap(text, _CHARACTERS)] or [""]
 
 
-def _legend(y: float) -> Iterator[Element]:
+def _legend(y: float, drawn: Container[str]) -> Iterator[Element]:
+    """Say what each kind of line is that is drawn."""
     x = float(_MARGIN)
     words = {
         "tells": "publishes, requests",
         "back": "returns data",
         "claims": "claims",
         "moves": "moves without a controller",
+        "helps": "helps",
         "stops": "stops",
+        "unknown": "UNKNOWN",
     }
     for kind, said in words.items():
+        if kind not in drawn and kind not in ("back", "unknown"):
+            continue
         yield element("path", {"d": f"M{x:g} {y - 4:g}h34", "fill": "none"} | _STYLES[kind])
         yield text(x + 42, y, said)
         x += 60 + len(said) * 7.5

@@ -2,26 +2,28 @@
 
 SVG 1.1 without scripts, styles or fonts from elsewhere, for A4 upright: 13 units of 1000 are 7 points on the page, and
 10 pixels on a phone that is held sideways. One arrow a row, from left to right who, what, to whom, so that it needs no
-layout; vendor control and physical safety are boundaries of their own, drawn bold. Left out: the shape of the graph,
-which ``graph/nodes.svg`` has, and the QoS of each end, which ``audit.md`` lists.
+layout; vendor control and physical safety are boundaries of their own, drawn bold. Dashed is of what something is
+UNKNOWN. Left out: the shape of the graph, which ``graph/nodes.svg`` has, and the QoS of each end, which ``audit.md``
+lists.
 """
 
 from __future__ import annotations
 
 import re
 import textwrap
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from itertools import accumulate
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
-from cellc.compiler.deploy.arrows import Arrow, drives, exchanges, stop
+from cellc.compiler.deploy.arrows import Arrow, drives, exchanges, helpers, stop, unknown_boxes
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.formats.svg import arrow_head, rectangle, sheet, text
+from cellc.compiler.formats.svg import Style, arrow_head, rectangle, sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.frozen import dataclass
+from cellc.contract.vocabulary import UNKNOWN
 
 _WIDTH = 1000
 _FONT_SIZE = 13
@@ -33,12 +35,15 @@ _BOX = 190  # width of the boxes at both ends of an arrow
 _BOX_CHARACTERS = 24
 _CHARACTERS = 84
 _UNIT = re.compile(r"(?<=\d) (s|Hz)\b")
+_DASHED = {"stroke-dasharray": "6 4"}
 _HELD = "\N{NO-BREAK SPACE}"
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the picture."""
-    yield Artifact("graph/responsibility.svg", render(_sheet(_bands(graph.cell)), plan.header.text))
+    yield Artifact(
+        "graph/responsibility.svg", render(_sheet(_bands(graph.cell), unknown_boxes(graph.cell)), plan.header.text)
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,27 +60,30 @@ def _bands(cell: Cell) -> tuple[Band, ...]:
     owners = cell.owners.responsibilities
     return (
         Band("ROS 2 graph", False, tuple(exchanges(cell))),
-        Band(f"Vendor control (owner {owners.vendor_safety})", True, tuple(drives(cell))),
+        Band(f"Vendor control (owner {owners.vendor_safety})", True, (*drives(cell), *helpers(cell))),
         Band(f"Physical safety (owner {owners.physical_stop})", True, tuple(stop(cell))),
     )
 
 
-def _sheet(bands: tuple[Band, ...]) -> Element:
+def _sheet(bands: tuple[Band, ...], unknown: Container[str]) -> Element:
     """Return the picture on a sheet that is as high as it needs to be."""
     heights = [_TITLE + sum(map(_height, band.rows)) + _GAP for band in bands]
     tops = [_MARGIN, *(_MARGIN + total for total in accumulate(height + _GAP for height in heights))]
-    drawn = (_band(band, top, height) for band, top, height in zip(bands, tops, heights, strict=False))
+    drawn = (_band(band, top, height, unknown) for band, top, height in zip(bands, tops, heights, strict=False))
     head = element("defs", children=[arrow_head("head", "#000000")])
     return sheet(_WIDTH, tops[-1] + _MARGIN - _GAP, _FONT_SIZE, [head, *(part for parts in drawn for part in parts)])
 
 
-def _band(band: Band, top: int, height: int) -> Iterator[Element]:
+def _band(band: Band, top: int, height: int, unknown: Container[str]) -> Iterator[Element]:
     line = {"rx": "6", "fill": "none", "stroke": "#000000", "stroke-width": "5" if band.bold else "1"}
-    yield rectangle(_MARGIN // 2, top, _WIDTH - _MARGIN, height, line)
+    yield rectangle(_MARGIN // 2, top, _WIDTH - _MARGIN, height, line | (_DASHED if UNKNOWN in band.title else {}))
+    if not band.bold:
+        hint = {"text-anchor": "end", "fill": "#333333"}
+        yield text(_WIDTH - _MARGIN - 4, top + 23, "dashed: something of it is UNKNOWN", hint)
     yield text(_MARGIN + 4, top + 23, band.title, {"font-weight": "bold", "font-size": "16"})
     tops = [0, *accumulate(map(_height, band.rows))]
     for row, offset in zip(band.rows, tops, strict=False):
-        yield from _row(row, top + _TITLE + offset)
+        yield from _row(row, top + _TITLE + offset, unknown)
 
 
 def _height(row: Arrow) -> int:
@@ -83,12 +91,12 @@ def _height(row: Arrow) -> int:
     return _LINE * max(1 + len(_wrapped(row.facts, _CHARACTERS)), ends) + _GAP
 
 
-def _row(row: Arrow, top: int) -> Iterator[Element]:
+def _row(row: Arrow, top: int, unknown: Container[str]) -> Iterator[Element]:
     left, right = _MARGIN + _BOX, _WIDTH - _MARGIN - _BOX
-    yield from _box(_MARGIN + 4, top + 6, _names(row.starts))
-    yield from _box(right - 4, top + 6, _names(row.ends))
+    yield from _box(_MARGIN + 4, top + 6, row.starts, unknown)
+    yield from _box(right - 4, top + 6, row.ends, unknown)
     yield text(left + 14, top + 14, row.title, {"font-weight": "bold"})
-    yield _arrow(left + 8, right - 12, top + 20)
+    yield _arrow(left + 8, right - 12, top + 20, _DASHED if row.is_unknown else {})
     for number, line in enumerate(_wrapped(row.facts, _CHARACTERS)):
         yield text(left + 14, top + 36 + _LINE * number, line, {"fill": "#333333"})
 
@@ -97,15 +105,17 @@ def _names(ends: tuple[str, ...]) -> list[str]:
     return _wrapped(ends or ("none",), _BOX_CHARACTERS)
 
 
-def _arrow(left: int, right: int, y: int) -> Element:
+def _arrow(left: int, right: int, y: int, style: Style) -> Element:
     """Return an arrow to the right."""
     line = {"x1": str(left), "y1": str(y), "x2": str(right), "y2": str(y)}
-    return element("line", line | {"stroke": "#000000", "stroke-width": "1.5", "marker-end": "url(#head)"})
+    return element("line", line | {"stroke": "#000000", "stroke-width": "1.5", "marker-end": "url(#head)", **style})
 
 
-def _box(x: int, y: int, lines: list[str]) -> list[Element]:
+def _box(x: int, y: int, ends: tuple[str, ...], unknown: Container[str]) -> list[Element]:
     """Return a box that is as high as the names in it."""
-    outline = {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"}
+    lines = _names(ends)
+    is_unknown = any(end in unknown for end in ends)
+    outline = {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"} | (_DASHED if is_unknown else {})
     names = (text(x + 8, y + 16 + _LINE * number, line) for number, line in enumerate(lines))
     return [rectangle(x, y, _BOX, _LINE * len(lines) + 8, outline), *names]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from math import floor
+from math import ceil, floor
 
 from cellc.contract.frozen import dataclass
 
@@ -63,17 +63,22 @@ class _Taken:
         return [(x, y) for x in range(left, right + 1) for y in range(top, bottom + 1)]
 
 
-def placed(labels: Iterable[Label], letter: float, bounds: _Box) -> tuple[Placed, ...]:
+def placed(
+    labels: Iterable[Label], letter: float, bounds: _Box, lines: Iterable[tuple[Point, Point]] = ()
+) -> tuple[Placed, ...]:
     """Return where each text is; one without room within the bounds is where it hides least.
 
     Args:
         letter: height of letters.
         bounds: left, top, right, bottom.
+        lines: what else is drawn.
     """
     ordered = sorted(labels, key=lambda label: (label.at[1], label.at[0], label.key))
     taken = _Taken(letter * 20)
     for item in ordered:
         taken.add(_around(item.at, letter * 0.4))
+    for box in (box for line in lines for box in _along(*line, letter)):
+        taken.add(box)
     placements = []
     for label in ordered:
         choices = (
@@ -108,6 +113,15 @@ def _tidy(value: float) -> float:
 
 def _around(point: Point, half: float) -> _Box:
     return (point[0] - half, point[1] - half, point[0] + half, point[1] + half)
+
+
+def _along(start: Point, end: Point, letter: float) -> Iterator[_Box]:
+    """Yield boxes on the way of a line, half a letter apart."""
+    steps = max(1, ceil(max(abs(end[0] - start[0]), abs(end[1] - start[1])) / (letter / 2)))
+    for step in range(1, steps + 1):
+        share = step / steps
+        at = (start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1]))
+        yield _around(at, letter / 4)
 
 
 def _cost(box: _Box, taken: Iterable[_Box], bounds: _Box) -> float:

@@ -40,7 +40,7 @@ class Part:
 
     Args:
         bodies: shapes with their poses; a mesh is left out.
-        bones: from each link to the next.
+        bones: lines through the links.
         frames: named frames; those that stand in one place share a line.
         solid: it is no device.
     """
@@ -192,7 +192,8 @@ def _marks(view: _View, drawing: Part, letter: float) -> Element:
     named = sum(len(part.frames) for part in drawing.all()) <= _MOST_NAMES
     labels = [label for part in drawing.all() for label in _labels(view, part, named)]
     bounds = (view.left, view.top, view.left + view.width, view.top + view.height)
-    places = {(item.label.key, item.label.at): item for item in placed(labels, letter, bounds)}
+    axes = [line for part in drawing.all() for line in _axes(view, part)]
+    places = {(item.label.key, item.label.at): item for item in placed(labels, letter, bounds, axes)}
     return _marks_of(view, drawing, (0.0, 0.0, 0.0), letter, places)
 
 
@@ -201,6 +202,14 @@ def _labels(view: _View, part: Part, named: bool) -> Iterator[Label]:
     for pose, names in _together(view, part)[: None if named else 1]:
         if named or not part.solid:
             yield Label(part.name, _coarse(view, pose.position), ", ".join(names) if named else part.name)
+
+
+def _axes(view: _View, part: Part) -> Iterator[tuple[Point, Point]]:
+    """Yield about where the axes of frames are drawn: a name before one would read as if it had a dash."""
+    for pose, _ in _together(view, part):
+        at = _coarse(view, pose.position)
+        for tip in _tips(view, pose):
+            yield at, (at[0] + tip[0], at[1] + tip[1])
 
 
 def _together(view: _View, part: Part) -> list[tuple[Pose, list[str]]]:
@@ -240,10 +249,15 @@ def _named(label: Placed | None, letter: float) -> Iterator[Element]:
 
 
 def _triad(view: _View, pose: Pose) -> Iterator[Element]:
+    for tip, (_, color) in zip(_tips(view, pose), _AXES, strict=True):
+        yield _line((0.0, 0.0), tip, color, view.unit / 12.5)
+
+
+def _tips(view: _View, pose: Pose) -> Iterator[Point]:
+    """Yield where the axes of a frame end as seen from it."""
     reach = view.unit * 1.1e-3
-    for axis, color in _AXES:
-        tip = pose.apply((axis[0] * reach, axis[1] * reach, axis[2] * reach))
-        yield _line((0.0, 0.0), view.seen(tip, pose.position), color, view.unit / 12.5)
+    for axis, _ in _AXES:
+        yield view.seen(pose.apply((axis[0] * reach, axis[1] * reach, axis[2] * reach)), pose.position)
 
 
 def _line(start: Point, end: Point, color: str, width: float) -> Element:
