@@ -315,3 +315,20 @@ def test_page_counts_what_the_check_found(of_folder: Content, severities: tuple[
 
 def test_page_of_a_folder_says_nothing_of_findings(of_folder: Content) -> None:
     assert "<dt>findings</dt>" not in to_html(of_folder, three_js())
+
+
+def test_a_tall_picture_is_in_sheets_that_paper_need_not_cut(page: Page) -> None:
+    """Each is at most as high as an upright page, and together they are the whole picture, each row in one of them."""
+    pictures = [found["src"] for tag, found in page.elements if tag == "img" and found["alt"].startswith("Every arrow")]
+    texts = [base64.b64decode(source.partition("base64,")[2]).decode() for source in pictures]
+    boxes = [[float(number) for number in text.partition('viewBox="')[2].partition('"')[0].split()] for text in texts]
+    assert len(boxes) > 1
+    assert all(left == 0 and width == 1000 and height <= 1300 for left, _, width, height in boxes)
+    whole = (ROOT / "generated/ur5e_pick/graph/responsibility.svg").read_text(encoding="utf-8")
+    ends = [top + height for _, top, _, height in boxes]
+    assert [top for _, top, _, _ in boxes] == [0, *ends[:-1]]
+    assert f'viewBox="0 0 1000 {ends[-1]:g}"' in whole
+    rows = re.findall(r'<rect x="\d+" y="([\d.]+)" width="190" height="([\d.]+)"', whole)
+    assert rows
+    cut = [row for row in rows for end in ends if float(row[0]) < end < float(row[0]) + float(row[1])]
+    assert cut == []

@@ -12,7 +12,7 @@ from __future__ import annotations
 import re
 import textwrap
 from collections.abc import Container, Iterable, Iterator
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
@@ -26,6 +26,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN
 
 _WIDTH = 1000
+_PAGE = 1300  # height of what an upright page holds of this width, its title and margins beside
 _FONT_SIZE = 13
 _LINE = 18  # height of a line of text
 _MARGIN = 16  # between the edge of the sheet and what is drawn
@@ -71,7 +72,24 @@ def _sheet(bands: tuple[Band, ...], unknown: Container[str]) -> Element:
     tops = [_MARGIN, *(_MARGIN + total for total in accumulate(height + _GAP for height in heights))]
     drawn = (_band(band, top, height, unknown) for band, top, height in zip(bands, tops, heights, strict=False))
     head = element("defs", children=[arrow_head("head", "#000000")])
-    return sheet(_WIDTH, tops[-1] + _MARGIN - _GAP, _FONT_SIZE, [head, *(part for parts in drawn for part in parts)])
+    bottom = tops[-1] + _MARGIN - _GAP
+    views = _views(bands, tops, bottom)
+    return sheet(_WIDTH, bottom, _FONT_SIZE, [head, *views, *(part for parts in drawn for part in parts)])
+
+
+def _views(bands: tuple[Band, ...], tops: list[int], bottom: int) -> Iterator[Element]:
+    """Name the parts of the sheet that fit a page each, cut above a row or a boundary; none where all fits one."""
+    cuts = [0]
+    before = 0
+    for band, top in zip(bands, tops, strict=False):
+        rows = (top + _TITLE + offset for offset in accumulate(map(_height, band.rows[:-1])))
+        for place in (top - _GAP // 2, *rows, top + _TITLE + sum(map(_height, band.rows)) + _GAP):
+            if place - cuts[-1] > _PAGE and before > cuts[-1]:
+                cuts.append(before)
+            before = place
+    for number, (start, end) in enumerate(pairwise([*cuts, bottom]), start=1):
+        if len(cuts) > 1:
+            yield element("view", {"id": f"page_{number}", "viewBox": f"0 {start} {_WIDTH} {end - start}"})
 
 
 def _band(band: Band, top: int, height: int, unknown: Container[str]) -> Iterator[Element]:

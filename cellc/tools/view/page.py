@@ -48,6 +48,12 @@ _CAPTIONS = {
 }
 
 
+_WHOLE = re.compile(r'(?<=viewBox=")[^"]*')
+_VIEWS = re.compile(r'<view id="page_\d+" viewBox="([\d. ]+)"')
+_MOST_SHEETS = 100
+"""Each holds the whole picture once more."""
+
+
 def to_html(content: Content, library: str | None) -> str:
     """Return the page; the same content gives the same bytes.
 
@@ -212,8 +218,18 @@ def _pictures(pictures: Mapping[str, str]) -> Iterator[Element]:
     for file, text in pictures.items():
         id_, title, words = _CAPTIONS[file]
         # As a picture, nothing in it runs, even in an untrusted file.
-        source = f"data:image/svg+xml;base64,{base64.b64encode(text.encode()).decode()}"
-        yield section(title, tag("figure", tag("div", tag("img", src=source, alt=words), class_="wide")), id_=id_)
+        sheets = [tag("img", src=_source(sheet), alt=words) for sheet in _sheets(text)]
+        yield section(title, tag("figure", tag("div", *sheets, class_="wide")), id_=id_)
+
+
+def _source(picture: str) -> str:
+    return f"data:image/svg+xml;base64,{base64.b64encode(picture.encode()).decode()}"
+
+
+def _sheets(picture: str) -> list[str]:
+    """Return a picture in the views that it names, between which paper may be cut; else whole."""
+    views = _VIEWS.findall(picture)[:_MOST_SHEETS]
+    return [_WHOLE.sub(view, picture, count=1) for view in views] or [picture]
 
 
 def _stage(content: Content) -> Element:

@@ -99,7 +99,7 @@ class Run:
     """A rehearsal, or an attempt that was recorded, to play back.
 
     Attributes:
-        times: of the pictures, s; none where the cell never started.
+        times: of the pictures, s; none where the cell never started. A rehearsal's first step begins at zero.
         base: seven numbers for each group as the run begins.
         tracks: of the groups that moved.
         reason: why it ended as it did.
@@ -146,7 +146,7 @@ class _Listener:
 
 
 def play(cell: MockCell, name: str, skeleton: Skeleton, seed: int) -> Run:
-    """Run a rehearsal and keep what the page plays back.
+    """Run a rehearsal and keep what the page plays back; time zero is when its first step begins, as for its faults.
 
     Raises:
         MockError: it names what the contract does not have.
@@ -162,20 +162,21 @@ def play(cell: MockCell, name: str, skeleton: Skeleton, seed: int) -> Run:
         handed_over = [placed.from_ns for name in world.objects() for placed in world.placements(name)[1:]]
         times = _kept(joints, handed_over, plant.now_ns)
         postures = [skeleton.posture(_at(joints, time_ns), _carried(plant, time_ns)) for time_ns in times]
+    begin_ns = result.attempts[-1].started_ns if result.attempts else 0
     return replace(
         run_of(
             result.name,
             result.outcome.value,
             result.reason,
-            [_moment(record) for record in result.attempts[:-1]],
-            [time_ns / 1e9 for time_ns in times],
+            [_moment(record, begin_ns) for record in result.attempts[:-1]],
+            [(time_ns - begin_ns) / 1e9 for time_ns in times],
             postures,
-            heard[0].plant.now_ns / 1e9 if heard else 0.0,
+            (heard[0].plant.now_ns - begin_ns) / 1e9 if heard else 0.0,
         ),
         expected=result.expected.value,
         passed=result.passed,
         faults=tuple(
-            Mark(round(at, 3), f"{fault.kind.value.replace('_', ' ')} {fault.target}")
+            Mark(round(at - begin_ns / 1e9, 3), f"{fault.kind.value.replace('_', ' ')} {fault.target}")
             for at, fault in fault_times(entry.faults, result.attempts)
         ),
     )
@@ -267,7 +268,7 @@ def moment_of(
     return Moment(round(from_s, 3), round(until_s, 3), name, outcome, reason, phases, works)
 
 
-def _moment(record: AttemptRecord) -> Moment:
-    span_s = record.started_ns / 1e9, record.ended_ns / 1e9
-    stamps_s = {step: at_ns / 1e9 for step, at_ns in record.stamps.items()}
+def _moment(record: AttemptRecord, begin_ns: int) -> Moment:
+    span_s = (record.started_ns - begin_ns) / 1e9, (record.ended_ns - begin_ns) / 1e9
+    stamps_s = {step: (at_ns - begin_ns) / 1e9 for step, at_ns in record.stamps.items()}
     return moment_of(span_s, record.step, record.outcome.value, record.fault_code, stamps_s)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cellc.compiler.cell.device import FieldOfView
 from cellc.contract.diagnostics.wording import count
-from cellc.contract.transforms import Pose
+from cellc.contract.transforms import Pose, identity
 from cellc.robot.description.model import Box, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 from cellc.tools.view.meshes import DrawnMesh, Meshes, meshes_at_hand, meshes_of
 from cellc.tools.view.skeleton import Held, Skeleton
@@ -84,6 +84,7 @@ class Scene:
     Attributes:
         kinds: which shapes of each device are drawn, in words.
         left_out: links whose shapes are not drawn, and why.
+        parts: what grippers take, as wide as the cell states.
     """
 
     groups: tuple[str, ...]
@@ -96,6 +97,7 @@ class Scene:
     goals: tuple[GoalMark, ...]
     poses: tuple[PoseMark, ...]
     left_out: tuple[tuple[str, str], ...]
+    parts: tuple[Shape, ...]
 
 
 def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Skeleton) -> Scene:
@@ -125,6 +127,7 @@ def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Ske
         goals=tuple(_goals(standing, skeleton)),
         poses=tuple(_poses(standing, skeleton)),
         left_out=tuple(_left_out(links, owners, meshes)),
+        parts=tuple(_parts(standing, skeleton)),
     )
 
 
@@ -188,6 +191,21 @@ def _measured(shape: Geometry, meshes: Meshes) -> tuple[str, Numbers]:
     if isinstance(shape, Cylinder):
         return "cylinder", (shape.radius, shape.length)
     return ("sphere", (shape.radius,)) if isinstance(shape, Sphere) else ("mesh", (meshes.numbers[shape],))
+
+
+def _parts(standing: Standing, skeleton: Skeleton) -> Iterator[Shape]:
+    """Yield a cylinder for each part: its width is all that is known, and fingers meet it there at any turn.
+
+    It stands where a tip grips it, along the tip, or at its frame where no goal does.
+    """
+    for name, held in skeleton.parts.items():
+        grasp = standing.frames[name].grasp
+        width_m = None if grasp is None else grasp.width_m
+        if width_m is not None:
+            gripped = (goal.pose.pose for goal in standing.goals.values() if goal.frame == name)
+            pose = held.pose @ next(gripped, identity())
+            size = (round(width_m / 2.0, 5), round(width_m, 5))
+            yield Shape(held.group, numbers(pose), "cylinder", size, "", f"part {name}")
 
 
 def _frames(standing: Standing, skeleton: Skeleton) -> Iterator[FrameMark]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from cellc.contract.contract import ContractFrame
-from cellc.contract.transforms import Pose, climb
+from cellc.contract.transforms import Pose, climb, identity
 from cellc.mock.world.world import LinkTree, link_tree
 from cellc.robot.description.model import Description
 from cellc.tools.view.standing import Standing
@@ -27,7 +27,9 @@ class Skeleton:
     """Groups of links, and of what perception finds.
 
     Attributes:
-        groups: name of the first link of each group, and of each dynamic frame that the mock places.
+        groups: name of the first link of each group, of each dynamic frame that the mock places, and of each part that
+            lies at a fixed frame.
+        parts: where each part that can be gripped begins, by its frame.
         frames: where each frame of the cell is held; dynamic ones that nothing places are left out.
         links: of the groups, how many are links: the dynamic frames follow them.
     """
@@ -45,10 +47,14 @@ class Skeleton:
             for name, frame in standing.frames.items()
             if frame.simulated_parent in self._links and frame.simulated_pose is not None
         }
-        self.groups: tuple[str, ...] = (*roots, *self._placed)
+        gripped = {name for name, frame in standing.frames.items() if frame.grasp is not None}
+        self._at_rest = {f"{name} (part)": name for name in gripped - set(self._placed) if name in self._links}
+        self.groups: tuple[str, ...] = (*roots, *self._placed, *sorted(self._at_rest))
         self.links = len(roots)
         self._numbers = {name: number for number, name in enumerate(self.groups)}
         self.frames = dict(self._frames(standing.frames))
+        groups = {name: name for name in self._placed} | {name: group for group, name in self._at_rest.items()}
+        self.parts = {name: Held(self._numbers[groups[name]], identity()) for name in sorted(gripped & set(groups))}
 
     def posture(self, positions: Mapping[str, float], carried: Carried | None = None) -> tuple[Pose, ...]:
         """Return the pose of each group in the root link.
@@ -58,7 +64,9 @@ class Skeleton:
             carried: dynamic frames that stand elsewhere than at first.
         """
         at = {**self._start, **positions}
-        placed = {**self._placed, **(carried or {})}
+        carried = carried or {}
+        placed = {**self._placed, **carried}
+        placed |= {group: carried.get(name, (name, identity())) for group, name in self._at_rest.items()}
         return tuple(
             self._tree.pose(placed[name][0], at) @ placed[name][1] if name in placed else self._tree.pose(name, at)
             for name in self.groups

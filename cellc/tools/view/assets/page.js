@@ -1,7 +1,6 @@
 // The page: the drawing, what is shown in it, and the time line of a rehearsal. Texts of the cell are text content only.
 const data = JSON.parse(document.getElementById("cell-data").textContent);
 const stage = document.getElementById("stage");
-
 function make(tag, text, parent, properties = {}) {
   const element = Object.assign(document.createElement(tag), properties);
   element.textContent = text;
@@ -392,6 +391,7 @@ function legend(drawing) {
   devices.forEach((name, number) => add(drawing.model.colors.get(name), name, alike ? "" : kinds[number]));
   if (drawing.ghost) add(GHOST_COLOR, data.before ? "its pose before" : `ghost: ${data.runs[0].ghost.name}`);
   if (alike) make("small", `all drawn as ${kinds[0]}`, place);
+  if (data.scene.parts.length) add(new THREE.Color(PART_COLOR), "part");
 }
 
 if (data.scene && window.THREE && document.createElement("canvas").getContext("webgl")) {

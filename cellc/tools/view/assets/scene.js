@@ -3,6 +3,7 @@ THREE.ColorManagement.legacyMode = false;
 const POSE = 7;
 const AXES = [[[1, 0, 0], "#d64545"], [[0, 1, 0], "#2f9e5b"], [[0, 0, 1], "#2f6fd6"]];
 const SCENE_COLOR = "#a9b0b9";
+const PART_COLOR = "#c9962b";
 const GHOST_COLOR = new THREE.Color("#d0762a");
 
 function deviceColor(number) {
@@ -40,7 +41,8 @@ class CellModel {
     this.colors = new Map(data.devices.map((name, number) => [name, deviceColor(number)]));
     this.bodies = [];
     this.postures = new Map(data.poses.map((pose) => [pose.name, pose.groups]));
-    for (const shape of data.shapes) this.addShape(shape, ghost);
+    for (const shape of data.shapes) this.addShape(shape, ghost, SCENE_COLOR);
+    this.parts = data.parts.map((part) => this.addShape(part, ghost, PART_COLOR));
     if (data.poses.length) this.stand(data.poses[0].groups);
     this.root.updateMatrixWorld(true);
     this.box = new THREE.Box3();
@@ -55,10 +57,10 @@ class CellModel {
     };
   }
 
-  addShape(shape, ghost) {
+  addShape(shape, ghost, own) {
     const meshed = shape.kind === "mesh";
     const geometry = meshed ? this.meshes[shape.size[0]] : makeGeometry[shape.kind](shape.size);
-    const color = ghost ? GHOST_COLOR : this.colors.get(shape.owner) || new THREE.Color(SCENE_COLOR);
+    const color = ghost ? GHOST_COLOR : this.colors.get(shape.owner) || new THREE.Color(own);
     // Where both surfaces are in one place, that of the ghost is behind.
     const look = { color, transparent: ghost, opacity: ghost ? 0.28 : 1, depthWrite: !ghost, polygonOffset: ghost,
       polygonOffsetFactor: 4, polygonOffsetUnits: 4 };
@@ -74,6 +76,7 @@ class CellModel {
     placeAt(body, shape.pose);
     this.groups[shape.group].add(body);
     this.bodies.push(body);
+    return body;
   }
 
   marks(all, draw) {
@@ -196,6 +199,7 @@ class Playback {
     const span = times[after] - times[before];
     const share = span > 0 ? Math.min(1, Math.max(0, (time - times[before]) / span)) : 1;
     model.stand(base);
+    for (const part of model.parts) part.visible = !this.run.recorded;  // no bag says where it is
     for (const { group, poses } of tracks) {
       const object = model.groups[group];
       const end = new THREE.Group();
