@@ -123,9 +123,9 @@ def clear() -> None:
         _write(sys.stdout, "\x1b[2J\x1b[3J\x1b[H")
 
 
-def columns() -> int:
-    """Return how wide the terminal is; 100 columns where it is not stated, so that a file is the same everywhere."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else 100
+def columns(of_file: int = 100) -> int:
+    """Return how wide the terminal is; of a file as many columns as are stated, so that it is the same everywhere."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else of_file
 
 
 def show_document(text: str) -> None:

@@ -9,6 +9,7 @@ import pytest
 from cellc.compiler.catalog.load import CatalogDevice, controller_kinds, device_names, load_controller_kind, load_device
 from cellc.tools.browse.controllers import controllers_page
 from cellc.tools.browse.page import page, pages, picture
+from cellc.tools.browse.search import Wanted, answered, answers
 from tests.cells import ROOT
 from tests.cli.run import run
 
@@ -24,7 +25,7 @@ def _entry(name: str) -> CatalogDevice:
 def _models(*arguments: str) -> list[str]:
     ran = run("catalog", *arguments)
     assert ran.code == 0, ran.err
-    return [line.split()[0] for line in ran.out.splitlines()[1:]]
+    return [line.split()[0] for line in ran.out.splitlines()[1:] if not line.startswith(("no, ", "not known, "))]
 
 
 def test_committed_pages_are_those_of_the_catalog() -> None:
@@ -49,6 +50,26 @@ def test_arms_are_found_by_what_their_vendors_say_of_reach_and_payload() -> None
     assert "ur5e" not in _models("--reach", "0.851 m")
     assert "franka_fr3" not in _models("--payload", "4 kg")
     assert "ur5e" in _models("--payload", "5000 g")
+
+
+def test_reach_and_payload_are_answered_with_yes_no_and_not_known() -> None:
+    """Kinova and OpenArm state no reach of these: that is neither yes nor no, and a camera is not asked."""
+    *_, unknown, small = run("catalog", "--reach", "900 mm").out.splitlines()
+    assert unknown.startswith("not known, no figure is stated: kinova_gen3, ")
+    assert "openarm_v2_left" in unknown
+    assert small == "no, too small: franka_fr3, ur3e, ur5e, ur7e"
+    stated = {name for name in device_names() if _entry(name).model.kind == "arm"}
+    said = {name for line in (unknown, small) for name in line.partition(": ")[2].split(", ")}
+    assert said | set(_models("--reach", "900 mm")) == stated
+
+
+def test_list_fits_a_terminal() -> None:
+    wanted = Wanted()
+    for columns in (100, 120, 160):
+        lines = [line if isinstance(line, str) else str(line[0]) for line in answered(answers(wanted), wanted, columns)]
+        shown = [line for line in lines if not line.startswith("Styled")]
+        assert max(map(len, shown)) <= max(columns, 110)
+    assert any("six-joint arm, 5 kg payload" in line for line in shown)
 
 
 def test_devices_are_found_by_kind_and_distribution() -> None:

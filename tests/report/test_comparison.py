@@ -71,6 +71,24 @@ def test_a_direct_library_takes_duties_back(tmp_path: Path) -> None:
     assert _row(compared, "safety").same
 
 
+def test_two_cells_stand_beside_each_other_with_what_both_answer_said_once() -> None:
+    out = run("compare", spec_of("ur5e_pick").as_posix(), spec_of("rail_arm").as_posix()).out
+    timing = out.partition("\ntiming\n")[2].partition("  common evidence")[0].splitlines()
+    assert timing[0] == "  both"
+    assert out.count("arm: stops its motion after 0.04 s without commands") == 1
+    head = next(number for number, line in enumerate(timing) if line.startswith("  ur5e_pick "))
+    assert timing[head].split() == ["ur5e_pick", "|", "rail_arm"]
+    assert timing[head + 1].partition("|")[0].strip().startswith("gripper: any link")
+    assert timing[head + 1].partition("|")[2].strip() == "nothing else"
+    assert max(map(len, out.splitlines())) <= 100
+
+
+def test_three_cells_stand_below_each_other() -> None:
+    out = run("compare", *(spec_of(name).as_posix() for name in ("ur5e_pick", "rail_arm", "minimal"))).out
+    assert " | " not in out
+    assert "\n  all\n" in out
+
+
 def test_what_all_answer_alike_stands_once() -> None:
     out = run("compare", spec_of("minimal").as_posix(), spec_of("minimal").as_posix()).out
     assert out.count("the same in all") == len(_CONTRACT) + len(_DUTIES)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+from textwrap import wrap
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -34,21 +36,42 @@ def entries() -> Iterator[CatalogDevice]:
         yield entry
 
 
-def found(wanted: Wanted) -> tuple[CatalogDevice, ...]:
-    """Return the devices that answer everything that is wanted; what states no figure answers no question for one."""
-    return tuple(entry for entry in entries() if _answers(entry.model, wanted))
+class Answer(str, Enum):
+    """Whether a device has the figures that are wanted."""
+
+    YES = "yes"
+    NO = "no"
+    UNKNOWN = "UNKNOWN"
 
 
-def _answers(model: DeviceModel, wanted: Wanted) -> bool:
+def answers(wanted: Wanted) -> Mapping[Answer, tuple[CatalogDevice, ...]]:
+    """Return the devices by their answer; what states no figure does not answer no.
+
+    Devices of another name, kind or distribution are left out, and without a kind all but arms where a reach is wanted.
+    """
+    kind = "arm" if wanted.reach_m is not None and wanted.kind is None else wanted.kind
+    asked = [entry for entry in entries() if _is_asked(entry.model, replace(wanted, kind=kind))]
+    given = [_answer(entry.model, wanted) for entry in asked]
+    return {
+        answer: tuple(entry for entry, found in zip(asked, given, strict=True) if found is answer) for answer in Answer
+    }
+
+
+def _answer(model: DeviceModel, wanted: Wanted) -> Answer:
+    figures = ((wanted.reach_m, reach_of(model)), (wanted.payload_kg, payload_of(model)))
+    stated = [(least, figure) for least, figure in figures if least is not None]
+    if any(figure is not None and figure < least - _ROUNDING for least, figure in stated):
+        return Answer.NO
+    return Answer.UNKNOWN if any(figure is None for _, figure in stated) else Answer.YES
+
+
+def _is_asked(model: DeviceModel, wanted: Wanted) -> bool:
     packages = model.packages
     said = (model.model, model.vendor, model.summary, model.kind, packages.driver, packages.sdk, packages.description)
     text = " ".join(part for part in said if part).lower()
-    reach, payload = reach_of(model), payload_of(model)
     return (
         all(word.lower() in text for word in wanted.words)
         and wanted.kind in (None, model.kind)
-        and (wanted.reach_m is None or (reach is not None and reach >= wanted.reach_m - _ROUNDING))
-        and (wanted.payload_kg is None or (payload is not None and payload >= wanted.payload_kg - _ROUNDING))
         and (wanted.distro is None or wanted.distro in distributions(model))
     )
 
@@ -100,12 +123,33 @@ def _read(figure: TypeAdapter[Quantity], text: str) -> float:
         raise ValueError(problem.errors()[0]["msg"].removeprefix("Value error, ")) from None
 
 
-def listed(devices: Iterable[CatalogDevice]) -> Iterator[Line]:
-    """Yield a line for each device: model, kind, reach, payload, distributions, what it is."""
-    head, *rows = aligned((_HEAD, *(_columns(entry.model) for entry in devices)))
-    if rows:
-        yield (Styled(head, Style.DIM),)
-    yield from rows
+def listed(devices: Iterable[CatalogDevice], columns: int) -> Iterator[Line]:
+    """Yield a line for each device: model, kind, vendor, reach, payload, distributions, what it is.
+
+    What it is stands below where a terminal of so many columns has no room for it.
+    """
+    rows = [_columns(entry.model) for entry in devices]
+    facts = aligned((_HEAD[:-1], *(row[:-1] for row in rows)))
+    beside = max(map(len, facts)) + 2
+    margin = beside if columns - beside >= _NARROWEST else 4
+    for number, (fact, row) in enumerate(zip(facts, (_HEAD, *rows), strict=True)):
+        words = [" " * margin + line for line in wrap(row[-1], max(_NARROWEST, columns - margin)) or [""]]
+        lines = [fact, *words] if margin < beside else [fact.ljust(margin) + words[0].lstrip(), *words[1:]]
+        yield from ((Styled(line, Style.DIM),) if number == 0 else line for line in lines if rows)
+
+
+_NARROWEST = 40
+"""Columns that a sentence needs."""
+
+
+def answered(given: Mapping[Answer, tuple[CatalogDevice, ...]], wanted: Wanted, columns: int) -> Iterator[Line]:
+    """Yield the devices that have what is wanted, and then those of which it is not known, and those that have less."""
+    yield from listed(given[Answer.YES], columns)
+    reasons = {Answer.UNKNOWN: "not known, no figure is stated", Answer.NO: "no, too small"}
+    for answer, reason in reasons.items() if wanted.reach_m is not None or wanted.payload_kg is not None else ():
+        names = ", ".join(entry.model.model for entry in given[answer])
+        if names:
+            yield from wrap(f"{reason}: {names}", columns, subsequent_indent="  ", break_on_hyphens=False)
 
 
 _HEAD = ("model", "kind", "vendor", "reach", "payload", "driver for", "what it is")

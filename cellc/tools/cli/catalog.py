@@ -9,11 +9,14 @@ import click
 
 from cellc.compiler.catalog.device_model import device_kinds
 from cellc.compiler.catalog.load import device_names, load_device
-from cellc.contract.printing import refuse, show, show_document, stage
+from cellc.contract.printing import columns, refuse, show, show_document, stage
 from cellc.contract.vocabulary import Distro
-from cellc.tools.browse.search import Wanted, found, kilograms, listed, meters
+from cellc.tools.browse.search import Answer, Wanted, answered, answers, kilograms, meters
 from cellc.tools.cli.handbook import write_pages
 from cellc.tools.cli.words import complete_model
+
+_OF_A_FILE = 1000
+"""Columns of what another program reads: a line for each device."""
 
 
 class _Figure(click.ParamType[float]):
@@ -70,8 +73,9 @@ def catalog(
     if entry is not None:
         show_document(page(entry))
         return
-    matching = found(Wanted(words=words, kind=kind, reach_m=reach, payload_kg=payload, distro=ros))
-    if not matching:
+    wanted = Wanted(words=words, kind=kind, reach_m=reach, payload_kg=payload, distro=ros)
+    given = answers(wanted)
+    show(*answered(given, wanted, columns(_OF_A_FILE)))
+    if not given[Answer.YES]:
         refuse("no device of the catalog meets all of these; relax one, or add your own device with `cellc import`")
         raise click.exceptions.Exit(1)
-    show(*listed(matching))
