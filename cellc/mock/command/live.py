@@ -7,11 +7,12 @@ shown afterwards, so a viewer cannot slow it down or change it.
 
 from __future__ import annotations
 
+import signal
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from ipaddress import ip_address
-from time import monotonic, sleep
+from time import monotonic, perf_counter, sleep
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import foxglove
@@ -21,6 +22,7 @@ from mcap.reader import make_reader
 
 from cellc.contract.printing import Stream, show
 from cellc.contract.rehearsals import RehearsalEntry
+from cellc.contract.signals import Stopped
 from cellc.contract.store.swap import temporary_file
 from cellc.mock.cell import MockCell
 from cellc.mock.command.evidence import recorded
@@ -75,6 +77,22 @@ class LiveView:
         self._latched: dict[str, tuple[bytes, int]] = {}
         self._asked = threading.Event()
         self._server: Any = None
+        self.executed_s = 0.0
+        """What the last rehearsal needed to be executed; waiting for a viewer and showing it are no part of that."""
+
+    def stay(self) -> None:
+        """Keep what was shown last for those who watch, until Ctrl-C; another signal ends the program as ever."""
+        if self._server is None:
+            return
+        show("all was shown; Ctrl-C ends", to=Stream.ERR)
+        try:
+            while True:
+                sleep(_LAST_S)
+        except KeyboardInterrupt:
+            return
+        except Stopped as stop:
+            if stop.number != signal.SIGINT:
+                raise
 
     def end(self) -> None:
         """Close every connection."""
@@ -99,7 +117,9 @@ class LiveView:
         """
         entry = cell.entry(name)
         with temporary_file() as file:
+            start_s = perf_counter()
             result, _ = recorded(cell, entry, file, seed)
+            self.executed_s = perf_counter() - start_s
             file.seek(0)
             self._show(file, entry, result)
         return result

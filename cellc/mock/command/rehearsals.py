@@ -87,7 +87,19 @@ def run_rehearsals(options: RehearsalOptions) -> int:
     if options.records is not None:
         refuse_foreign(Path(options.records))  # before the minutes that a run may take
     cell = load_seeded(options)
-    timed = _run(cell, tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals, options)
+    names = tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals
+    if options.live is None:
+        timed = _run(cell, names, options)
+        _tell(cell, timed, options)
+    else:
+        with begin_live(options.live) as view:
+            timed = _timed(cell, names, lambda name: view.run(cell, name, options.seed), lambda: view.executed_s)
+            _tell(cell, timed, options)
+            view.stay()
+    return 0 if timed and all(each.result.passed for each in timed) else 1
+
+
+def _tell(cell: MockCell, timed: Sequence[TimedResult], options: RehearsalOptions) -> None:
     if options.records is not None:
         records = (record for each in timed for record in each.result.attempts)
         write_records(Path(options.records), records)
@@ -95,7 +107,6 @@ def run_rehearsals(options: RehearsalOptions) -> int:
         show_document(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
     else:
         show(*to_lines(timed, cell.notes))
-    return 0 if timed and all(each.result.passed for each in timed) else 1
 
 
 def load_seeded(options: FolderOptions) -> MockCell:
@@ -106,9 +117,6 @@ def load_seeded(options: FolderOptions) -> MockCell:
 
 
 def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> list[TimedResult]:
-    if options.live is not None:
-        with begin_live(options.live) as view:
-            return _timed(cell, names, lambda name: view.run(cell, name, options.seed))
     if options.evidence is None:
         return _timed(cell, names, lambda name: cell.run(name, seed=options.seed))
     with begin_evidence(cell, Path(options.evidence), names, options.seed) as collector:
@@ -117,14 +125,20 @@ def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> lis
     return timed
 
 
-def _timed(cell: MockCell, names: Sequence[str], run: Callable[[str], RehearsalResult]) -> list[TimedResult]:
+def _timed(
+    cell: MockCell,
+    names: Sequence[str],
+    run: Callable[[str], RehearsalResult],
+    executed_s: Callable[[], float] | None = None,
+) -> list[TimedResult]:
+    """Run rehearsals in turn; ``executed_s`` says what the last one needed, where more than that passed by."""
     timed: list[TimedResult] = []
     with progress("mock") as update:
         for number, name in enumerate(in_turn(cell, names), start=1):
             update(f"rehearsal {number} of {len(names)}, {name}")
             start = perf_counter()
             result = run(name)
-            timed.append(TimedResult(result, perf_counter() - start))
+            timed.append(TimedResult(result, perf_counter() - start if executed_s is None else executed_s()))
     return timed
 
 

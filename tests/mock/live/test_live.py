@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,6 +15,7 @@ from mcap.reader import make_reader
 
 from cellc.contract.extras import MissingExtraError
 from cellc.contract.printing import Stream
+from cellc.contract.signals import Stopped
 from cellc.mock import MockCell
 from cellc.mock.command.options import Live, RehearsalOptions
 from cellc.mock.command.rehearsals import run_rehearsals
@@ -120,6 +122,41 @@ def test_a_run_is_shown_in_the_time_that_it_took_divided_by_the_speed(
         shown_s = now
     # What is shown begins with the bring-up, at 0, and ends with the last attempt.
     assert shown_s == pytest.approx(result.attempts[-1].ended_ns / 1e9 / 4.0)
+
+
+def test_server_stays_until_ctrl_c_and_waiting_is_no_time_of_execution(
+    built_folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """An hour passes until somebody connects; who still watches at the end keeps the picture until Ctrl-C."""
+    from cellc.mock.command import live
+
+    now, asleep, viewers = 0.0, 0, list[Viewer]()
+
+    def pass_by(seconds: float) -> None:
+        nonlocal now, asleep
+        now += max(seconds, 0.0)
+        asleep += seconds == live._LAST_S
+        if asleep == 3:
+            assert viewers[0].server["capabilities"] == []
+            raise Stopped(signal.SIGINT)
+
+    def connect(line: str, to: Stream) -> None:
+        nonlocal now
+        found = re.search(r":(\d+):", line)
+        if found is not None:
+            now += 3600.0
+            viewers.append(Viewer(int(found[1]), ()))
+
+    monkeypatch.setattr(live, "sleep", pass_by)
+    monkeypatch.setattr(live, "monotonic", lambda: now)
+    monkeypatch.setattr(live, "perf_counter", lambda: now)
+    monkeypatch.setattr("cellc.mock.command.rehearsals.perf_counter", lambda: now)
+    monkeypatch.setattr(live, "show", connect)
+    options = RehearsalOptions(str(built_folder), rehearsals=("canceled",), live=Live("127.0.0.1:0", 1000.0))
+    assert run_rehearsals(options) == 0
+    assert asleep >= 3
+    assert "simulated in 0.00 s" in capsys.readouterr().out
+    viewers[0].end()
 
 
 @pytest.mark.parametrize("address", ["8765", "127.0.0.1:", "127.0.0.1:99999", ":8765", "127.0.0.1:x"])
