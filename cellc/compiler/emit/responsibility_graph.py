@@ -60,7 +60,7 @@ def _bands(cell: Cell) -> tuple[Band, ...]:
     """Return the ROS graph, vendor control and physical safety, in the order in which a goal meets them."""
     owners = cell.owners.responsibilities
     return (
-        Band("ROS 2 graph", False, tuple(exchanges(cell))),
+        Band("ROS 2 graph (dashed is of what something is UNKNOWN)", False, tuple(exchanges(cell))),
         Band(f"Vendor control (owner {owners.vendor_safety})", True, (*drives(cell), *helpers(cell))),
         Band(f"Physical safety (owner {owners.physical_stop})", True, tuple(stop(cell))),
     )
@@ -94,10 +94,9 @@ def _views(bands: tuple[Band, ...], tops: list[int], bottom: int) -> Iterator[El
 
 def _band(band: Band, top: int, height: int, unknown: Container[str]) -> Iterator[Element]:
     line = {"rx": "6", "fill": "none", "stroke": "#000000", "stroke-width": "5" if band.bold else "1"}
-    yield rectangle(_MARGIN // 2, top, _WIDTH - _MARGIN, height, line | (_DASHED if UNKNOWN in band.title else {}))
-    if not band.bold:
-        hint = {"text-anchor": "end", "fill": "#333333"}
-        yield text(_WIDTH - _MARGIN - 4, top + 23, "dashed: something of it is UNKNOWN", hint)
+    yield rectangle(
+        _MARGIN // 2, top, _WIDTH - _MARGIN, height, line | (_DASHED if band.bold and UNKNOWN in band.title else {})
+    )
     yield text(_MARGIN + 4, top + 23, band.title, {"font-weight": "bold", "font-size": "16"})
     tops = [0, *accumulate(map(_height, band.rows))]
     for row, offset in zip(band.rows, tops, strict=False):

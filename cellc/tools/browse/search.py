@@ -126,7 +126,7 @@ def _read(figure: TypeAdapter[Quantity], text: str) -> float:
 def listed(devices: Iterable[CatalogDevice], columns: int) -> Iterator[Line]:
     """Yield a line for each device: model, kind, vendor, reach, payload, distributions, what it is.
 
-    What it is stands below where a terminal of so many columns has no room for it.
+    What it is comes below where a terminal of so many columns has no room for it.
     """
     rows = [_columns(entry.model) for entry in devices]
     facts = aligned((_HEAD[:-1], *(row[:-1] for row in rows)))

@@ -196,7 +196,7 @@ def _measured(shape: Geometry, meshes: Meshes) -> tuple[str, Numbers]:
 def _parts(standing: Standing, skeleton: Skeleton) -> Iterator[Shape]:
     """Yield a cylinder for each part: its width is all that is known, and fingers meet it there at any turn.
 
-    It stands where a tip grips it, along the tip, or at its frame where no goal does.
+    It is where a tip grips it, along the tip, or at its frame where no goal does.
     """
     for name, held in skeleton.parts.items():
         grasp = standing.frames[name].grasp
