@@ -54,14 +54,14 @@ def _allowed(name: str, value: str, marks: set[str]) -> bool:
 def test_pictures_have_the_attributes_and_words_of_svg(cell: str, distro: str) -> None:
     for file in ("cell", "nodes", "responsibility"):
         root = fromstring(build(cell, distro).texts[f"graph/{file}.svg"])
-        marks = {element.attrib["id"] for element in root.iter(f"{_SVG}marker")}
+        marks = {element.attrib["id"] for kind in ("marker", "view") for element in root.iter(f"{_SVG}{kind}")}
         found = [(name, value) for element in root.iter() for name, value in element.attrib.items()]
         assert [(name, value) for name, value in found if not _allowed(name, value, marks)] == []
         assert all(0.0 <= float(value) <= 1.0 for name, value in found if name.endswith("opacity"))
         assert {element.tag.removeprefix(_SVG) for element in root.iter()} <= _DRAWN
 
 
-_DRAWN = {"svg", "defs", "marker", "g", "path", "rect", "polygon", "line", "text"}
+_DRAWN = {"svg", "defs", "marker", "view", "g", "path", "rect", "polygon", "line", "text"}
 
 
 def _places(group: Element, at: tuple[float, float] = (0.0, 0.0)) -> set[tuple[float, float]]:
