@@ -6,7 +6,10 @@ from collections.abc import Mapping
 
 from cellc.contract.diagnostics import Severity
 
-_WARNINGS = ("gripper-against-description", "implausible-fact", "pretended-hardware", "xacro-warning", "unused-ignore")
+_WARNINGS = (
+    *("device-against-description", "gripper-against-description", "implausible-fact", "pretended-hardware"),
+    *("xacro-warning", "unused-ignore"),
+)
 _CODES = {
     "source": """
         alias-bomb command-too-long control-character duplicate-key empty-file file-not-found file-too-large
@@ -20,7 +23,8 @@ _CODES = {
         wrong-type wrong-unit
     """,
     "catalog": """
-        catalog-entry-invalid commanded-follower gripper-against-description implausible-fact pretended-hardware
+        catalog-entry-invalid commanded-follower device-against-description gripper-against-description implausible-fact
+        pretended-hardware
         urdf-bad-geometry urdf-bad-number urdf-missing-attribute urdf-missing-element urdf-not-a-robot
         urdf-not-expanded urdf-unknown-joint-type xacro-bad-yaml xacro-failed xacro-file-not-found
         xacro-missing-argument xacro-not-text xacro-outside-root xacro-package-not-found xacro-refused-expression

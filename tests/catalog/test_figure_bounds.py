@@ -134,7 +134,7 @@ def test_no_device_of_the_catalog_has_an_implausible_figure() -> None:
             "limits: {velocity: {turn: {value: 2 rad/s, source: x}}, "
             "acceleration: {turn: {value: 0.02 rad/s^2, source: x}}}",
             "limits",
-            "must reach its speed within a thousandth of a second to a minute, got 100 s",
+            "must reach its speed within a millisecond to 10 s, got 100 s",
         ),
     ],
 )

@@ -27,7 +27,11 @@ JAWS = (
     + "</robot>\n"
 )
 # Two fingers of 60 mm on pivots 20 mm apart, which turn outwards as they open.
-CLAW = JAWS.replace("prismatic", "revolute").replace('upper="0.04"', 'upper="1"').replace("0 1 0", "-1 0 0")
+CLAW = (
+    JAWS.replace("prismatic", "revolute")
+    .replace('upper="0.04" velocity="0.1"', 'upper="1" velocity="4"')
+    .replace("0 1 0", "-1 0 0")
+)
 CLAW = CLAW.replace('<axis xyz="0 -1 0"/>', '<axis xyz="1 0 0"/>')
 DEVICE = """format: 1
 model: jaws

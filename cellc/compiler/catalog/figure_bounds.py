@@ -11,10 +11,12 @@ from collections.abc import Iterator
 
 from pydantic import BaseModel
 
+from cellc.compiler.catalog.camera_figures import camera_faults
 from cellc.compiler.catalog.device_model import DeviceModel
+from cellc.compiler.catalog.limit_facts import EVERY_JOINT
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.quantity import Quantity, QuantityVector
-from cellc.contract.diagnostics import Diagnostic, Severity, YamlPath
+from cellc.contract.diagnostics import Diagnostic, Related, Severity, YamlPath
 from cellc.contract.frozen import dataclass
 from cellc.robot.description.model import Description
 
@@ -90,13 +92,21 @@ def implausible_figures(model: DeviceModel, description: Description, document: 
             if not least <= number <= most:
                 bounds = f"from {least:.3g} to {most:.3g} in SI units"
                 yield _found(f"`{'.'.join(map(str, path))}` must be {bounds}, got {number:.3g}", path, document)
-    for path, message in (*_of_joints(model), *_pairs(model), *_of_gripper(model), *_reach(model, description)):
+    of_joints = _of_joints(model, description)
+    for path, message in (*of_joints, *_pairs(model), *_reach(model, description)):
         yield _found(message, path, document)
+    for path, message, other in camera_faults(model):
+        yield _found(message, path, document, other)
 
 
-def _found(message: str, path: YamlPath, document: SourceDocument) -> Diagnostic:
+_START_S = 10.0
+"""Arms and axes are at full speed within two seconds, turntables of tonnes within ten."""
+
+
+def _found(message: str, path: YamlPath, document: SourceDocument, other: YamlPath = ()) -> Diagnostic:
     advice = "correct the figure, or its unit"
-    return Diagnostic(CODE, Severity.WARNING, message, document.locate(path), path, advice)
+    related = (Related("the other one", document.locate(other)),) if other else ()
+    return Diagnostic(CODE, Severity.WARNING, message, document.locate(path), path, advice, related)
 
 
 def _numbers(value: object, path: YamlPath) -> Iterator[tuple[YamlPath, float, bool]]:
@@ -127,25 +137,27 @@ def _key(path: YamlPath) -> str:
     return ".".join(map(str, path))
 
 
-def _of_joints(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
-    """Yield accelerations and jerks with which a joint needs less than a millisecond or more than a minute."""
+def _of_joints(model: DeviceModel, description: Description) -> Iterator[tuple[YamlPath, str]]:
+    """Yield accelerations and jerks with which joints need less than a millisecond, or longer than drives do."""
     limits = model.limits
     for name, fact in limits.acceleration.items():
-        velocity = limits.velocity.get(name)
-        if velocity is not None and velocity.value.linear == fact.value.linear and velocity.value.si > 0.0:
-            seconds = velocity.value.si / fact.value.si
-            if not 1e-3 <= seconds <= 60.0:
-                yield ("limits", "acceleration", name, "value"), _slow(name, "speed", seconds)
+        own = [joint for joint in description.joints if name in (joint.name, EVERY_JOINT) and joint.limit is not None]
+        speeds = [
+            joint.limit.velocity for joint in own if joint.limit is not None and joint.slides == fact.value.linear
+        ]
+        velocity = max(filter(None, speeds), default=0.0)
+        if velocity > 0.0 and fact.value.si > 0.0 and not 1e-3 <= velocity / fact.value.si <= _START_S:
+            yield ("limits", "acceleration", name, "value"), _slow(name, "speed", velocity / fact.value.si)
     for name, jerk in limits.jerk.items():
         acceleration = limits.acceleration.get(name)
-        if acceleration is not None and acceleration.value.linear == jerk.value.linear:
+        if acceleration is not None and acceleration.value.linear == jerk.value.linear and jerk.value.si > 0.0:
             seconds = acceleration.value.si / jerk.value.si
-            if not 1e-4 <= seconds <= 60.0:
+            if not 1e-4 <= seconds <= _START_S:
                 yield ("limits", "jerk", name, "value"), _slow(name, "acceleration", seconds)
 
 
 def _slow(name: str, what: str, seconds: float) -> str:
-    return f"`{name}` must reach its {what} within a thousandth of a second to a minute, got {seconds:.3g} s"
+    return f"`{name}` must reach its {what} within a millisecond to {_START_S:g} s, got {seconds:.3g} s"
 
 
 def _pairs(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
@@ -161,18 +173,6 @@ def _pairs(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
     if gripper is not None and gripper.min_force is not None and gripper.min_force.si > gripper.max_force.si:
         got = gripper.min_force.text
         yield ("gripper", "min_force"), f"`min_force` must be at most `max_force` {gripper.max_force.text}, got {got}"
-
-
-def _of_gripper(model: DeviceModel) -> Iterator[tuple[YamlPath, str]]:
-    gripper = model.gripper
-    if gripper is None:
-        return
-    way = abs(gripper.open.si - gripper.closed.si)
-    if way == 0.0:
-        yield ("gripper", "closed"), f"`closed` must differ from `open`, got {gripper.closed.text} for both"
-    elif gripper.goal_tolerance.linear == gripper.open.linear and gripper.goal_tolerance.si > way / 2.0:
-        got = gripper.goal_tolerance.text
-        yield ("gripper", "goal_tolerance"), f"`goal_tolerance` must be at most half of the way of the joint, got {got}"
 
 
 def _reach(model: DeviceModel, description: Description) -> Iterator[tuple[YamlPath, str]]:

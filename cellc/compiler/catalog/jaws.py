@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from cellc.compiler.catalog.device_model import DeviceModel, GripperFacts
+from cellc.compiler.catalog.gripper_figures import gripper_figures
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Diagnostic, Related, Severity, Span, YamlPath
 from cellc.contract.frozen import dataclass
@@ -19,6 +20,7 @@ from cellc.robot.description.model import Description, Joint, Link, Mesh
 from cellc.robot.description.posture import posture
 
 CODE = "gripper-against-description"
+_ADVICE = "write the figure that the joint has, or correct the joint"
 _STILL_M = 1e-4
 _SHARE = 0.25
 """By which a stroke may differ from that of the joints: pads are worn, and data sheets round."""
@@ -59,6 +61,8 @@ def gripper_faults(model: DeviceModel, description: Description, document: Sourc
     """
     facts = model.gripper
     joint = None if facts is None else description.joint(facts.joint)
+    for path, message in gripper_figures(model, description):
+        yield _found(message, path, document, _ADVICE, None if joint is None else joint.span)
     if facts is None or joint is None or facts.open.si == facts.closed.si or facts.open.linear != joint.slides:
         return
     jaws = _jaws(facts, description)
@@ -69,7 +73,7 @@ def gripper_faults(model: DeviceModel, description: Description, document: Sourc
         way = math.hypot(*jaws[0].way)
         alone = sum(other.slides and other.mimic is None for other in description.joints) == 1
         if way > _STILL_M and not _fits(facts.stroke.si, way) and (alone or not _fits(facts.stroke.si, 2.0 * way)):
-            yield _stroke(facts, way, document, joint.span)
+            yield _stroke(facts, way, document, joint)
 
 
 def _of_two(
@@ -89,17 +93,21 @@ def _of_two(
         message += f" {facts.closed.text}, where they are {-growth * 1e3:.3g} mm nearer"
         yield _found(message, ("gripper", "open"), document, "swap the two, or correct the axis", first.driver.span)
     elif even and slide and distance > _STILL_M and not _fits(facts.stroke.si, distance):
-        yield _stroke(facts, distance, document, first.driver.span)
+        yield _stroke(facts, distance, document, first.driver, second.driver)
 
 
-def _stroke(facts: GripperFacts, way: float, document: SourceDocument, joint: Span | None) -> Diagnostic:
+def _stroke(facts: GripperFacts, way: float, document: SourceDocument, *drivers: Joint) -> Diagnostic:
     message = f"`stroke` must be how far one jaw moves relative to the other, {way * 1e3:.3g} mm by the joints,"
     advice = "write the way between both jaws, or correct `open` and `closed`"
-    return _found(f"{message} got {facts.stroke.text}", ("gripper", "stroke"), document, advice, joint)
+    return _found(f"{message} got {facts.stroke.text}", ("gripper", "stroke"), document, advice, *map(_place, drivers))
 
 
-def _found(message: str, path: YamlPath, document: SourceDocument, advice: str, place: Span | None) -> Diagnostic:
-    related = () if place is None else (Related("the jaw is moved here", place),)
+def _place(joint: Joint) -> Span | None:
+    return joint.span if joint.mimic is None else joint.mimic.span or joint.span
+
+
+def _found(message: str, path: YamlPath, document: SourceDocument, advice: str, *places: Span | None) -> Diagnostic:
+    related = tuple(Related("the joint is described here", place) for place in places if place is not None)
     return Diagnostic(CODE, Severity.WARNING, message, document.locate(path), path, advice, related)
 
 

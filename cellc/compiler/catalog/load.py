@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
+from cellc.compiler.catalog.against_description import description_faults
 from cellc.compiler.catalog.compiled import (
     CATALOG,
     DEVICE_FILE,
@@ -150,17 +151,24 @@ def _load(
     wrong = (*unknown_names(model, limited, document, known), *wrong_joint_figures(model, limited, document))
     robot = limited.without_leaderless() if "mimic-of-nothing" in model.excused else limited
     device = None if wrong else CatalogDevice(model, robot)
-    doubtful = () if wrong else tuple(_doubtful(model, robot, document))
+    doubtful = () if wrong else tuple(_doubtful(model, description.value, robot, document))
     return Outcome(device, description.diagnostics + wrong + doubtful)
 
 
-def _doubtful(model: DeviceModel, robot: Description, document: SourceDocument) -> Iterator[Diagnostic]:
-    """Yield what does not keep a device from being bound."""
+def _doubtful(
+    model: DeviceModel, written: Description, robot: Description, document: SourceDocument
+) -> Iterator[Diagnostic]:
+    """Yield what does not keep a device from being bound.
+
+    Args:
+        written: the description as it is in its file; ``robot`` has the limits of the model.
+    """
     distros = load_distros().value
     assert distros is not None  # package data, held valid by the catalog's tests
     yield from implausible_figures(model, robot, document)
     yield from gripper_faults(model, robot, document)
     yield from control_faults(model, robot, document, distros)
+    yield from description_faults(model, written, document, set(distros.harmless_plugins))
 
 
 def _at_its_name(found: Diagnostic, file: Path, document: SourceDocument) -> Diagnostic:
