@@ -17,7 +17,7 @@ BY_RULES: dict[str, tuple[str, ...]] = {
     "control.update_rate": ("refused-update-rate",),
     "devices.*.connection.first_port": ("shared-port", "out-of-range"),
     "devices.*.mount.rpy": ("mounted-against-vendor", "reversed-angles", "out-of-range"),
-    "devices.*.mount.xyz": ("implausible-distance", "detached-mount"),
+    "devices.*.mount.xyz": ("implausible-distance", "detached-mount", "implausible-view"),
     "devices.*.tool_connector.serial.baud_rate": ("refused-tool-connector", "tool-serial-mismatch"),
     "devices.*.tool_connector.serial.rx_idle_chars": ("refused-tool-connector",),
     "devices.*.tool_connector.serial.stop_bits": ("refused-tool-connector", "tool-serial-mismatch"),
@@ -165,6 +165,10 @@ WRONG: tuple[tuple[str, str], ...] = (
         "motion.servo.command_timeout",
     ),
     ("motion: {octomap: {source: /cloud, resolution: 25 mm, range: 2 m, padding: 1 m}}", "motion.octomap.padding"),
+    (
+        "control: {controllers: {gripper_action: {parameters: {stall_velocity_threshold: 0.5}}}}",
+        "control.controllers.*.parameters.*",
+    ),
     (
         "bringup: {commissioning: {velocity: 0.5 %, acceleration: 0.5 %, reach: 9 mm, force: 0.06 N, "
         "stages: 10 100 %}}\n"

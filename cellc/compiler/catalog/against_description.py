@@ -211,7 +211,7 @@ def _last_of_longest(moving: list[Joint], above: dict[str, Joint]) -> Joint | No
 def _bounds(part: HardwarePart, joint: Joint | None) -> Iterator[_Differs]:
     """Yield bounds of a position command beyond the limits of its joint."""
     limit = None if joint is None else joint.limit
-    position = next((one for one in part.command_interfaces if one.name == "position"), None)
+    position = next((has for has in part.command_interfaces if has.name == "position"), None)
     if joint is None or limit is None or position is None or None in (limit.lower, limit.upper):
         return
     if joint.type != "continuous" and _is_wider(position, limit.lower or 0.0, limit.upper or 0.0):

@@ -22,7 +22,7 @@ _SHAPE = 1.6
 
 
 Contradiction = tuple[YamlPath, str, YamlPath]
-"""Where a figure is, what is wrong of it, and where the other one is; the same place where there is none."""
+"""Where a figure is, what is wrong of it, and where the other one is; the same place where nothing else is."""
 
 
 def camera_faults(model: DeviceModel) -> Iterator[Contradiction]:

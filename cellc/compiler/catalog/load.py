@@ -47,10 +47,15 @@ from cellc.robot.description.urdf_reader import read_urdf
 
 @dataclass(frozen=True, slots=True)
 class CatalogDevice:
-    """A device of the catalog: its facts, and its description without prefix."""
+    """A device of the catalog: its facts, and its description without prefix.
+
+    Args:
+        document: its file where the user wrote it; None of an entry that was compiled.
+    """
 
     model: DeviceModel
     description: Description
+    document: SourceDocument | None = None
 
 
 @lru_cache(maxsize=1)
@@ -150,7 +155,7 @@ def _load(
     limited = model.limits.on(description.value)
     wrong = (*unknown_names(model, limited, document, known), *wrong_joint_figures(model, limited, document))
     robot = limited.without_leaderless() if "mimic-of-nothing" in model.excused else limited
-    device = None if wrong else CatalogDevice(model, robot)
+    device = None if wrong else CatalogDevice(model, robot, document)
     doubtful = () if wrong else tuple(_doubtful(model, description.value, robot, document))
     return Outcome(device, description.diagnostics + wrong + doubtful)
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated
 
-from cellc.compiler.cell.entity import ELSEWHERE, STATED, Entity, Part
+from cellc.compiler.cell.entity import ELSEWHERE, STATED, Entity, Part, Places
 from cellc.compiler.cell.frame import WORLD
 from cellc.contract.frozen import dataclass
 from cellc.contract.grading import Graded
@@ -84,6 +84,7 @@ class Body(Part):
         kinematics: whose joints the description has; None where robots of the type do not differ.
         allowed_collisions: pairs of links whose contact is not looked for.
         excused: codes of findings on the description that its folder excuses, and why.
+        places: where the user wrote what of its `device.yaml`; None of a device of the catalog.
     """
 
     prefix: Annotated[str, STATED] = ""
@@ -96,6 +97,7 @@ class Body(Part):
     kinematics: Kinematics | None = None
     allowed_collisions: tuple[tuple[str, str], ...] = ()
     excused: Mapping[str, str] = field(default_factory=dict)
+    places: Annotated[Places | None, ELSEWHERE] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

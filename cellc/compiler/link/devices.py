@@ -33,6 +33,7 @@ from cellc.compiler.link.names import Placeholders, home_host, placeholders, por
 from cellc.compiler.link.ports import port_shifts
 from cellc.compiler.link.quantities import pose
 from cellc.compiler.link.robot import program_parameters, robot_controller, robot_words
+from cellc.compiler.link.site import bind_places
 from cellc.compiler.link.tool import gripper_of, gripper_words, host_programs, tool_parameters, tool_words
 from cellc.compiler.link.vendor_description import link_vendor_description, with_vendor_shapes
 from cellc.compiler.source.document import SourceDocument
@@ -254,6 +255,7 @@ def _body(entry: CatalogDevice, prefix: str, kinematics: Kinematics | None, foun
             (prefix + a, prefix + b) for a, b in (pair.links for pair in facts.allowed_collisions)
         ),
         excused={str(code): because for code, because in facts.excused.items()},
+        places=None if entry.document is None else bind_places(entry.document),
     )
 
 

@@ -14,6 +14,12 @@ def is_own(graph: CellGraph, device: Device) -> bool:
     return not model or "/" in model
 
 
+def in_its_file(device: Device, *path: str | int) -> tuple[Related, ...]:
+    """Return the place of a fact in the `device.yaml` that the user brings; none of one of the catalog."""
+    places = device.body.places
+    return () if places is None or not places.has(path) else (Related("its `device.yaml` has it", places.locate(path)),)
+
+
 def described(graph: CellGraph, joints: Iterable[str]) -> tuple[Related, ...]:
     """Return the places of joints in the folders of the cell; a catalog entry is not changed for one cell."""
     places = graph.once(_places)

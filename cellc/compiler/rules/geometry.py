@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from cellc.compiler.cell.frame import Frame, FrameKind
 from cellc.compiler.feasibility import BodyContact, DisabledAnswer, MotionAnswer
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, found
+from cellc.contract.diagnostics import Span
 from cellc.contract.limits import option
 
 USABLE_MESHES = ("malformed-mesh", "mesh-outside-root", "mesh-too-large")
@@ -74,7 +75,17 @@ def in_the_chain(graph: CellGraph, goal_name: str) -> tuple[Related, ...]:
     if goal is None or group is None:
         return ()
     places = [*_written(graph, goal.frame), *_written(graph, group.tip_frame)]
-    return tuple(Related(f"`{frame.name}` is placed here", frame.span) for frame in dict.fromkeys(places))
+    return tuple(Related(f"`{frame.name}` is placed here", _placed(graph, frame)) for frame in dict.fromkeys(places))
+
+
+def _placed(graph: CellGraph, frame: Frame) -> Span:
+    """Return where a frame is written, or where an object is that the mock has to put somewhere."""
+    return frame.span if frame.simulated_pose is None else graph.cell.locate(*frame.path, "simulated_pose")
+
+
+def things(graph: CellGraph, text: str) -> tuple[Related, ...]:
+    """Return the things of the scene that a text names, such as what touches."""
+    return tuple(Related("it is placed here", box.span) for box in graph.cell.scene if f"`{box.name}`" in text)
 
 
 def mounts(graph: CellGraph, contacts: Sequence[BodyContact]) -> tuple[Related, ...]:

@@ -10,7 +10,7 @@ from pkgutil import iter_modules
 
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.rules.kit import FAMILIES, Rule
-from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.diagnostics import Diagnostic, Severity
 
 
 def _rules_of(family: str) -> Iterator[Rule]:
@@ -49,7 +49,7 @@ def run_rules(graph: CellGraph, rules: tuple[Rule, ...] = ALL_RULES) -> tuple[Di
             (general if rule.gives_way else diagnostics).extend(found)
             reported.update(diagnostic.code for diagnostic in found)
     if general:
-        told = {(diagnostic.yaml_path, diagnostic.span) for diagnostic in diagnostics}
+        told = {(other.yaml_path, other.span) for other in diagnostics if other.severity is not Severity.AUDIT}
         diagnostics += (found for found in general if (found.yaml_path, found.span) not in told)
     return tuple(sorted(diagnostics, key=Diagnostic.sort_key))
 

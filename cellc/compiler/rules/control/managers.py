@@ -8,6 +8,7 @@ from operator import itemgetter
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.link.names import JOINT_STATES
 from cellc.compiler.rules.advice import add_controllers
+from cellc.compiler.rules.described import in_its_file
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.vocabulary import Need
 
@@ -91,7 +92,8 @@ def refused_update_rate(graph: CellGraph) -> Findings:
                 accepted = " or ".join(f"{rate:g} Hz" for rate in rates)
                 message = f"`update_rate` for `{device.name}` must be {accepted}, got {manager.update_rate_hz:g} Hz"
                 path = (*manager.path, "update_rate")
-                yield found(graph, path, message, f"write {accepted}, or give the device a manager of its own")
+                advice = f"write {accepted}, or give the device a manager of its own"
+                yield found(graph, path, message, advice, in_its_file(device, "control", "update_rates"))
 
 
 @rule(Severity.ERROR)

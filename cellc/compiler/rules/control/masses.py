@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.rules.bounds import Bound, Figure, outside
+from cellc.compiler.rules.carried import farthest_link
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, rule
 
 _PART_M = 0.5
@@ -28,20 +29,17 @@ def _payloads(graph: CellGraph) -> Iterator[tuple[Device, YamlPath, float, tuple
 def _gyrations(graph: CellGraph) -> Iterator[Figure]:
     """Yield the least and the largest radius of gyration of each tensor."""
     for device, path, mass_kg, tensor in _payloads(graph):
-        if tensor is not None and any(tensor) and mass_kg > 0.0 and min(tensor[:3]) >= 0.0:
+        if tensor is not None and mass_kg > 0.0 and min(tensor[:3]) >= 0.0:
             related = (Related("with this mass", graph.cell.locate(*path, "mass")),)
-            most = _PART_M + sum(math.hypot(*pose) for pose in _reaches(graph, device))
+            most = _PART_M + _reach(graph, device)
             for moment in (min(tensor[:3]), max(tensor[:3])):
                 yield Figure((*path, "inertia"), math.sqrt(moment / mass_kg), _LEAST_M, most, related=related)
 
 
-def _reaches(graph: CellGraph, arm: Device) -> Iterator[tuple[float, float, float]]:
-    """Yield where the farthest link of what an arm carries is, from its tool frame."""
-    links = (link.name for name in arm.mount.carries for link in graph.cell.device(name).body.description.links)
-    poses = [graph.frames.pose_in(name, arm.body.tool_frame or "") for name in links]
-    places = [pose.position for pose in poses if pose is not None]
-    if places:
-        yield max(places, key=lambda place: math.hypot(*place))
+def _reach(graph: CellGraph, arm: Device) -> float:
+    """Return how far the farthest link of what an arm carries is from its tool frame, m; 0 where it is not known."""
+    place = farthest_link(graph, arm)
+    return 0.0 if place is None else math.hypot(*place)
 
 
 def _weights(graph: CellGraph) -> Iterator[Figure]:
@@ -77,7 +75,7 @@ def _centers(graph: CellGraph) -> Iterator[Figure]:
         payload = device.robot.payload
         if payload is None:
             continue
-        most = _PART_M + sum(math.hypot(*pose) for pose in _reaches(graph, device))
+        most = _PART_M + _reach(graph, device)
         path = (*device.path, "payload")
         yield Figure((*path, "center_of_mass"), math.hypot(*payload.center_of_mass), most=most)
         if payload.load is not None:

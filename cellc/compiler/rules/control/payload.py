@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from cellc.compiler.cell.device import Connection, Device
 from cellc.compiler.cell.robot import Payload, ToolFacts, ToolSerial
+from cellc.compiler.rules.carried import farthest_link
+from cellc.compiler.rules.described import in_its_file
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.contract.transforms import Vector3
 
 _IN_THE_FLANGE_M = 0.005
 _LONG_M = 0.05
@@ -21,13 +24,14 @@ def implausible_center_of_mass(graph: CellGraph) -> Findings:
     """Yield centers of mass in the flange, behind it, or beyond the end of what the arm carries."""
     for device in graph.cell.devices:
         payload, reach_m = device.robot.payload, _reach_m(graph, device)
-        if payload is None or reach_m <= 0.0:
+        if payload is None:
             continue
-        wrong = _wrong_center(payload, reach_m)
+        wrong = (_wrong_center(payload, reach_m) if reach_m > 0.0 else "") or _off_the_tools(graph, device, payload)
         if wrong:
             path = (*device.path, "payload", "center_of_mass")
             message = f"the center of mass of the payload of `{device.name}` must lie between the flange and"
-            message += f" {(reach_m + _BEYOND_TOOL_M) * 1e3:.0f} mm from it, got {graph.cell.text(*path)}, {wrong}"
+            far_m = _BEYOND_TOOL_M + (reach_m or math.hypot(*(_tip(graph, device) or (0.0, 0.0, 0.0))))
+            message += f" {far_m * 1e3:.0f} mm from it, got {graph.cell.text(*path)}, {wrong}"
             related = tuple(Related("carried here", graph.cell.device(name).span) for name in device.mount.carries)
             yield found(graph, path, message, related=related)
 
@@ -41,11 +45,60 @@ def _wrong_center(payload: Payload, reach_m: float) -> str:
     return "within the flange" if far_m < _IN_THE_FLANGE_M and reach_m > _LONG_M else ""
 
 
+_OFF_M, _OFF_SHARE = 0.03, 0.2
+"""By which a center may be beside that of the tools: couplings weigh, and masses of descriptions are rounded."""
+_KNOWN = 0.5
+"""Share of a payload of which descriptions must tell: what else hangs there may be anywhere."""
+
+
+def _off_the_tools(graph: CellGraph, arm: Device, payload: Payload) -> str:
+    """Say how far a center is from the line from that of the tools, by their descriptions, to that with a part."""
+    bodies = [
+        (inertial.mass, pose.apply(inertial.pose.position))
+        for link, inertial in graph.cell.tool_masses(arm)
+        if (pose := graph.frames.pose_in(link, arm.body.tool_frame or "")) is not None
+    ]
+    mass, tip = sum(mass for mass, _ in bodies), _tip(graph, arm)
+    if mass < _KNOWN * payload.mass_kg or tip is None or payload.mass_kg < mass - _ROUNDING_KG:
+        return ""
+    of_tools = _weighted(bodies, mass)
+    with_part = _weighted([(mass, of_tools), (max(payload.mass_kg - mass, 0.0), tip)], max(payload.mass_kg, mass))
+    off = _distance(payload.center_of_mass, of_tools, with_part)
+    in_the_flange = not any(payload.center_of_mass) and math.hypot(*of_tools) > _OFF_M
+    if off <= _OFF_M + _OFF_SHARE * math.hypot(*tip) and not in_the_flange:
+        return ""
+    place = " ".join(f"{value * 1e3:.0f}" for value in of_tools)
+    return f"{off * 1e3:.0f} mm from that of the tools by their descriptions, {place} mm"
+
+
+def _tip(graph: CellGraph, arm: Device) -> Vector3 | None:
+    """Return where a part is held: at the farthest link of the tools, else at the TCP, or at the arm's own fingers."""
+    place = farthest_link(graph, arm)
+    tcp = None if arm.robot.tcp is None else graph.frames.pose_in(arm.robot.tcp, arm.body.tool_frame or "")
+    if place is not None or tcp is not None:
+        return place or (None if tcp is None else tcp.position)
+    poses = (graph.frames.pose_in(name, arm.body.tool_frame or "") for name, _ in graph.cell.tool_masses(arm))
+    return max((pose.position for pose in poses if pose is not None), key=lambda at: math.hypot(*at), default=None)
+
+
+def _weighted(bodies: Sequence[tuple[float, Vector3]], mass: float) -> Vector3:
+    x, y, z = (sum(kg * place[axis] for kg, place in bodies) / mass for axis in range(3))
+    return x, y, z
+
+
+def _distance(point: Vector3, start: Vector3, end: Vector3) -> float:
+    """Return how far a point is from a line between two others, m."""
+    along = [b - a for a, b in zip(start, end, strict=True)]
+    square = sum(value * value for value in along)
+    share = sum((p - a) * d for p, a, d in zip(point, start, along, strict=True)) / square if square > 0.0 else 0.0
+    share = min(1.0, max(0.0, share))
+    return math.dist(point, [a + share * d for a, d in zip(start, along, strict=True)])
+
+
 def _reach_m(graph: CellGraph, arm: Device) -> float:
     """Return how far the links of what an arm carries reach from its tool frame, 0 where that is not known."""
-    links = (link.name for name in arm.mount.carries for link in graph.cell.device(name).body.description.links)
-    poses = [graph.frames.pose_in(name, arm.body.tool_frame or "") for name in links]
-    return max((math.hypot(*pose.position) for pose in poses if pose is not None), default=0.0)
+    place = farthest_link(graph, arm)
+    return 0.0 if place is None else math.hypot(*place)
 
 
 _ROUNDING_KG = 0.05  # masses of descriptions are rounded
@@ -89,7 +142,7 @@ def payload_above_limit(graph: CellGraph) -> Findings:
         if payload is not None and limit_kg is not None and payload.mass_kg > limit_kg:
             path = (*device.path, "payload", "mass")
             message = f"the payload of `{device.name}` must be at most {limit_kg:g} kg, got {graph.cell.text(*path)}"
-            yield found(graph, path, message)
+            yield found(graph, path, message, related=in_its_file(device, "limits", "payload", "value"))
 
 
 @rule(Severity.BLOCKER)
@@ -174,10 +227,22 @@ def tool_serial_mismatch(graph: CellGraph) -> Findings:
         if serial is None and speaks is not None and link.port is None and robot.robot.tool_connector is not None:
             message = f"`{device.name}` must have a serial port: the tool connector of `{robot.name}` forwards none"
             yield found(graph, path, message, f"write `serial` of the tool connector of `{robot.name}`, or a `port`")
+        elif serial is not None and speaks is not None and link.port != serial.port and not _is_read(graph, robot):
+            message = f"`{device.name}` must be at `{serial.port}`, to which `{robot.name}` forwards its serial line"
+            related = (Related("forwarded here", graph.cell.locate(*robot.path, "tool_connector", "serial", "port")),)
+            port = (*device.path, "connection", "port")
+            yield found(graph, port, f"{message}, got `{link.port}`", related=related)
         elif serial is not None and link.port == serial.port:
             related = (Related("forwarded here", graph.cell.locate(*robot.path, "tool_connector", "serial")),)
             for message in (*_elsewhere(device, link, robot), *_differences(device, speaks, serial)):
                 yield found(graph, path, message, related=related)
+
+
+def _is_read(graph: CellGraph, robot: Device) -> bool:
+    """Tell whether some device opens the serial line that a robot forwards."""
+    serial = None if robot.robot.tool_connector is None else robot.robot.tool_connector.serial
+    links = [device.site.connection for device in graph.cell.devices]
+    return serial is not None and any(link is not None and link.port == serial.port for link in links)
 
 
 def _elsewhere(device: Device, link: Connection, robot: Device) -> Iterator[str]:

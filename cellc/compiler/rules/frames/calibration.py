@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 import re
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 
 from cellc.compiler.cell.frame import WORLD, Frame, FrameKind
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
@@ -128,11 +128,40 @@ def coarse_calibration(graph: CellGraph) -> Findings:
     for calibration in graph.cell.calibrations.values():
         residual_m = calibration.residual_m
         users = [frame for frame in graph.cell.frames if frame.calibration == calibration.name]
-        if users and residual_m is not None and residual_m > _COARSEST_M:
+        most, related = _finest(graph, calibration.name)
+        if users and residual_m is not None and residual_m > most:
             path = (*calibration.path, "residual")
-            message = f"the residual of `{calibration.name}` must be at most {_COARSEST_M * 1e3:g} mm,"
-            related = tuple(Related("uses it", user.span) for user in users)
+            message = f"the residual of `{calibration.name}` must be at most {most * 1e3:.3g} mm,"
+            related = (*related, *(Related("uses it", user.span) for user in users))
             yield found(graph, path, f"{message} got {graph.cell.text(*path)}", related=related)
+
+
+def _finest(graph: CellGraph, name: str) -> tuple[float, tuple[Related, ...]]:
+    """Return the least tolerance of the goals that rest on a calibration, at most the general one, m, and its place."""
+    uncertainty = graph.cell.uncertainty
+    stated = {} if uncertainty is None else uncertainty.tolerances_m
+    goals = [
+        goal for goal in graph.cell.goals if goal.name in stated and name in graph.once(_resting).get(goal.name, ())
+    ]
+    finest = min(goals, key=lambda goal: stated[goal.name], default=None)
+    if finest is None or stated[finest.name] >= _COARSEST_M:
+        return _COARSEST_M, ()
+    place = graph.cell.locate("uncertainty", "tolerances", finest.name)
+    return stated[finest.name], (Related(f"the tolerance of `{finest.name}`, which rests on it", place),)
+
+
+def _resting(graph: CellGraph) -> Mapping[str, frozenset[str]]:
+    """Return for each goal the calibrations of its frame and of the tip that goes there."""
+    tips = {group.name: group.tip_frame for group in graph.cell.groups}
+    return {
+        goal.name: frozenset(
+            frame.calibration
+            for name in (goal.frame, tips.get(goal.group, ""))
+            for frame in graph.frames.chain(name)
+            if frame.calibration is not None
+        )
+        for goal in graph.cell.goals
+    }
 
 
 _MOBILE = frozenset(

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from cellc.compiler.cell.device import CameraStream, Device, FieldOfView
 from cellc.compiler.cell.frame import FrameKind, Solid
 from cellc.compiler.feasibility import ViewAnswer, motion_answer
+from cellc.compiler.rules.described import described
 from cellc.compiler.rules.geometry import KNOWN_GOALS
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.transforms import Pose, Vector3
@@ -109,7 +110,8 @@ def object_out_of_view(graph: CellGraph) -> Findings:
             reported.add(view.name)
             where = f"in `{view.posture}`" if view.posture else "at the start"
             message = f"`{camera.name}` must see `{view.name}` {where}, where it is detected, but it lies {wrong}"
-            related = (Related("what is detected", frames[view.name].span),)
+            place = (*frames[view.name].path, "simulated_pose")
+            related = (Related("what is detected", graph.cell.locate(*place)),)
             yield found(graph, (*camera.path, "mount"), message, related=related)
 
 
@@ -178,7 +180,10 @@ def turned_optical_frame(graph: CellGraph) -> Findings:
             if pose is not None and not _looks_forward(pose):
                 message = f"the axes of `{device.name}/{name}` must be x right, y down, z forward"
                 advice = "turn its joint by rpy `-90 0 -90 deg` against the camera's own frame"
-                yield found(graph, (*device.path, "model"), message, advice)
+                above = [
+                    joint.name for joint in device.body.description.joints if joint.child == device.body.frames[name]
+                ]
+                yield found(graph, (*device.path, "model"), message, advice, described(graph, above))
 
 
 def _looks_forward(pose: Pose) -> bool:

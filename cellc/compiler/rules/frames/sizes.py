@@ -170,6 +170,21 @@ def _moved(graph: CellGraph) -> Iterator[Figure]:
             yield Figure((*fault.path, by.amount.key), abs(fault.amount), least, most, unit=unit)
 
 
+_LONG_M, _STILL_M = 0.2, 2e-3
+
+
+def _posed(graph: CellGraph) -> Iterator[Figure]:
+    """Yield positions of long axes that are a hair from zero: meters were written as millimeters."""
+    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints if joint.slides}
+    for pose in graph.cell.poses:
+        for name, position in zip(pose.joints, pose.positions, strict=False):
+            joint = joints.get(name)
+            if joint is not None and position and joint.upper is not None and joint.lower is not None:
+                least = _STILL_M if joint.upper - joint.lower > _LONG_M else 0.0
+                why = f"or zero, as `{name}` has a way of {joint.upper - joint.lower:.3g} m"
+                yield Figure(pose.path, abs(position), least, because=why)
+
+
 _EDGES = "from a foil to a hall"
 BOUNDS = (
     Bound(("scene.*.box",), "an edge of the box", "mm", _EDGES, _boxes),
@@ -236,9 +251,10 @@ BOUNDS = (
         _moved,
     ),
 )
+AXES = (Bound(("motion.poses.*.*",), "the position of the axis", "mm", "", _posed),)
 
 
 @rule(Severity.WARNING, assumes=("frame-cycle",), gives_way=True)
 def implausible_size(graph: CellGraph) -> Findings:
     """Yield lengths that are outside of what such things measure."""
-    yield from outside(graph, BOUNDS)
+    yield from outside(graph, (*BOUNDS, *AXES))

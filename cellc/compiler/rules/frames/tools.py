@@ -60,7 +60,11 @@ def tcp_beside_the_tips(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         tool, tcp = device.body.tool_frame, device.robot.tcp
         place = None if tool is None or tcp is None else graph.frames.pose_in(tcp, tool, rigid=True)
-        groups = [group for group in graph.cell.groups if group.base_link in _links(device)]
+        groups = [
+            group
+            for group in graph.cell.groups
+            if any(frame.name == tool for frame in graph.frames.chain(group.tip_frame))
+        ]
         if place is None or tool is None or not groups:
             continue
         tips = [graph.frames.pose_in(group.tip_frame, tool, rigid=True) for group in groups]
@@ -97,7 +101,7 @@ def tip_off_the_tool_chain(graph: CellGraph) -> Findings:
 _SHORTEST_M = 0.05
 """A shorter tool tells nothing."""
 _NEAREST = 0.5
-_BEYOND_M = 0.3
+_BEYOND_M = 0.1
 
 
 @rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "tip-off-the-tool-chain"))

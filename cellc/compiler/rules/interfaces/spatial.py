@@ -102,7 +102,7 @@ def pose_apart_from_its_frame(graph: CellGraph) -> Findings:
             message = (
                 f"`{interface.name}` must be in `{frames[0].parent}`, where its node publishes `{frames[0].name}`,"
             )
-            related = (Related("the frame of the object", frames[0].span),)
+            related = (Related("the frame of the object", graph.cell.locate(*frames[0].path, "parent")),)
             yield found(graph, (*interface.path, "frame"), f"{message} got `{interface.frame}`", related=related)
 
 

@@ -13,9 +13,11 @@ from cellc.compiler.graph.frame_tree import ModelJoint, ModelLink
 from cellc.compiler.rules.bounds import Bound, Figure, outside
 from cellc.compiler.rules.described import is_own
 from cellc.compiler.rules.excuses import spared
-from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, rule
+from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Related, Severity, rule
+from cellc.compiler.rules.shapes import beside, box_corners, dot, edges
 from cellc.contract.diagnostics import Span
 from cellc.contract.frozen import dataclass
+from cellc.contract.transforms import Pose
 from cellc.robot.description.model import (
     Box,
     Collision,
@@ -74,7 +76,7 @@ def limits_of_nothing(graph: CellGraph) -> Findings:
             yield Finding(message, _limit(part), part.path)
 
 
-_LIGHT_KG, _SMALL_M3 = 1e-3, 1e-6
+_LIGHT_KG, _SMALL_M3, _WEIGHED_KG = 1e-3, 1e-6, 0.05
 _CONCENTRATED = 0.08
 """Share of its length that the radius of gyration of a body is at least: a uniform rod has 0.29, a dumbbell 0.5."""
 _JOINTS = 4
@@ -211,7 +213,7 @@ def _masses(graph: CellGraph) -> Iterator[Figure]:
 def _densities(graph: CellGraph) -> Iterator[Figure]:
     """Yield the mass of each link by the volume of its simple shapes; a mesh tells no volume."""
     for part in _links(graph):
-        volume = sum(math.prod(_edges(shape.geometry)) for shape in _simple(part.link))
+        volume = sum(math.prod(edges(shape.geometry)) for shape in _simple(part.link))
         mass = 0.0 if part.link.inertial is None else part.link.inertial.mass
         if mass > _LIGHT_KG and volume > _SMALL_M3:
             why = f"link `{part.link.name}`, by the boxes around its shapes"
@@ -225,8 +227,11 @@ def _gyrations(graph: CellGraph) -> Iterator[Figure]:
         if inertial is None or inertial.mass <= 0.0 or spared(graph, part.device, "", "impossible-inertia"):
             continue
         largest = max(inertial.ixx, inertial.iyy, inertial.izz)
-        if largest > 0.0:
-            longest = max((edge for shape in _simple(part.link) for edge in _edges(shape.geometry)), default=0.0)
+        if largest == 0.0 and inertial.mass > _WEIGHED_KG:
+            why = f"link `{part.link.name}`, of {inertial.mass:g} kg, for a simulation to hold it"
+            yield Figure(part.path, 0.0, 1e-3, because=why, span=_weighed(part))
+        elif largest > 0.0:
+            longest = max((edge for shape in _simple(part.link) for edge in edges(shape.geometry)), default=0.0)
             least = _CONCENTRATED * longest if inertial.mass > _LIGHT_KG else 0.0
             why = f"link `{part.link.name}`, within its body"
             why += f", which is {longest * 1e3:.0f} mm long" if least else ""
@@ -240,6 +245,38 @@ def _centers(graph: CellGraph) -> Iterator[Figure]:
             away = math.hypot(*part.link.inertial.pose.position)
             most = 2.0 * _size(graph.once(_trees)[part.device.name], part.link)
             yield Figure(part.path, away, most=most, because=f"link `{part.link.name}`", span=_weighed(part))
+
+
+def _beside(graph: CellGraph) -> Iterator[Figure]:
+    """Yield how far centers of mass are outside of the box around the shapes of their links."""
+    for part in _links(graph):
+        corners = [corner for shape in _simple(part.link) for corner in box_corners(shape)]
+        inertial = part.link.inertial
+        if inertial is not None and inertial.mass > _WEIGHED_KG and corners:
+            off = beside(inertial.pose.position, corners)
+            longest = max(edge for shape in _simple(part.link) for edge in edges(shape.geometry))
+            most = max(0.03, 0.5 * longest)
+            yield Figure(part.path, off, most=most, because=f"link `{part.link.name}`", span=_weighed(part))
+
+
+_OVERHANG = 0.15
+
+
+def _overhangs(graph: CellGraph) -> Iterator[Figure]:
+    """Yield how far the carriage of an axis goes beyond the shapes of what it slides on."""
+    for part in _joints(graph):
+        limit, rail = part.joint.limit, part.device.body.description.link(part.joint.parent)
+        if part.device.kind != "axis" or not part.joint.slides or limit is None or rail is None:
+            continue
+        turn = Pose((0.0, 0.0, 0.0), part.joint.pose.quaternion)
+        along = turn.apply(part.joint.axis)
+        ends = [dot(corner, along) for shape in _simple(rail) for corner in box_corners(shape)]
+        if limit.lower is not None and limit.upper is not None and ends:
+            zero, slack = dot(part.joint.pose.position, along), 0.05 + _OVERHANG * (max(ends) - min(ends))
+            beyond = max(min(ends) - zero - limit.lower, zero + limit.upper - max(ends))
+            why = f"joint `{part.joint.name}`, whose rail is {max(ends) - min(ends):.3g} m long that way"
+            related = (Related("the joint is here", part.span),)
+            yield Figure(part.path, beyond, most=slack, because=why, span=_limit(part), related=related)
 
 
 def _limit(part: ModelJoint) -> Span:
@@ -258,15 +295,6 @@ def _simple(link: Link) -> tuple[Collision | Visual, ...]:
     """Return the shapes of a link that collide, else those to look at; none where one of them is a mesh."""
     shapes = link.collisions or link.visuals
     return () if any(isinstance(shape.geometry, Mesh) for shape in shapes) else shapes
-
-
-def _edges(shape: Geometry) -> tuple[float, float, float]:
-    """Return the edges of the box around a shape that is no mesh, m."""
-    if isinstance(shape, Cylinder):
-        return 2.0 * shape.radius, 2.0 * shape.radius, shape.length
-    if isinstance(shape, Sphere):
-        return 2.0 * shape.radius, 2.0 * shape.radius, 2.0 * shape.radius
-    return shape.size if isinstance(shape, Box) else (0.0, 0.0, 0.0)
 
 
 def _size(tree: _Tree, link: Link) -> float:
@@ -328,6 +356,8 @@ BODIES = (
     Bound(("link/inertial/mass",), "the density", "kg/m^3", "", _densities),
     Bound(("link/inertial/inertia",), "the radius of gyration", "mm", "", _gyrations),
     Bound(("link/inertial/origin",), "the distance of the center of mass", "mm", "", _centers),
+    Bound(("link/inertial/origin",), "the center of mass beside the shapes", "mm", "", _beside),
+    Bound(("joint/axis",), "the way of the carriage beyond its rail", "m", "", _overhangs),
     Bound(("link/collision", "link/visual"), "a measure of the shape", "m", "", _shapes),
     Bound(("link/collision/mesh",), "the reach of the mesh", "m", "", _mesh_extents),
     Bound(("link/collision/mesh",), "the scale of the mesh", "", "", _scales),

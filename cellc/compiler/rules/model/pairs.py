@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from cellc.compiler.cell.device import Device
 from cellc.compiler.feasibility import meeting_links
-from cellc.compiler.rules.described import is_own
+from cellc.compiler.rules.described import in_its_file, is_own
 from cellc.compiler.rules.geometry import SOUND_MODEL, USABLE_MESHES
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.robot.description.model import Description
@@ -27,7 +28,12 @@ def allowed_pair_that_meets(graph: CellGraph) -> Findings:
         related = tuple(
             Related(f"`{link.name}`", link.span) for link in links if link is not None and link.span is not None
         )
+        related += in_its_file(device, "allowed_collisions", _index(device, met.first, met.second))
         yield found(graph, (*device.path, "model"), message, related=related)
+
+
+def _index(device: Device, *links: str) -> int:
+    return [set(pair) for pair in device.body.allowed_collisions].index(set(links))
 
 
 def _bends(description: Description, pair: tuple[str, str]) -> bool:

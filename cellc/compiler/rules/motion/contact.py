@@ -16,6 +16,7 @@ from cellc.compiler.rules.geometry import (
     in_the_chain,
     mounts,
     named,
+    things,
     with_scene,
     within_robot,
 )
@@ -29,7 +30,8 @@ def goal_in_collision(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.failure == "goal_in_collision":
             message = f"at goal `{goal.name}` {goal.detail}"
-            yield found(graph, (*paths[goal.name], "frame"), message, related=in_the_chain(graph, goal.name))
+            related = (*in_the_chain(graph, goal.name), *things(graph, goal.detail))
+            yield found(graph, (*paths[goal.name], "frame"), message, related=related)
 
 
 _WIDER_M = 0.15
@@ -89,7 +91,8 @@ def pose_in_collision_with_scene(graph: CellGraph) -> Findings:
     for pose, path in _poses(graph):
         contacts = with_scene(graph, pose.contacts)
         if contacts:
-            yield found(graph, path, f"in pose `{pose.name}` {named(contacts)}")
+            message = named(contacts)
+            yield found(graph, path, f"in pose `{pose.name}` {message}", related=things(graph, message))
 
 
 @rule(Severity.ERROR, assumes=KNOWN_POSES)
@@ -115,7 +118,7 @@ def start_in_collision(graph: CellGraph) -> Findings:
     contacts = motion_answer(graph).start
     if contacts and all(pose.name != "home" for pose in graph.cell.poses):
         message = f"at the start of the cell {named(contacts)}"
-        yield found(graph, ("motion", "poses"), message)
+        yield found(graph, ("motion", "poses"), message, related=things(graph, message))
 
 
 @rule(Severity.ERROR, assumes=(*SOUND_MODEL, *USABLE_MESHES, "geometry-too-large"))
@@ -137,6 +140,9 @@ def unfed_octomap(graph: CellGraph) -> Findings:
     if octomap is None:
         return
     path = ("motion", "octomap", "source")
+    if (color := _color(graph, octomap)) is not None:
+        yield found(graph, path, f"`{octomap.source}` must be a depth image, got one of color, `{color}`")
+        return
     planners = {node.name for node in graph.cell.nodes if (node.package, node.executable) == _PLANNER}
     if not planners:
         yield found(graph, path, "the occupancy map needs a node that runs move_group")
@@ -145,6 +151,17 @@ def unfed_octomap(graph: CellGraph) -> Findings:
     absent = (_absent(name, name == octomap.source, topics.get(name), planners) for name in _needed(octomap, topics))
     if message := next(filter(None, absent), ""):
         yield found(graph, path, message)
+
+
+_DEPTH = ("16UC1", "32FC1", "mono16")
+
+
+def _color(graph: CellGraph, octomap: Octomap) -> str | None:
+    """Return the encoding of the source where it is a stream of a camera that has no depth."""
+    cameras = (device.sensing.camera for device in graph.cell.devices)
+    streams = (stream for camera in cameras if camera is not None for stream in camera.streams)
+    source = next((stream for stream in streams if stream.topic == octomap.source), None)
+    return None if source is None or source.encoding in _DEPTH else source.encoding
 
 
 def _absent(name: str, is_source: bool, heard: Interface | None, planners: set[str]) -> str:

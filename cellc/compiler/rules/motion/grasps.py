@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Gripper
 from cellc.compiler.cell.frame import Frame, Grasp
-from cellc.compiler.graph.grips import gripped_parts
+from cellc.compiler.rules.carried import parts_taken
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.diagnostics import Span
 
@@ -18,7 +18,7 @@ def _gripped(graph: CellGraph) -> tuple[tuple[str, Gripper, Frame, Span], ...]:
 
 
 def _closed(graph: CellGraph) -> Iterator[tuple[str, Gripper, Frame, Span]]:
-    parts, seen = gripped_parts(graph.cell, graph.frames), set[tuple[str, str]]()
+    parts, seen = graph.once(parts_taken), set[tuple[str, str]]()
     for step in (step for rehearsal in graph.cell.rehearsals for step in rehearsal.steps):
         part = parts.get(step.path)
         gripper, frame = graph.cell.device(step.name).gripper if part else None, graph.frames.get(part or "")

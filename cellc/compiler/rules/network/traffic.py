@@ -30,7 +30,7 @@ _SHARE = 0.8
 def images_beyond_link(graph: CellGraph) -> Findings:
     """Yield cards whose images, as the cameras send them, take more than a share of their link."""
     loads: dict[str, list[tuple[Nic, Interface, float]]] = defaultdict(list)
-    for nic, interface, rate_bps in _crossings(graph):
+    for nic, interface, rate_bps in (*_crossings(graph), *_from_cameras(graph)):
         loads[nic.full_name].append((nic, interface, rate_bps))
     for name, carried in loads.items():
         nic, total_bps = carried[0][0], sum(rate_bps for _, _, rate_bps in carried)
@@ -64,6 +64,28 @@ def _crossings(graph: CellGraph) -> Iterator[tuple[Nic, Interface, float]]:
         for reader in sorted(readers):
             for nic in _way(graph, camera.site.host, reader):
                 yield nic, interface, rate_bps
+
+
+_RAW = 3.0
+"""Cameras send one byte of a pixel for the three of color that their driver makes of it."""
+
+
+def _from_cameras(graph: CellGraph) -> Iterator[tuple[Nic, Interface, float]]:
+    """Yield the card of each camera with an address, with each stream that is used and the least that it takes."""
+    at = {
+        known.device: nic
+        for known in graph.network.devices
+        if known.address and (nic := graph.network.nic_of(known)) is not None
+    }
+    for device in graph.cell.devices:
+        streams = () if device.sensing.camera is None else device.sensing.camera.streams
+        for stream in streams if device.name in at else ():
+            named = (interface for interface in graph.cell.interfaces if interface.name == stream.topic)
+            interface = next((interface for interface in named if interface.sinks), None)
+            if interface is not None and stream.image_bytes and stream.type.endswith("/Image"):
+                size = stream.image_bytes / (_RAW if (stream.encoding or "").startswith(("rgb", "bgr")) else 1.0)
+                rate = min(interface.rate_hz or stream.rate_hz, stream.rate_hz)
+                yield at[device.name], interface, size * 8.0 * rate
 
 
 def _way(graph: CellGraph, one: str, other: str) -> tuple[Nic, ...]:
