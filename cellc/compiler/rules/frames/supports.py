@@ -21,7 +21,7 @@ _SUPPORT = re.compile(r"pedest|stand|column|post|plinth|socket|base|support|rise
 
 @rule(Severity.WARNING, assumes=("frame-cycle", "implausible-distance", "implausible-size"))
 def foot_off_its_support(graph: CellGraph) -> Findings:
-    """Yield things of the scene that an arm stands in, and supports that end far below one."""
+    """Yield things of the scene that an arm is in, and supports that end far below one."""
     for arm, foot in _feet(graph):
         under = [(box, top) for box in graph.cell.scene for top in _top_over(graph, box, foot)]
         for box, top in under:

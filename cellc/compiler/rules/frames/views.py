@@ -20,7 +20,7 @@ _FARTHER = 1.2
 
 def _source(graph: CellGraph, octomap: Octomap) -> tuple[Device, CameraStream, FieldOfView] | None:
     """Return the camera and the stream that a map is made from, directly or in whose frame its cloud is."""
-    interface = next((one for one in graph.cell.interfaces if one.name == octomap.source), None)
+    interface = next((topic for topic in graph.cell.interfaces if topic.name == octomap.source), None)
     for device in graph.cell.devices:
         for stream in () if device.sensing.camera is None else device.sensing.camera.streams:
             mine = interface is not None and interface.frame == stream.frame
@@ -78,7 +78,7 @@ def _depths(graph: CellGraph) -> Iterator[Figure]:
             streams = () if device.sensing.camera is None else device.sensing.camera.streams
             if view.camera_frame not in [stream.frame for stream in streams]:
                 continue
-            for stream in (one for one in streams if one.topic in read and one.view is not None):
+            for stream in (stream for stream in streams if stream.topic in read and stream.view is not None):
                 away = _ahead(graph, device, view.camera_frame, view.place, stream.frame)
                 if away is not None and stream.view is not None and stream.frame != view.camera_frame:
                     why = f"as `{stream.topic}` sees it, with `{view.name}` in front"

@@ -1,4 +1,4 @@
-"""Rules on what the plugin of an own device is told of its connection."""
+"""Rules on what the plugin of an own device gets of its connection."""
 
 from __future__ import annotations
 
