@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import field, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -55,7 +55,7 @@ class CatalogDevice:
 
     model: DeviceModel
     description: Description
-    document: SourceDocument | None = None
+    document: SourceDocument | None = field(default=None, compare=False, repr=False)
 
 
 @lru_cache(maxsize=1)
