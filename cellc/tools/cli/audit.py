@@ -5,7 +5,6 @@ from __future__ import annotations
 import click
 
 from cellc.compiler.pipeline import check
-from cellc.contract.printing import show_document
 from cellc.tools.cli.findings import linked
 from cellc.tools.cli.limit_option import limit_option
 
@@ -25,6 +24,7 @@ def audit(file: str) -> None:
     graph = linked(check(file))
     from cellc.compiler.deploy.deployment import plan_deployment
     from cellc.compiler.emit.audit.audit import emit
+    from cellc.tools.report.terminal_form import show_markdown
 
     for artifact in emit(graph, plan_deployment(graph)):
-        show_document(artifact.text)
+        show_markdown(artifact.text)

@@ -9,7 +9,7 @@ import click
 
 from cellc.compiler.catalog.device_model import device_kinds
 from cellc.compiler.catalog.load import device_names, load_device
-from cellc.contract.printing import columns, refuse, show, show_document, stage
+from cellc.contract.printing import columns, refuse, show, stage
 from cellc.contract.vocabulary import Distro
 from cellc.tools.browse.search import Answer, Wanted, answered, answers, kilograms, meters
 from cellc.tools.cli.handbook import write_pages
@@ -63,6 +63,7 @@ def catalog(
         raise click.UsageError("--all and --output must be given together; they write the pages of every device.")
     # Pages load what draws.
     from cellc.tools.browse.page import page, pages
+    from cellc.tools.report.terminal_form import show_markdown
 
     if output is not None:
         stage("drawing the pages")
@@ -71,7 +72,7 @@ def catalog(
         return
     entry = load_device(words[0]).value if len(words) == 1 and words[0] in device_names() else None
     if entry is not None:
-        show_document(page(entry))
+        show_markdown(page(entry))
         return
     wanted = Wanted(words=words, kind=kind, reach_m=reach, payload_kg=payload, distro=ros)
     given = answers(wanted)

@@ -9,9 +9,10 @@ import click
 from cellc.compiler.pages import all_codes, render_handbook, render_page
 from cellc.contract.code_page import meant_code, page_of
 from cellc.contract.diagnostics.wording import aligned
-from cellc.contract.printing import show, show_document
+from cellc.contract.printing import show
 from cellc.tools.cli.handbook import write_pages
 from cellc.tools.cli.words import complete_code
+from cellc.tools.report.terminal_form import show_markdown
 
 
 @click.command()
@@ -37,10 +38,10 @@ def explain(code: str | None, everything: bool, output: Path | None) -> None:
         write_pages(output, render_handbook())
         show(f"wrote {output.as_posix()}")
     elif everything:
-        show_document("\n".join(render_page(page_of(known)) for known in codes))
+        show_markdown("\n".join(render_page(page_of(known)) for known in codes))
     elif code is None:
         show(*aligned((known, severity.value, page_of(known).title) for known, severity in codes.items()))
     elif code in codes:
-        show_document(render_page(page_of(code)))
+        show_markdown(render_page(page_of(code)))
     else:
         raise click.UsageError(f"there is no code `{code}`: {meant_code(code, codes, 'codes')}")
