@@ -24,7 +24,7 @@ def show_markdown(text: str) -> None:
 
 
 def terminal_form(text: str, wide: int) -> Iterator[str]:
-    """Yield the lines of a document for a terminal of so many columns; what stands in a fence is left as it is."""
+    """Yield the lines of a document for a terminal of so many columns; what is in a fence is left alone."""
     fenced = False
     for is_row, lines in groupby(text.removesuffix("\n").split("\n"), key=lambda line: line.startswith("|")):
         if is_row and not fenced:
@@ -53,7 +53,7 @@ def _table(rows: Sequence[Sequence[str]], wide: int) -> Iterator[str]:
 
 
 def _folded(line: str, wide: int) -> Sequence[str]:
-    """Return a line in several where it is too wide; what follows the sign of a list stands below its text."""
+    """Return a line in several where it is too wide; what follows the sign of a list is below its text."""
     if len(line) <= wide:
         return [line]
     sign = re.match(r" *(?:[-*] |\d+\. )?", line)
