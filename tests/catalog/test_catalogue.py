@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from cellc.compiler.catalog.compiled import CATALOG
-from cellc.compiler.catalog.controller_kind import ControllerKind, ParameterFacts
+from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.device_interfaces import counted
 from cellc.compiler.catalog.effects import EffectFacts
 from cellc.compiler.catalog.load import (
@@ -30,6 +30,7 @@ from cellc.compiler.catalog.load import (
     load_qos_profiles,
     load_releases,
 )
+from cellc.compiler.catalog.parameter_facts import ParameterFacts
 from cellc.contract.vocabulary import OF_ONE_DEVICE, Distro, Need, Unmet
 from tests.catalog.declarations import upstream_parameters
 from tests.cells import ROOT, catalog_facts, there

@@ -30,9 +30,10 @@ HELD = {
     "robot.tool_connector.serial.tcp_port": "ports, by its type",
 }
 _CONTROLLER = "a parameter of a plugin means what its documentation says"
+_OF_A_VALUE = ("above", "below", "given.*", "given.*.*", "value", "value.*")
 FREE = {
     **dict.fromkeys(
-        (f"controllers.*.parameters.*.discouraged.*.{key}" for key in ("above", "below", "value", "value.*")),
+        (f"controllers.*.parameters.*.discouraged.*.{key}" for key in _OF_A_VALUE),
         "a value of a parameter, in the unit of its program",
     ),
     "camera.exposure_parameters.*": "the unit in which a node takes its exposure, whatever that is",

@@ -88,14 +88,15 @@ WRONG: tuple[tuple[str, str], ...] = (
         "control: {controllers: {arm_trajectory: {goal_time: 1 ms, path_tolerance: 1 rad, goal_tolerance: 0.5 rad, "
         "update_rate: 20 kHz}}}\n"
         "motion: {groups: {manipulator: {ik_timeout: 5 us}}}",
-        "control.controllers.*.goal_time control.controllers.*.goal_tolerance control.controllers.*.update_rate "
+        "control.controllers.*.goal_time control.controllers.*.goal_tolerance control.controllers.*.path_tolerance "
+        "control.controllers.*.update_rate "
         "motion.groups.*.ik_timeout",
     ),
     (
         "control: {controllers: {arm_trajectory: {path_tolerance: 1 rad, goal_tolerance: {arm/joint_1: 0.01 rad, "
         "arm/joint_2: 0.5 rad, arm/joint_3: 0.01 rad, arm/joint_4: 0.01 rad, arm/joint_5: 0.01 rad, "
         "arm/joint_6: 0.01 rad}}}}",
-        "control.controllers.*.goal_tolerance",
+        "control.controllers.*.goal_tolerance control.controllers.*.path_tolerance",
     ),
     (
         "devices: {arm: {limits: {velocity: 0.5 %, acceleration: 0.5 %}, payload: {mass: 0.1 g, part: 2 g, "

@@ -26,7 +26,7 @@ _ALIKE = (
     (r"\.inject\.\*\.", ".inject."),
     (r"^bringup\.first_motion\.\*\.", "bringup.first_motion."),
     (r"^(interfaces\.\*)\.(to|client)\.", r"\1.from."),
-    (r"\.goal_tolerance\.\*$", ".goal_tolerance"),
+    (r"\.(goal|path)_tolerance\.\*$", r".\1_tolerance"),
 )
 """Places in which one model stands several times."""
 

@@ -95,6 +95,7 @@ def compile_catalog() -> Iterator[tuple[Path, str]]:
         "message_types",
         "moveit",
         "packages",
+        "program_parameters",
         "programs",
         "qos_profiles",
         "releases",

@@ -1,6 +1,5 @@
 """A neutral controller kind: its plugin in each distribution, what it claims and serves, and its parameters."""
 
-import re
 from collections.abc import Iterator, Mapping
 from typing import Literal
 
@@ -19,77 +18,8 @@ from cellc.compiler.catalog.catalog_model import (
 from cellc.compiler.catalog.device_graph import QosUse
 from cellc.compiler.catalog.device_interfaces import InterfaceName, PluginUse
 from cellc.compiler.catalog.effects import EffectFacts
-from cellc.compiler.catalog.programs import DiscouragedValue
+from cellc.compiler.catalog.parameter_facts import ParameterFacts, is_named
 from cellc.contract.vocabulary import Distro
-
-ParameterType = Literal[
-    "bool", "int", "double", "string", "bool_array", "int_array", "double_array", "string_array", "none"
-]
-
-
-class ParameterVariant(CatalogModel):
-    """What one distribution declares otherwise.
-
-    Attributes:
-        default: Default in this distribution.
-        required: Whether this distribution requires a value.
-        read_only: Whether this distribution refuses a change at run time.
-        one_of: Values that this distribution takes.
-        not_empty: Whether this distribution refuses an empty value.
-    """
-
-    default: ParameterFact | None = None
-    required: bool | None = None
-    read_only: bool | None = None
-    one_of: tuple[Text, ...] | None = None
-    not_empty: bool | None = None
-
-
-class ParameterFacts(CatalogModel):
-    """One declared parameter; dots nest, ``<joint>`` is any joint name.
-
-    Attributes:
-        type: Type of the value.
-        default: Value if the parameter is not given.
-        required: Whether it must be given if it has no default.
-        read_only: Whether it cannot be changed at run time.
-        minimum: Smallest value that is accepted.
-        exclusive_minimum: Value that must be exceeded.
-        maximum: Largest value that is accepted.
-        one_of: Values that are accepted; empty for any.
-        subset_of: Elements that a list may have; empty for any.
-        not_empty: Whether an empty text or list is refused.
-        unique: Whether the elements of a list must differ.
-        only: Distributions that declare the parameter; empty for all.
-        differs: What one distribution declares otherwise.
-        not_played: What the mock does whatever the value is; absent where it plays the value.
-        discouraged: Accepted values that make motion worse, or unsafe.
-    """
-
-    type: ParameterType
-    default: ParameterFact | None = None
-    required: bool = False
-    read_only: bool = False
-    minimum: float | None = None
-    exclusive_minimum: float | None = None
-    maximum: float | None = None
-    one_of: tuple[Text, ...] = ()
-    subset_of: tuple[Text, ...] = ()
-    not_empty: bool = False
-    unique: bool = False
-    only: tuple[DistroName, ...] = ()
-    differs: dict[DistroName, ParameterVariant] = Field(default_factory=dict)
-    not_played: Text | None = None
-    discouraged: tuple[DiscouragedValue, ...] = ()
-
-    def declared_in(self, distro: Distro) -> bool:
-        """Tell whether the distribution knows the parameter; an unknown one is ignored silently."""
-        return not self.only or distro in self.only
-
-    def as_in(self, distro: Distro) -> "ParameterFacts":
-        """Return what a distribution declares."""
-        variant = self.differs.get(distro)
-        return self if variant is None else self.model_copy(update=variant.model_dump(exclude_unset=True))
 
 
 class ControllerAction(CatalogModel):
@@ -144,7 +74,8 @@ class ControllerKind(CatalogModel):
     """One ``catalog/controllers/<kind>.yaml``.
 
     ``scope``: ``device`` drives the joints of one device, ``manager`` reads what all devices of a manager offer.
-    ``joints_parameter`` is the parameter that names its joints, a list unless ``single_joint``.
+    ``joints_parameter`` is the parameter that names its joints, a list unless ``single_joint``. Of the groups of
+    parameters in ``either`` exactly one is given.
     """
 
     format: Literal[1]
@@ -164,6 +95,7 @@ class ControllerKind(CatalogModel):
     topics: tuple[ControllerTopic, ...] = ()
     services: tuple[ControllerService, ...] = ()
     parameters: dict[Text, ParameterFacts]
+    either: tuple[tuple[Text, ...], ...] = ()
 
     def parameters_in(self, distro: Distro) -> dict[str, ParameterFacts]:
         """Return the parameters that the distribution declares, as it declares them."""
@@ -186,19 +118,3 @@ class ControllerKind(CatalogModel):
         """Return the declaration of a parameter by the name that a user writes, or None."""
         declared = self.parameters_in(distro)
         return declared.get(name) or next((facts for key, facts in declared.items() if is_named(key, name)), None)
-
-
-def is_named(declared: str, name: str) -> bool:
-    """Whether a written name is that of a declared parameter; ``<joint>`` is any name, which may itself hold dots."""
-    first, *others = re.split(r"<[a-z_]+>", declared)
-    if not others:
-        return name == first
-    *inner, last = others
-    at = len(first)
-    # Each part at its first place: of a search that tries them all, the time grows with the power of their number.
-    for part in inner:
-        start = name.find(part, at + 1)
-        if start < 0:
-            return False
-        at = start + len(part)
-    return name.startswith(first) and name.endswith(last) and len(name) - len(last) > at

@@ -8,10 +8,10 @@ from cellc.compiler.catalog.controller_kind import (
     ControllerKind,
     ControllerService,
     ControllerTopic,
-    ParameterFacts,
 )
 from cellc.compiler.catalog.device_interfaces import InterfaceName, PluginUse, counted
 from cellc.compiler.catalog.effects import EffectFacts
+from cellc.compiler.catalog.parameter_facts import ParameterFacts
 from cellc.contract.vocabulary import OF_ONE_DEVICE
 
 

@@ -25,7 +25,7 @@ from cellc.compiler.catalog.figure_bounds import implausible_figures
 from cellc.compiler.catalog.jaws import gripper_faults
 from cellc.compiler.catalog.joint_figures import wrong_joint_figures
 from cellc.compiler.catalog.names import CatalogNames, unknown_names
-from cellc.compiler.catalog.programs import ProgramTable
+from cellc.compiler.catalog.programs import ProgramParameterTable, ProgramTable
 from cellc.compiler.catalog.read_model import ModelT, read_model, validated
 from cellc.compiler.catalog.tables import (
     ControllerManagerFacts,
@@ -233,6 +233,12 @@ def load_planners() -> Outcome[PlannerTable]:
 def load_programs() -> Outcome[ProgramTable]:
     """Load what nodes and programs have at the ROS graph."""
     return _table("programs.yaml", ProgramTable)
+
+
+@lru_cache(maxsize=1)
+def load_program_parameters() -> Outcome[ProgramParameterTable]:
+    """Load what programs declare, or read of what they are started with."""
+    return _table("program_parameters.yaml", ProgramParameterTable)
 
 
 @lru_cache(maxsize=1)

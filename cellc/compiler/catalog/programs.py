@@ -10,10 +10,10 @@ from cellc.compiler.catalog.catalog_model import (
     DistroName,
     FileName,
     GraphName,
-    ParameterFact,
     Text,
     Token,
 )
+from cellc.compiler.catalog.parameter_facts import ParameterFacts
 
 
 class EndpointFacts(CatalogModel):
@@ -59,56 +59,15 @@ class InnerNodeFacts(ImpliedFacts):
 
 
 class ProgramFacts(CatalogModel):
-    """The nodes of one program; several entries of one name are what one node has in different distributions."""
+    """The nodes of one program; several entries of one name are what one node has in different distributions.
+
+    ``types`` are those of what its first node has, by the names there.
+    """
 
     package: Token
     executable: FileName
+    types: dict[GraphName, Text] = Field(default_factory=dict)
     nodes: tuple[InnerNodeFacts, ...] = Field(min_length=1)
-
-
-class DiscouragedValue(CatalogModel):
-    """A value of a parameter, or a range of values, that its program takes and that makes a cell worse.
-
-    Attributes:
-        value: The value; absent where a range is meant.
-        below: What the values of a range are below.
-        above: What the values of a range are above.
-        does: What the program does with it, as the end of a sentence.
-        source: Line of code or document from which this was read.
-    """
-
-    value: ParameterFact | None = None
-    below: float | None = None
-    above: float | None = None
-    does: Text
-    source: Text
-
-    def holds(self, value: object) -> bool:
-        """Tell whether a value is meant; of a list, whether an item is."""
-        if isinstance(value, tuple):
-            return any(self.holds(item) for item in value)
-        if isinstance(value, (bool, str)) or self.value is not None:
-            return value == self.value and isinstance(value, bool) == isinstance(self.value, bool)
-        number = value if isinstance(value, (int, float)) else 0.0
-        return (self.below is not None and number < self.below) or (self.above is not None and number > self.above)
-
-
-class ProgramParameterFacts(CatalogModel):
-    """A parameter of a program with values that it takes and that make a cell worse.
-
-    Attributes:
-        package: Package of the program.
-        executables: Names of the program, one or more.
-        name: Name of the parameter, dots for nesting, ``<group>`` for any name.
-        only: Distributions of which this is so; empty for all.
-        discouraged: The values.
-    """
-
-    package: Token
-    executables: tuple[FileName, ...] = Field(min_length=1)
-    name: Text
-    only: tuple[DistroName, ...] = ()
-    discouraged: tuple[DiscouragedValue, ...] = Field(min_length=1)
 
 
 NodeKind = Literal["node", "lifecycle", "controller", "component", "transforms"]
@@ -122,4 +81,33 @@ class ProgramTable(CatalogModel):
     sources: tuple[Text, ...] = Field(min_length=1)
     implied: dict[NodeKind, tuple[ImpliedFacts, ...]]
     programs: tuple[ProgramFacts, ...]
-    parameters: tuple[ProgramParameterFacts, ...] = ()
+
+
+class ProgramParameters(CatalogModel):
+    """What programs declare, or read of what they are started with, in some distributions.
+
+    Attributes:
+        package: Package of the programs.
+        executables: Names of the programs, one or more.
+        only: Distributions of which this is so; empty for all.
+        prefix: What each name begins with.
+        closed: Whether they read nothing else; absent where plugins of others have parameters of their own.
+        parameters: The parameters by name, dots for nesting, ``<group>`` for any name.
+        source: Where they are declared.
+    """
+
+    package: Token
+    executables: tuple[FileName, ...] = Field(min_length=1)
+    only: tuple[DistroName, ...] = ()
+    prefix: Annotated[str, StringConstraints(pattern=r"^([A-Za-z0-9_]+\.)*\Z", max_length=100)] = ""
+    closed: bool = False
+    parameters: dict[Text, ParameterFacts]
+    source: Text
+
+
+class ProgramParameterTable(CatalogModel):
+    """``catalog/program_parameters.yaml``."""
+
+    format: Literal[1]
+    as_of: Date
+    programs: tuple[ProgramParameters, ...]

@@ -6,7 +6,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Date, DistroName, ParameterFact, Text, Token
-from cellc.compiler.catalog.controller_kind import ParameterFacts
+from cellc.compiler.catalog.parameter_facts import ParameterFacts
 from cellc.compiler.spec.quantity import Duration
 from cellc.contract.entities import Durability, Reliability
 from cellc.contract.frozen import dataclass

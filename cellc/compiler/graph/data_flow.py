@@ -7,12 +7,12 @@ from functools import cached_property
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
-from cellc.compiler.catalog.load import load_message_types
+from cellc.compiler.catalog.load import load_message_types, load_programs
 from cellc.compiler.catalog.tables import InterfaceTypeFacts
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.frame import FrameKind
-from cellc.compiler.cell.interface import Endpoint, Interface
+from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import InterfaceKind
 
@@ -223,7 +223,34 @@ def known_topics(cell: Cell) -> KnownTopics:
         for topic in controller.own_topics:
             ends = published if topic.publishes else subscribed
             ends.setdefault(controller.label, {})[topic.name] = topic.type
+    for node in cell.nodes:
+        types = program_types(cell, node) if node.source is NodeSource.SPEC else None
+        # A parameter may give a topic another name.
+        if types and not any(name.endswith("_topic") for name in node.parameters):
+            own = set(node.endpoints.subscribes)
+            subscribed.setdefault(node.name, {}).update(
+                (name, type_) for key, (name, type_) in types.items() if own & {key, name}
+            )
     return KnownTopics(published, subscribed)
+
+
+def program_types(cell: Cell, node: Node) -> Mapping[str, tuple[str, str]] | None:
+    """Return what the program of a node has, by its own names: full names and types; None where it is not known."""
+    table = load_programs().value
+    for program in () if table is None else table.programs:
+        if (program.package, program.executable) == (node.package, node.executable):
+            return {
+                name: (node.full_name + name[1:] if name.startswith("~/") else f"{node.namespace}/{name}", type_)
+                for name, type_ in program.types.items()
+            }
+    return None
+
+
+def known_executables(package: str) -> tuple[str, ...]:
+    """Name the programs of a package that the catalog knows."""
+    table = load_programs().value
+    programs = () if table is None else table.programs
+    return tuple(program.executable for program in programs if program.package == package)
 
 
 def is_state_on_change(topic: Interface) -> bool:

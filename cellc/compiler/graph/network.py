@@ -12,7 +12,10 @@ from cellc.contract.stated import DiscoveryServer
 
 @dataclass(frozen=True, slots=True)
 class Nic:
-    """A network card; ``interface`` is None where its address is no IPv4 address with a prefix length."""
+    """A network card; ``interface`` is None where its address is no IPv4 address with a prefix length.
+
+    ``device`` is the name that the operating system gives it.
+    """
 
     host: str
     name: str
@@ -21,6 +24,7 @@ class Nic:
     carries: tuple[str, ...]
     path: YamlPath
     speed_bps: float | None = None
+    device: str | None = None
 
     @property
     def full_name(self) -> str:
@@ -70,7 +74,16 @@ class NetworkGraph:
 def build_network(cell: Cell) -> NetworkGraph:
     """Read the addresses of hosts and devices."""
     nics = tuple(
-        Nic(host, name, nic.address, read_interface(nic.address), nic.carries, _path(host, name), nic.speed_bps)
+        Nic(
+            host,
+            name,
+            nic.address,
+            read_interface(nic.address),
+            nic.carries,
+            _path(host, name),
+            nic.speed_bps,
+            nic.interface,
+        )
         for host, computer in cell.hosts.items()
         for name, nic in computer.nics.items()
     )

@@ -37,7 +37,8 @@ def waits_for_sensors(cell: Cell) -> Iterator[Pair]:
 
 def monitors(cell: Cell) -> Iterator[Pair]:
     """A controller answers a cancel when its monitor looks: at least once within the bound of a cancel."""
-    overall = ((cell.kpis.cancel_s, ("kpis", "cancel")),)
+    rehearsed = ((run.within_s, (*run.path, "within")) for run in cell.rehearsals if run.expect == "canceled")
+    overall = ((cell.kpis.cancel_s, ("kpis", "cancel")), *rehearsed)
     by_name, by_server = _actions(cell)
     for controller in cell.controllers:
         rate = number_of(parameter_of(cell, controller, MONITOR))

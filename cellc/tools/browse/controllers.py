@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from cellc.compiler.catalog.controller_kind import ControllerKind, ControllerTopic, ParameterFacts
+from cellc.compiler.catalog.controller_kind import ControllerKind, ControllerTopic
 from cellc.compiler.catalog.load import controller_kinds, load_controller_kind
+from cellc.compiler.catalog.parameter_facts import ParameterFacts
 from cellc.compiler.formats.escape import code, markdown
 from cellc.compiler.formats.markdown_table import TableCell, table
 from cellc.contract.vocabulary import Distro

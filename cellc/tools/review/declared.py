@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from cellc.compiler.catalog.catalog_model import ParameterFact
-from cellc.compiler.catalog.controller_kind import ControllerKind, ParameterFacts, is_named
+from cellc.compiler.catalog.controller_kind import ControllerKind
 from cellc.compiler.catalog.load import load_controller_manager
+from cellc.compiler.catalog.parameter_facts import ParameterFacts, is_named
 from cellc.compiler.cell.cell import Cell
 from cellc.contract.upgrade import UpgradeParameter
 from cellc.contract.vocabulary import Distro

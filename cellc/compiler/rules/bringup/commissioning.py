@@ -31,6 +31,34 @@ def disordered_stages(graph: CellGraph) -> Findings:
         yield found(graph, (*_CAPS, "stages"), f"`stages` must rise and end at 100 %, got {got}")
 
 
+_FIRST_SHARE, _STEP = 0.25, 5.0
+_REDUCED_M_S = 0.25
+"""The reduced speed of ISO 10218-1: below it, a first stage may be any share."""
+
+
+@rule(
+    Severity.WARNING, assumes=("disordered-stages", "caps-of-nothing", "missing-velocity-limit", "caps-above-hardware")
+)
+def hasty_stages(graph: CellGraph) -> Findings:
+    """Yield stages that begin fast, or of which one is many times as fast as the one before it."""
+    caps, first = graph.cell.bringup.caps, next(iter(stages(graph)), None)
+    if caps is None or first is None:
+        return
+    fastest = max(first.tips.values(), default=0.0)
+    path = (*_CAPS, "stages") if graph.cell.states(*_CAPS, "stages") else _CAPS
+    if caps.velocity * caps.stages[0] > _FIRST_SHARE and fastest > _REDUCED_M_S:
+        message = f"the first stage must be at most {_FIRST_SHARE:.0%} of full speed, or {_REDUCED_M_S * 1e3:g} mm/s"
+        yield found(
+            graph,
+            path,
+            f"{message}, got {caps.velocity * caps.stages[0]:.0%}, at which a tip may reach {fastest:.2g} m/s",
+        )
+    for before, after in pairwise(caps.stages):
+        if after > before * _STEP * _ROUNDING:
+            message = f"a stage must be at most {_STEP:g} times as fast as the one before it"
+            yield found(graph, path, f"{message}, got {before:.0%} and then {after:.0%}")
+
+
 @rule(Severity.ERROR)
 def caps_of_nothing(graph: CellGraph) -> Findings:
     """Yield caps of a cell in which nothing is planned, and a grip force where nothing grips."""

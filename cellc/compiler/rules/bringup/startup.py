@@ -7,7 +7,9 @@ import re
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.interface import NodeSource
 from cellc.compiler.graph.claims import written_parameters
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.graph.data_flow import known_executables, program_types
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
+from cellc.contract.diagnostics.nearest import is_slip
 
 _CREDENTIALS = (
     ("an address with a password", re.compile(r"(?<=[A-Za-z0-9+.-])://[^/\s:@]*:[^/\s@]+@")),
@@ -95,3 +97,34 @@ def unproven_readiness(graph: CellGraph) -> Findings:
         if node.source is NodeSource.SPEC and not node.lifecycle and node.name not in shown:
             message = f"no state, interface or transform shows that `{node.name}` is ready"
             yield found(graph, node.path, message)
+
+
+@rule(Severity.ERROR)
+def unmanaged_program(graph: CellGraph) -> Findings:
+    """Yield nodes that are said to be managed, although the catalog knows their program as a plain node."""
+    for node in graph.cell.nodes:
+        if node.source is NodeSource.SPEC and node.lifecycle and program_types(graph.cell, node) is not None:
+            message = (
+                f"`{node.package}/{node.executable}` is not a managed node: the bring-up would wait for its states"
+            )
+            yield found(graph, (*node.path, "lifecycle"), message)
+
+
+_LAUNCH_FILES = (".launch.py", ".launch.xml", ".launch.yaml")
+
+
+@rule(Severity.ERROR)
+def unknown_executable(graph: CellGraph) -> Findings:
+    """Yield launch files that are given as programs, and programs that are one slip away from a known one."""
+    for node in graph.cell.nodes:
+        if node.source is not NodeSource.SPEC:
+            continue
+        path, program = (*node.path, "run"), f"{node.package}/{node.executable}"
+        if node.executable.endswith(_LAUNCH_FILES):
+            message = f"`{node.name}` must run a program, got the launch file `{program}`"
+            yield found(graph, path, message, "name the program that the launch file starts, as `package/executable`")
+            continue
+        known = known_executables(node.package)
+        if known and node.executable not in known and any(is_slip(node.executable, name) for name in known):
+            message = f"`{node.package}` has no program `{node.executable}`"
+            yield found(graph, path, message, did_you_mean(node.executable, known, f"programs of `{node.package}`"))

@@ -62,7 +62,9 @@ def max_age_too_short(graph: CellGraph) -> Findings:
             bound, age = share.total_s * 1e3, interface.max_age_s * 1e3
             message = f"`max_age` of `{interface.name}` must be at least {bound:.4g} ms ({parts}), got {age:g} ms"
             path = (*interface.path, "max_age")
-            yield found(graph, path, message, f"allow at least {math.ceil(bound)} ms, or raise the rate")
+            keys = [key for key in ("transport", "rate") if graph.cell.states(*interface.path, key)]
+            related = tuple(Related("a part of it", graph.cell.locate(*interface.path, key)) for key in keys)
+            yield found(graph, path, message, f"allow at least {math.ceil(bound)} ms, or raise the rate", related)
 
 
 @rule(Severity.ERROR)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cellc.compiler.graph.commissioning import tip_bounds
 from cellc.compiler.rules.bounds import Bound, Figure, outside, stated
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, rule
-from cellc.contract.vocabulary import InterfaceKind
+from cellc.contract.vocabulary import Distro, InterfaceKind
 
 _Owners = Iterator[tuple[YamlPath, object]]
 _CONTROLLERS = ("control.controllers.*", "managers.*.controllers.*")
@@ -134,10 +134,24 @@ def _within_rehearsals(graph: CellGraph) -> Iterator[Figure]:
                 yield Figure((*fault.path, "lasting"), fault.lasting_s, 1e-3, most)
 
 
+_LATENCY_S, _POINTS = 0.1, 3
+"""Of trajectories Servo sends so many points within what it expects of latency, and exits at its start where a period
+is longer: moveit2@2.12.4 moveit_ros/moveit_servo/src/servo.cpp, Servo::validateParams; Humble has no such check."""
+
+
+def _servo_period(graph: CellGraph) -> Iterator[Figure]:
+    servo = graph.cell.servo
+    if servo is not None:
+        points = servo.type.endswith("JointTrajectory") and graph.cell.distro != Distro.HUMBLE
+        because = "a third of the latency that Servo expects, which it exits without" if points else ""
+        most = _LATENCY_S / _POINTS if points else 0.1
+        yield Figure(("motion", "servo", "period"), servo.period_s, 5e-4, most, because=because)
+
+
 _INJECTED = ("rehearsals.*.inject", "rehearsals.*.inject.*")
 _CYCLE = "from one cycle of a controller to what an arm may hang after the end of its trajectory"
 BOUNDS = (
-    stated(tuple(f"{place}.goal_time" for place in _CONTROLLERS), _controllers, "goal_time_s", 0.01, 60.0, "s", _CYCLE),
+    stated(tuple(f"{place}.goal_time" for place in _CONTROLLERS), _controllers, "goal_time_s", 0.02, 20.0, "s", _CYCLE),
     stated("devices.*.adapter.goal_time", _adapters, "goal_time_s", 0.01, 60.0, "s", _CYCLE),
     stated("devices.*.adapter.stop_time", _adapters, "stop_time_s", 5e-3, 5.0, "s", "in which arms come to rest"),
     stated("devices.*.adapter.command_timeout", _adapters, "command_timeout_s", 1e-3, 1.0, "s", "as watchdogs have it"),
@@ -156,7 +170,7 @@ BOUNDS = (
         _servo_motion,
     ),
     stated("motion.servo.command_timeout", _servo, "command_timeout_s", 1e-3, 1.0, "s", "as watchdogs have it"),
-    stated("motion.servo.period", _servo, "period_s", 5e-4, 0.1, "ms", "in which arms take set points"),
+    Bound(("motion.servo.period",), "`period`", "ms", "in which arms take set points", _servo_period),
     Bound(("motion.groups.*.ik_timeout",), "`ik_timeout`", "ms", "in which a solver finds or gives up", _solvers),
     stated("devices.*.stamp.exposure", _sensors, "exposure_s", 1e-6, 1.0, "ms", "what sensors expose"),
     stated("devices.*.stamp.max_offset", _stamps, "max_offset_s", 1e-7, 0.1, "ms", "to which clocks are synchronized"),

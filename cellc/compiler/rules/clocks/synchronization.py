@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from cellc.compiler.cell.interface import Interface
@@ -89,6 +90,12 @@ def unsynchronized_hosts(graph: CellGraph) -> Findings:
             message = f"the clock of host `{name}` does not state `{field}`"
             path = ("hosts", name, "clock", field)
             yield found(graph, path, message)
+        elif _BY_NOTHING.fullmatch(host.clock.synchronized_by):
+            message = f"the clock of host `{name}` must be kept by a program, got `{host.clock.synchronized_by}`"
+            yield found(graph, ("hosts", name, "clock", "synchronized_by"), message)
+
+
+_BY_NOTHING = re.compile(r"(?i)no|none|nothing|not?\b.*|off|rtc|.*\b(hand|manual|manually|hwclock)\b.*|date\b.*")
 
 
 @rule(Severity.BLOCKER)

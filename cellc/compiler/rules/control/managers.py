@@ -38,7 +38,7 @@ def device_apart_from_its_manager(graph: CellGraph) -> Findings:
             if link is None or device.control.hardware is None or link.host == manager.host or not manager.host:
                 continue
             message = f"`{name}` must be connected to `{manager.host}`, where its controller manager runs, got"
-            related = (Related("the manager", graph.cell.locate(*manager.path)),)
+            related = (Related("the manager", graph.cell.locate(*manager.path, "host")),)
             yield found(graph, (*device.path, "connection", "host"), f"{message} `{link.host}`", related=related)
 
 

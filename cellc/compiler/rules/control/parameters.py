@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
-from cellc.compiler.catalog.controller_kind import ParameterFacts, is_named
+from cellc.compiler.catalog.parameter_facts import ParameterFacts, is_named
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.robot import Impedance, ImpedanceFacts
 from cellc.compiler.graph.claims import written_parameters
-from cellc.compiler.graph.worse_values import worse_values
+from cellc.compiler.graph.stated_parameters import stated_parameters
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 from cellc.contract.vocabulary import TRAJECTORIES
 
@@ -17,10 +17,14 @@ from cellc.contract.vocabulary import TRAJECTORIES
 @rule(Severity.WARNING)
 def discouraged_parameter(graph: CellGraph) -> Findings:
     """Yield values that a controller or program accepts, of which the catalog says that they make the cell worse."""
-    for worse in worse_values(graph.cell):
-        advice = "delete the line" if worse.default is None else f"delete the line: the default is `{worse.default}`"
-        message = f"`{worse.name}` of `{worse.owner}` is `{_shown(worse.value)}`: {worse.does}"
-        yield found(graph, worse.path, message, advice)
+    for parameter in stated_parameters(graph.cell):
+        facts, worse = parameter.facts, parameter.worse()
+        if facts is None or worse is None:
+            continue
+        useless = worse.is_any or facts.default is None or worse.holds(facts.default, parameter.beside)
+        advice = "delete the line" if useless else f"delete the line: the default is `{facts.default}`"
+        message = f"`{parameter.name}` of `{parameter.owner}` is `{_shown(parameter.value)}`: {worse.does}"
+        yield found(graph, parameter.path, message, advice)
 
 
 _GAIN = re.compile(r"gains\.(.+)\.[pid]")
@@ -84,22 +88,49 @@ def missing_controller_parameter(graph: CellGraph) -> Findings:
 
 
 @rule(Severity.ERROR)
+def conflicting_parameters(graph: CellGraph) -> Findings:
+    """Yield controllers with parameters of several groups of which their kind takes one, or of none."""
+    for controller in graph.cell.controllers:
+        groups = () if controller.declared is None else controller.declared.either
+        given = [[name for name in group if controller.parameters.get(name)] for group in groups]
+        if not groups or sum(map(bool, given)) == 1:
+            continue
+        wanted = " or ".join(f"`{group[0]}`" for group in groups)
+        got = " and ".join(f"`{names[0]}`" for names in given if names) or "none"
+        path = next(((*controller.path, "parameters", n) for names in reversed(given) for n in names), controller.path)
+        yield found(graph, path, f"`{controller.name}` must have either {wanted}, got {got}")
+
+
+@rule(Severity.ERROR)
 def parameter_out_of_range(graph: CellGraph) -> Findings:
     """Yield numbers below or above what the declaration allows, items of lists too, and texts that it does not list."""
-    for parameter in written_parameters(graph.cell):
-        kind = parameter.controller.declared
-        facts = None if kind is None else kind.parameter(parameter.name, graph.cell.distro)
+    for parameter in stated_parameters(graph.cell):
+        facts = parameter.facts
         if facts is None:
             continue
-        subject = f"`{parameter.name}` of `{parameter.controller.name}`"
+        subject = f"`{parameter.name}` of `{parameter.owner}`"
         if facts.not_empty and parameter.value in ("", ()):
             yield found(graph, parameter.path, f"{subject} must not be empty")
+        if (reason := _unfit_list(facts, parameter.value, parameter.beside)) != "":
+            yield found(graph, parameter.path, f"{subject} {reason}")
         seen: list[ParameterValue] = []
         for path, item in parameter.items():
             reason = _out_of_range(facts, item) or ("must not repeat an item" if facts.unique and item in seen else "")
             seen.append(item)
             if reason:
                 yield found(graph, path, f"{subject} {reason}, got `{item}`")
+
+
+def _unfit_list(facts: ParameterFacts, value: ParameterValue, beside: Callable[[str], object]) -> str:
+    """Say what is wrong with a list as a whole; empty for nothing."""
+    if not isinstance(value, tuple):
+        return ""
+    alone = next(((item, other) for item, other in facts.needs.items() if item in value and other not in value), None)
+    if alone is not None:
+        return f"must have `{alone[1]}` beside `{alone[0]}`"
+    whole = None if facts.within is None else beside(facts.within)
+    strange = next((item for item in value if isinstance(whole, tuple) and item not in whole), None)
+    return "" if strange is None else f"must have no item that `{facts.within}` lacks, got `{strange}`"
 
 
 def _out_of_range(facts: ParameterFacts, value: ParameterValue) -> str:
@@ -226,9 +257,8 @@ _ARRAY = "_array"
 @rule(Severity.ERROR)
 def wrong_parameter_type(graph: CellGraph) -> Findings:
     """Yield parameters of the spec whose value has another type than the declared one."""
-    for parameter in written_parameters(graph.cell):
-        kind, value = parameter.controller.declared, parameter.value
-        facts = None if kind is None else kind.parameter(parameter.name, graph.cell.distro)
+    for parameter in stated_parameters(graph.cell):
+        facts, value = parameter.facts, parameter.value
         expected = "none" if facts is None else facts.type
         item_type = _TYPES.get(expected.removesuffix(_ARRAY))
         is_list = isinstance(value, tuple)
@@ -236,9 +266,7 @@ def wrong_parameter_type(graph: CellGraph) -> Findings:
             is_list == expected.endswith(_ARRAY) and all(type(item) is item_type for _, item in parameter.items())
         ):
             continue
-        message = (
-            f"`{parameter.name}` of `{parameter.controller.name}` must be of type {expected}, got `{_shown(value)}`"
-        )
+        message = f"`{parameter.name}` of `{parameter.owner}` must be of type {expected}, got `{_shown(value)}`"
         yield found(graph, parameter.path, message, f"write {_corrected(value, expected)}")
 
 

@@ -200,6 +200,22 @@ def _of_adapters(graph: CellGraph) -> Iterator[Figure]:
             yield Figure(path, tolerance.value, _HELD, _WIDEST_RAD, unit="m" if tolerance.linear else "rad")
 
 
+_LEFT_RAD, _LEFT_M = 0.4, 0.1
+"""Twice what vendors allow on the way, and as much for a slide."""
+
+
+def _departures(graph: CellGraph) -> Iterator[Figure]:
+    """Yield by how much a joint may leave its path."""
+    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    for controller in graph.cell.controllers:
+        if controller.behavior not in TRAJECTORIES:
+            continue
+        for name, figure in (controller.path_tolerance or {}).items():
+            slides = name in joints and joints[name].slides
+            path = (*controller.path, "path_tolerance")
+            yield Figure(path, figure.value, most=_LEFT_M if slides else _LEFT_RAD, unit="m" if slides else "rad")
+
+
 _PLACES = ("control.controllers.*", "managers.*.controllers.*")
 BOUNDS = (
     Bound(
@@ -208,6 +224,13 @@ BOUNDS = (
         "mm",
         "the size of a part",
         _misses,
+    ),
+    Bound(
+        tuple(f"{place}.path_tolerance{by}" for place in _PLACES for by in ("", ".*")),
+        "`path_tolerance`",
+        "rad",
+        "at which an arm is still on its path",
+        _departures,
     ),
     Bound(("devices.*.adapter.path_tolerance",), "`path_tolerance`", "rad", "what a path may be left by", _of_adapters),
 )

@@ -75,7 +75,7 @@ _INJECTED = ("rehearsals.*.inject", "rehearsals.*.inject.*")
 BOUNDS = (
     stated("calibrations.*.samples", _calibrations, "samples", 1, 100_000, "", "what a person or a program takes"),
     stated("frames.*.reference_points", _frames, "reference_points", 0, 1000, "", "what a person touches"),
-    stated("kpis.missed_cycles", _kpis, "missed_cycles", 0, 10_000, "", "with which a loop still is one"),
+    stated("kpis.missed_cycles", _kpis, "missed_cycles", 0, 100, "", "with which a loop still is one"),
     stated("kpis.protective_stops", _kpis, "protective_stops", 0, 100, "", "in a shift in which something is made"),
     stated(
         ("hosts.*.clock.simulated_drift", "devices.*.stamp.simulated_drift"),

@@ -128,9 +128,10 @@ def _lengths(graph: CellGraph) -> float:
 def _ranges(graph: CellGraph) -> Iterator[Figure]:
     octomap = graph.cell.octomap
     if octomap is not None:
-        most = max(10.0, 5.0 * graph.once(_lengths))
+        reach = graph.once(_lengths)
+        most, least = max(10.0, 5.0 * reach), max(5.0 * octomap.resolution_m, min(0.4 * reach, 1.0))
         related = (Related("an edge of its cells", graph.cell.locate(*_MAP, "resolution")),)
-        yield Figure((*_MAP, "range"), octomap.range_m, 5.0 * octomap.resolution_m, most, related=related)
+        yield Figure((*_MAP, "range"), octomap.range_m, least, most, related=related)
 
 
 def _cells(graph: CellGraph) -> Iterator[Figure]:
@@ -138,7 +139,7 @@ def _cells(graph: CellGraph) -> Iterator[Figure]:
     if octomap is not None:
         related = (Related("as far as this", graph.cell.locate(*_MAP, "range")),)
         across = 2.0 * octomap.range_m / octomap.resolution_m
-        yield Figure((*_MAP, "resolution"), across, 10.0, 4000.0, related=related)
+        yield Figure((*_MAP, "resolution"), across, 10.0, 1000.0, related=related)
 
 
 def _padding(graph: CellGraph) -> Iterator[Figure]:
@@ -220,7 +221,11 @@ BOUNDS = (
         _parts,
     ),
     Bound(
-        ("motion.octomap.range",), "`range`", "m", "from five of its cells to five times what the arm reaches", _ranges
+        ("motion.octomap.range",),
+        "`range`",
+        "m",
+        "from five of its cells and two fifths of what the arm reaches to five times that",
+        _ranges,
     ),
     Bound(
         ("motion.octomap.resolution",),

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
-from cellc.compiler.cell.interface import Interface
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.compiler.cell.interface import Interface, NodeSource
+from cellc.compiler.graph.data_flow import program_types
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
 from cellc.contract.vocabulary import InterfaceKind
 
 
@@ -125,3 +126,54 @@ def _unbounded(graph: CellGraph, kind: InterfaceKind) -> Iterator[Interface]:
     for interface in graph.cell.interfaces:
         if interface.kind is kind and not interface.derived and interface.timeout_s is None:
             yield interface
+
+
+@rule(Severity.ERROR, assumes=("interface-kind-mismatch", "unknown-interface-type"))
+def unoffered_call(graph: CellGraph) -> Findings:
+    """Yield services and actions of the spec that their server has under another name, or with another type."""
+    cell = graph.cell
+    offered = {
+        controller.label: {controller.action: controller.action_type or ""}
+        for controller in cell.controllers
+        if controller.action
+    }
+    for node in cell.nodes:
+        types = program_types(cell, node) if node.source is NodeSource.SPEC else None
+        own = {*node.endpoints.executes, *node.endpoints.serves}
+        if types:
+            offered[node.name] = {name: type_ for key, (name, type_) in types.items() if own & {key, name}}
+    for interface in cell.interfaces:
+        if interface.kind is InterfaceKind.TOPIC or interface.derived:
+            continue
+        for end in interface.sources:
+            yield from _unoffered(graph, interface, end.node, offered.get(end.node, {}))
+        for end in interface.sinks:
+            if interface.type in offered.get(end.node, {}).values() and all(
+                source.node not in offered for source in interface.sources
+            ):
+                message = f"`{end.node}` answers `{interface.type}` itself and must be the server of `{interface.name}`"
+                yield found(graph, (*interface.path, "server"), message)
+
+
+def _unoffered(graph: CellGraph, interface: Interface, server: str, offers: Mapping[str, str]) -> Findings:
+    kind, has = interface.kind.value, offers.get(interface.name)
+    alike = [name for name, type_ in offers.items() if type_ == interface.type]
+    if has is not None and has != interface.type and not _has_controller(graph, server):
+        message = f"`{server}` has the {kind} `{interface.name}` with the type `{has}`, got `{interface.type}`"
+        yield found(graph, (*interface.path, kind), message, f"write `{has}`")
+    elif has is None and alike:
+        message = f"`{server}` has no {kind} `{interface.name}`"
+        advice = did_you_mean(interface.name, alike, f"{kind}s of `{server}` with `{interface.type}`")
+        yield found(graph, interface.path, message, advice, tuple(_namespace(graph, server)))
+
+
+def _namespace(graph: CellGraph, server: str) -> Iterator[Related]:
+    """Yield where the namespace of a node is stated, in which its names lie."""
+    for node in graph.cell.nodes:
+        if node.name == server and graph.cell.states(*node.path, "namespace"):
+            yield Related("its names lie in this namespace", graph.cell.locate(*node.path, "namespace"))
+
+
+def _has_controller(graph: CellGraph, name: str) -> bool:
+    """Whether a name is that of a controller, whose action is in the graph with its type anyway."""
+    return any(controller.label == name for controller in graph.cell.controllers)

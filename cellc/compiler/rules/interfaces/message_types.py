@@ -114,11 +114,25 @@ def unit_of_another_message(graph: CellGraph) -> Findings:
         ends = (streams.get((source.node, interface.name)) for source in interface.sources)
         facts = types.get(interface.type)
         fixed = next(filter(None, ends), None) or (None if facts is None else facts.unit)
+        if interface.type in _JOGGED and _is_unitless(graph, interface):
+            fixed = _SHARES
         stated = _units(interface.unit)
         if fixed is not None and stated and stated <= _UNITS and not stated & _units(fixed):
             message = f"`{interface.name}` carries {fixed}, by what its messages are, got `{interface.unit}`"
             advice = f"write `unit: {fixed}`, and convert in the consumer"
             yield found(graph, (*interface.path, "unit"), message, advice)
+
+
+_SHARES = "shares from -1 to 1"
+_JOGGED = frozenset(("geometry_msgs/msg/TwistStamped", "control_msgs/msg/JointJog"))
+
+
+def _is_unitless(graph: CellGraph, interface: Interface) -> bool:
+    """Whether MoveIt Servo takes the numbers of a topic for shares of its largest speeds."""
+    servo = graph.cell.servo
+    return (
+        servo is not None and servo.commands == "unitless" and any(sink.node == servo.node for sink in interface.sinks)
+    )
 
 
 def _units(text: str) -> frozenset[str]:

@@ -148,9 +148,12 @@ def unfed_octomap(graph: CellGraph) -> Findings:
         yield found(graph, path, "the occupancy map needs a node that runs move_group")
         return
     topics = {interface.name: interface for interface in graph.cell.interfaces}
-    absent = (_absent(name, name == octomap.source, topics.get(name), planners) for name in _needed(octomap, topics))
-    if message := next(filter(None, absent), ""):
-        yield found(graph, path, message)
+    for name in _needed(octomap, topics):
+        if message := _absent(name, name == octomap.source, topics.get(name), planners):
+            places = [("the topic is here", ("interfaces", name, key)) for key in ("to", "topic") if name in topics]
+            related = tuple(Related(text, graph.cell.locate(*place)) for text, place in places)
+            yield found(graph, path, message, related=related)
+            return
 
 
 _DEPTH = ("16UC1", "32FC1", "mono16")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from ipaddress import IPv4Address
+from ipaddress import IPv4Address, IPv4Network
 from itertools import combinations
 
 from cellc.compiler.graph.network import Nic
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+
+_PRIVATE = tuple(map(IPv4Network, ("10.0.0.0/8", "172.16.0.0/12", "192.168.0.0/16", "169.254.0.0/16", "127.0.0.0/8")))
+"""RFC 1918, and what is of one link or one computer alone."""
 
 
 @rule(Severity.ERROR)
@@ -90,11 +93,17 @@ def no_route_to_device(graph: CellGraph) -> Findings:
 
 @rule(Severity.ERROR)
 def public_address(graph: CellGraph) -> Findings:
-    """Yield devices with a global address."""
+    """Yield devices with a global address, and cards whose subnet reaches beyond private addresses."""
     for device in graph.network.devices:
         if device.address is not None and device.address.is_global:
             message = f"{device.address} of `{device.device}` is a public address"
             yield found(graph, (*device.path, "address"), message)
+    for nic in graph.network.nics:
+        if nic.interface is None or not nic.interface.ip.is_private:
+            continue
+        if not any(nic.interface.network.subnet_of(block) for block in _PRIVATE):
+            message = f"the subnet of `{nic.full_name}` must be of private addresses, got {nic.interface.network}"
+            yield found(graph, (*nic.path, "address"), message, "write a longer prefix, such as /24")
 
 
 @rule(Severity.ERROR)

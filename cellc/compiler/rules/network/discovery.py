@@ -118,6 +118,9 @@ def missing_ros_card(graph: CellGraph) -> Findings:
             others = ", ".join(f"`{other.name}`" for other in with_card)
             message = f"`{host.name}` runs nodes and must have a card that carries `ros`, as {others} has"
             related = tuple(Related("nodes of the cell run here too", other.span) for other in with_card)
+            related += tuple(
+                Related("a card of it", graph.cell.locate("hosts", host.name, "nics", name)) for name in host.nics
+            )
             yield found(graph, (*host.path, "nics"), message, related=related)
 
 

@@ -135,7 +135,8 @@ def robot_off_control_card(graph: CellGraph) -> Findings:
         nic = graph.network.nic_of(device)
         if device.device in dedicated and nic is not None and "control" not in nic.carries:
             message = f"`{device.device}` is on `{nic.full_name}`, which does not carry control"
-            yield found(graph, (*device.path, "nic"), message)
+            related = (Related("the card is here", graph.cell.locate(*nic.path, "carries")),)
+            yield found(graph, (*device.path, "nic"), message, related=related)
 
 
 @rule(Severity.ERROR)

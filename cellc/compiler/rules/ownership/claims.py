@@ -69,7 +69,8 @@ def idle_controller(graph: CellGraph) -> Findings:
         for controller in manager.controllers:
             if controller.name not in active:
                 message = f"controller `{controller.name}` starts inactive and no switch activates it"
-                yield found(graph, controller.path, message)
+                related = (Related("it starts inactive", graph.cell.locate(*controller.path, "active")),)
+                yield found(graph, controller.path, message, related=related)
 
 
 @rule(Severity.ERROR, assumes=("double-claim", "two-interfaces-of-one-joint"))

@@ -184,12 +184,15 @@ def unfit_servo(graph: CellGraph) -> Findings:
     wanted = f"{_SERVO_PACKAGE}/{_SERVO_EXECUTABLES.get(cell.distro, 'servo_node')}"
     if f"{node.package}/{node.executable}" != wanted:
         message = f"`{servo.node}` must run `{wanted}` on {cell.distro}, got `{node.package}/{node.executable}`"
-        yield found(graph, (*path, "node"), message)
+        program = Related("its program is here", graph.cell.locate(*node.path, "run"))
+        yield found(graph, (*path, "node"), message, related=(program,))
     if not any((node.package, node.executable) == ("moveit_ros_move_group", "move_group") for node in cell.nodes):
         yield found(graph, (*path, "node"), f"`{servo.node}` needs a node that runs move_group, whose scene it follows")
     (controller,) = (controller for controller in cell.controllers if controller.full_name == servo.controller)
     if refused := next(_refused_servo(cell, servo, controller), ""):
-        yield found(graph, (*path, "controller"), refused)
+        places = (("its client is here", "client"), ("the controller is here", "type"))
+        related = tuple(Related(text, graph.cell.locate(*controller.path, key)) for text, key in places)
+        yield found(graph, (*path, "controller"), refused, related=related)
 
 
 def _refused_servo(cell: Cell, servo: Servo, controller: Controller) -> Iterator[str]:

@@ -44,3 +44,19 @@ def qos_ignored_by_rmw(graph: CellGraph) -> Findings:
             if field is not None and not topic.derived:
                 message = f"`{end.node}` sets `{field}` on `{topic.name}`, which Zenoh does not monitor"
                 yield found(graph, (*end.path, field), message)
+
+
+@rule(Severity.WARNING)
+def policy_without_effect(graph: CellGraph) -> Findings:
+    """Yield policies that are written at an end which does not read them."""
+    for topic in graph.cell.interfaces:
+        if topic.derived:
+            continue
+        for end in topic.sinks:
+            if graph.cell.states(*end.path, "lifespan"):
+                message = f"`lifespan` changes nothing at `{end.node}`, which reads `{topic.name}`"
+                yield found(graph, (*end.path, "lifespan"), message, "state it at the publisher")
+        for end in (*topic.sources, *topic.sinks):
+            if end.qos.history == "keep_all" and graph.cell.states(*end.path, "depth"):
+                message = f"`depth` changes nothing at `{end.node}`, which keeps all of `{topic.name}`"
+                yield found(graph, (*end.path, "depth"), message, "delete it, or write `history: keep_last`")

@@ -67,7 +67,8 @@ def lossy_every_sample(graph: CellGraph) -> Findings:
         lossy = next((end for end in (*topic.sinks, *topic.sources) if end.qos.reliability == "best_effort"), None)
         if lossy is not None:
             message = f"every sample of `{topic.name}` counts, but `{lossy.node}` uses best effort"
-            yield found(graph, lossy.path, message)
+            related = (Related("every sample counts", graph.cell.locate(*topic.path, "wants")),)
+            yield found(graph, lossy.path, message, related=related)
 
 
 _ROUNDING = 1.0 + 1e-9
@@ -132,4 +133,5 @@ def shallow_queue_for_every_sample(graph: CellGraph) -> Findings:
         for end in topic.sinks:
             if end.qos.history == "keep_last" and end.qos.depth == 1:
                 message = f"every sample of `{topic.name}` counts, but `{end.node}` keeps only one"
-                yield found(graph, end.path, message)
+                related = (Related("every sample counts", graph.cell.locate(*topic.path, "wants")),)
+                yield found(graph, end.path, message, related=related)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.rules.bounds import Bound, Figure, outside, stated
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, rule
+from cellc.contract.vocabulary import TRAJECTORIES
 
 _Owners = Iterator[tuple[YamlPath, object]]
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/CompressedImage")
@@ -38,8 +39,15 @@ def _cards(graph: CellGraph) -> _Owners:
         yield from (((*host.path, "nics", name), card) for name, card in host.nics.items())
 
 
-def _controllers(graph: CellGraph) -> _Owners:
-    return ((controller.path, controller) for controller in graph.cell.controllers)
+_SMOOTH_HZ = 25.0
+"""Below it, each set point of an arm is a step of its own."""
+
+
+def _controllers(graph: CellGraph) -> Iterator[Figure]:
+    for controller in graph.cell.controllers:
+        if controller.update_rate_hz is not None:
+            least = _SMOOTH_HZ if controller.behavior in TRAJECTORIES else 1.0
+            yield Figure((*controller.path, "update_rate"), controller.update_rate_hz, least, 10_000.0)
 
 
 def _profiles(graph: CellGraph) -> _Owners:
@@ -53,9 +61,12 @@ BOUNDS = (
     stated("frames.*.rate", _frames, "rate_hz", 0.01, 2000.0, "Hz", "at which nodes publish transforms"),
     Bound(("motion.octomap.rate",), "`rate`", "Hz", "what its source brings", _maps),
     stated("hosts.*.nics.*.speed", _cards, "speed_bps", 1e6, 4e11, "bit/s", "what cards have"),
-    stated(
+    Bound(
         ("control.controllers.*.update_rate", "managers.*.controllers.*.update_rate"),
-        *(_controllers, "update_rate_hz", 1.0, 10_000.0, "Hz", "at which controllers run"),
+        "`update_rate`",
+        "Hz",
+        "at which controllers run",
+        _controllers,
     ),
     stated(
         tuple(f"interfaces.*.{end}.*.depth" for end in ("from", "to", "client")),

@@ -26,6 +26,11 @@ def firmware_outside_matrix(graph: CellGraph) -> Findings:
         firmware = (row for row in device.software.version_rows if row.part == "firmware")
         rows = [row for row in firmware if row.product in (None, product)]
         numbers = version_numbers(text)
+        products = {row.product for row in device.software.version_rows if row.part == "firmware"}
+        if numbers and products and None not in products and product not in products:
+            known = " or ".join(sorted(f"`{name}`" for name in products if name is not None))
+            message = f"the firmware of `{device.name}` must be that of {known}, got `{text}`"
+            yield found(graph, (*device.path, "firmware"), message, f"write {known} and its version")
         for row in rows if numbers else ():
             minimum, below = version_numbers(row.minimum or ""), version_numbers(row.below or "")
             if (minimum and numbers < minimum) or (below and numbers >= below):
