@@ -35,6 +35,7 @@ LONG: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "diff": (("cell.yaml", "minimal"), ("comparing: cell.yaml, linking", "comparing: minimal")),
     "evidence": (("bag", "--package", "drawn"), ("evidence: reading bag",)),
     "format": (("cell.yaml",), ("format: cell.yaml",)),
+    "hook": (("cell.yaml",), ("hook: cell.yaml", "1 of 1, cell.yaml, linking", "reading back with other parsers")),
     "import": (("lift.urdf",), ("import: reading the robot", "import: copying meshes", "import: rules")),
     "campaign": (("minimal", "--jobs", "1"), ("campaign: reading minimal", "campaign: run 1 of ")),
     "gates": (("minimal", "--jobs", "1"), ("gates: reading minimal", "campaign: run 1 of ")),

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import yaml
 
-from tests.cells import ROOT, build_into
+from tests.cells import ROOT
 from tests.foreign_yaml import safe_load
 from tests.pull_request.conftest import environment, git
 
@@ -45,31 +45,37 @@ def _ran(folder: Path, module: str, *words: str) -> subprocess.CompletedProcess[
 
 
 def _failing(ran: subprocess.CompletedProcess[str]) -> list[str]:
-    return [text for text in ("cellc-format", "cellc-check", "cellc-build-check") if f"hook id: {text}" in ran.stdout]
+    return [text for text in ("cellc", "cellc-build", "cellc-check") if f"hook id: {text}\n" in ran.stdout]
 
 
-def test_generated_file_that_was_changed_alone_is_stopped(repository: Path) -> None:
+def test_generated_file_that_was_changed_alone_is_stopped_with_the_command_that_makes_it(repository: Path) -> None:
     _hooked(repository)
     _replace(repository, "generated/line/package.xml", "<version>", "<version>9")
-    ran = _commit(repository)
-    assert (ran.returncode, _failing(ran)) == (1, ["cellc-build-check"]), ran.stdout + ran.stderr
+    ran = _commit(repository, "cellc")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc"]), ran.stdout + ran.stderr
+    assert "run `cellc build cells/line/cell.yaml`" in ran.stdout
 
 
-def test_cell_in_another_form_is_stopped_once_and_put_right(repository: Path) -> None:
+def test_cell_in_another_form_is_stopped_and_the_other_hook_puts_it_right(repository: Path) -> None:
     _hooked(repository)
     form = (repository / "cells/line/cell.yaml").read_text(encoding="utf-8")
     _replace(repository, "cells/line/cell.yaml", "cell: ", "cell:   ")
-    ran = _commit(repository)
-    assert (ran.returncode, _failing(ran)) == (1, ["cellc-format"]), ran.stdout + ran.stderr
+    ran = _commit(repository, "cellc")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc"]), ran.stdout + ran.stderr
+    assert "run `cellc format cells/line/cell.yaml`" in ran.stdout
+    ran = _commit(repository, "cellc-build")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc-build"]), ran.stdout + ran.stderr
     assert (repository / "cells/line/cell.yaml").read_text(encoding="utf-8") == form
 
 
-def test_device_that_was_changed_alone_is_stopped_until_its_cell_is_built(repository: Path) -> None:
+def test_device_that_was_changed_alone_is_stopped_until_the_other_hook_builds_its_cell(repository: Path) -> None:
     _hooked(repository)
     _replace(repository, "cells/line/stage/stage.urdf", 'upper="3"', 'upper="2"')
-    ran = _commit(repository)
-    assert (ran.returncode, _failing(ran)) == (1, ["cellc-build-check"]), ran.stdout + ran.stderr
-    build_into(repository / "generated/line", repository / "cells/line/cell.yaml")
+    ran = _commit(repository, "cellc")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc"]), ran.stdout + ran.stderr
+    ran = _commit(repository, "cellc-build")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc-build"]), ran.stdout + ran.stderr  # it changed files
+    assert "generated/line: " in ran.stdout
     ran = _commit(repository)
     assert (ran.returncode, _failing(ran)) == (0, []), ran.stdout + ran.stderr
 
@@ -77,10 +83,19 @@ def test_device_that_was_changed_alone_is_stopped_until_its_cell_is_built(reposi
 def test_misspelt_key_is_stopped_at_its_line_until_it_is_fixed(repository: Path) -> None:
     _hooked(repository)
     _replace(repository, "cells/line/cell.yaml", "update_rate", "update_rte")
-    ran = _commit(repository, "cellc-check")
-    assert (ran.returncode, _failing(ran)) == (1, ["cellc-check"]), ran.stdout + ran.stderr
+    ran = _commit(repository, "cellc")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc"]), ran.stdout + ran.stderr
     assert "cells/line/cell.yaml:8:3" in ran.stdout
     assert _ran(repository, "cellc", "check", "--fix", ".").returncode == 0
-    ran = _commit(repository, "cellc-check")
+    ran = _commit(repository)
     assert (ran.returncode, _failing(ran)) == (0, []), ran.stdout + ran.stderr
     assert git(repository, "diff", "HEAD", "--", "cells") == ""
+
+
+def test_device_of_no_cell_that_cannot_be_read_is_stopped(repository: Path) -> None:
+    _hooked(repository)
+    (repository / "spare").mkdir()
+    (repository / "spare/device.yaml").write_text("format: [1", encoding="utf-8")
+    ran = _commit(repository, "cellc")
+    assert (ran.returncode, _failing(ran)) == (1, ["cellc"]), ran.stdout + ran.stderr
+    assert "spare/device.yaml:1:" in ran.stdout

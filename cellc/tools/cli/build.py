@@ -17,7 +17,7 @@ from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.printing import Line, show
 from cellc.tools.cli.batch import CellResult, cell_files, results
 from cellc.tools.cli.findings import FAIL_ON, FORMAT, IGNORE, SELECT, read_selection, selected_and_errors
-from cellc.tools.cli.fleet import FleetOptions, fleet_options, folder_of
+from cellc.tools.cli.fleet import FleetOptions, Task, fleet_options, folder_of
 from cellc.tools.cli.limit_option import limit_option
 from cellc.tools.cli.rows import finish_rows, row_of, show_checked
 from cellc.tools.report.text_report import render_difference
@@ -70,49 +70,62 @@ def build(
     """
     wanted = read_selection(select, ignore)
     files = cell_files(files)
-    tasks, built = fleet.tasks(files), list[_Built]()
+    tasks, done = fleet.tasks(files), list[Built]()
     places: dict[tuple[str, str], Span] = {}
     for task, result in zip(tasks, results("compile", tasks, fleet.fan, full=full), strict=True):
         folder = folder_of(task.versions)
-        built.append(_built(_unless_shared(result, folder, places), output / folder, only_compare, force))
-    shown = [selected_and_errors(item.result.findings, wanted) for item in built]
-    by_task = [(task, outcome.result.findings) for task, outcome in zip(tasks, built, strict=True)]
+        done.append(built(task, unless_shared(result, folder, places), output / folder, only_compare, force))
+    shown = [selected_and_errors(item.result.findings, wanted) for item in done]
+    by_task = [(task, outcome.result.findings) for task, outcome in zip(tasks, done, strict=True)]
     show_checked(fleet, by_task, shown, output_format, sum_blockers=True)
-    messages = [line for item in built for line in item.messages]
+    messages = [line for item in done for line in item.messages]
     if output_format == "text" and messages and not fleet.as_json:
         show(*messages)
     rows = [
         row_of(task, outcome.result, findings, fail_on, outcome.problem)
-        for task, outcome, findings in zip(tasks, built, shown, strict=True)
+        for task, outcome, findings in zip(tasks, done, shown, strict=True)
     ]
     finish_rows(fleet, rows, output_format)
 
 
 @dataclass(frozen=True, slots=True)
-class _Built:
-    """What became of a cell, without its artifacts; ``problem`` says that its folder is not what it makes."""
+class Built:
+    """What became of a cell, without its artifacts.
+
+    Attributes:
+        problem: that its folder is not what it makes.
+        wrote: whether a file of the folder was written or removed.
+    """
 
     result: CellResult
     messages: tuple[Line, ...] = ()
     problem: str = ""
+    wrote: bool = False
 
 
-def _built(result: CellResult, output: Path, only_compare: bool, force: bool) -> _Built:
+def built(task: Task, result: CellResult, output: Path, only_compare: bool, force: bool) -> Built:
+    """Write what a cell makes below a folder, or compare it with what is there.
+
+    Args:
+        output: the parent folder, that of the versions of the task included.
+    """
     if result.artifacts is None or result.cell is None:
-        return _Built(result)
+        return Built(result)
     folder = output / result.cell.name
     if only_compare:
         if in_the_way := tuple(check_places(result.artifacts, folder)):  # nothing is shown of what a link leads to
-            return _Built(replace(result, findings=result.findings.with_more(in_the_way), artifacts=None))
+            return Built(replace(result, findings=result.findings.with_more(in_the_way), artifacts=None))
         differences = compare(result.artifacts, folder)
-        problem = f"`{folder.as_posix()}` is out of date; run `cellc build`" if differences else ""
-        return _Built(replace(result, artifacts=None), tuple(_differences(differences, folder)), problem)
+        command = build_command(task.file, output)
+        problem = f"`{folder.as_posix()}` is out of date; run `{command}`" if differences else ""
+        return Built(replace(result, artifacts=None), tuple(_differences(differences, folder, command)), problem)
     findings, report = written(result.findings, result.artifacts, folder, force)
     messages = () if report is None else (summary_of(report, folder),)
-    return _Built(replace(result, findings=findings, artifacts=None), messages)
+    wrote = report is not None and bool(report.written or report.removed)
+    return Built(replace(result, findings=findings, artifacts=None), messages, wrote=wrote)
 
 
-def _unless_shared(result: CellResult, folder: str, places: dict[tuple[str, str], Span]) -> CellResult:
+def unless_shared(result: CellResult, folder: str, places: dict[tuple[str, str], Span]) -> CellResult:
     """Take the artifacts from a cell whose folder is made already; ``places`` holds where the cells are named."""
     if result.cell is None:
         return result
@@ -131,6 +144,11 @@ def written(
     return findings.with_more(outcome.diagnostics), outcome.value
 
 
+def build_command(file: str, output: Path) -> str:
+    """Return the command that makes the folder of a cell again."""
+    return f"cellc build {file}" if output == Path("generated") else f"cellc build {file} -o {output.as_posix()}"
+
+
 def summary_of(report: WriteReport, folder: Path) -> str:
     """Say how many files of a folder were written, removed and left."""
     parts = [(len(report.written), "written"), (len(report.removed), "removed"), (len(report.unchanged), "unchanged")]
@@ -138,9 +156,9 @@ def summary_of(report: WriteReport, folder: Path) -> str:
     return f"{folder.as_posix()}: {shown}"
 
 
-def _differences(differences: tuple[Difference, ...], folder: Path) -> list[Line]:
+def _differences(differences: tuple[Difference, ...], folder: Path, command: str) -> list[Line]:
     if not differences:
         return [f"{folder.as_posix()}: up to date"]
     if not folder.is_dir():
-        return [f"{folder.as_posix()}: no such folder; run `cellc build`"]
+        return [f"{folder.as_posix()}: no such folder; run `{command}`"]
     return [line for difference in differences for line in render_difference(difference, folder)]

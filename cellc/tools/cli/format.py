@@ -49,7 +49,7 @@ def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
         done = [take_content(sys.stdin.buffer.read(), "<stdin>")]
     else:
         done = []
-        for file in _meant(files):
+        for file in meant(files):
             stage(file)
             done.append(take_file(file))
     refused = [Findings(taken.name, {taken.name: taken.before}, taken.findings) for taken in done if taken.findings]
@@ -62,14 +62,14 @@ def format(files: tuple[str, ...], check: bool, diff: bool) -> None:
     if _STDIN in files:
         failed = writes and not refused and not _shown(done[0].after)
     else:
-        failed = [_put(taken, writes=writes) for taken in changed].count(False) > 0
+        failed = [put(taken, writes=writes) for taken in changed].count(False) > 0
         if same := len(done) - len(changed) - len(refused):
             show(f"{count(same, 'file')} {'is' if same == 1 else 'are'} in canonical form", to=Stream.ERR)
     if refused or failed or (check and changed):
         raise click.exceptions.Exit(1)
 
 
-def _meant(files: Sequence[str]) -> Iterator[str]:
+def meant(files: Sequence[str]) -> Iterator[str]:
     """Yield each file once that arguments stand for."""
     from cellc.compiler.catalog.compiled import DEVICE_FILE, FAMILY_FILE
     from cellc.tools.layout.files import with_includes
@@ -87,7 +87,7 @@ def _meant(files: Sequence[str]) -> Iterator[str]:
                     yield include
 
 
-def _put(one: Taken, *, writes: bool) -> bool:
+def put(one: Taken, *, writes: bool) -> bool:
     """Write a file in its form and say so on standard error, or say that it would be."""
     from cellc.tools.edit.rewrite import replace_text
 

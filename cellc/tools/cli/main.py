@@ -23,6 +23,7 @@ _COMMANDS = {
     "show": "Show a resolved value and its source.",
     "format": "Format the files of cells and devices.",
     "build": "Check cells and write their ROS 2 packages.",
+    "hook": "Check form, errors and generated folders before a commit.",
     "watch": "Check cells, and build them, each time a file is saved.",
     "mock": "Run the rehearsals of a generated folder on the mock.",
     "campaign": "Inject every fault at every step of the rehearsals.",
