@@ -74,7 +74,7 @@ class GroupChain:
         model = scene.model
         self.turning = np.array([model.is_turning(joint) for joint in group.joints])
         self._model = model.kinematics
-        self._data = model.kinematics.createData()
+        self._data = model.scratch
         self._joints = group.joints
         self._base, self._tip = model.frame_of(group.base_link), model.frame_of(group.tip_link)
         driven = _driven_joints(model, group)
@@ -109,7 +109,7 @@ class GroupChain:
 
     def in_scene(self, scene: CollisionScene) -> GroupChain:
         """Return the chain of the same group in another scene of the same model."""
-        chain = copy.copy(self)  # what is computed in the shared data is never kept
+        chain = copy.copy(self)
         chain._bind(scene)
         return chain
 
@@ -144,7 +144,7 @@ class GroupChain:
         pinocchio.computeJointJacobians(self._model, self._data, self.full(configuration))
         placement = pinocchio.updateFramePlacement(self._model, self._data, self._tip)
         whole = pinocchio.getFrameJacobian(self._model, self._data, self._tip, pinocchio.LOCAL)
-        return placement, whole @ self._speeds
+        return placement.copy(), whole @ self._speeds
 
     def collides(self, configuration: Array) -> bool:
         """Tell whether the cell is in collision with the group at a configuration."""
@@ -201,9 +201,8 @@ def sweep_rates(model: RobotModel, joints: tuple[str, ...], shapes: Iterable[Pin
 
 def _subspaces(model: RobotModel) -> Mapping[int, tuple[Array, Array]]:
     """Return the direction in which each joint of one degree of freedom moves and the axis that it turns about."""
-    data = model.kinematics.createData()
     single = [joint for joint in range(1, model.kinematics.njoints) if model.kinematics.nvs[joint] == 1]
-    vectors = {joint: np.asarray(data.joints[joint].S, dtype=np.float64).reshape(6) for joint in single}
+    vectors = {joint: np.asarray(model.scratch.joints[joint].S, dtype=np.float64).reshape(6) for joint in single}
     return {joint: (vector[:3], vector[3:]) for joint, vector in vectors.items()}
 
 

@@ -44,6 +44,8 @@ class RobotModel:
         joints: names of the independent joints of one degree of freedom, parents first, without mimic joints.
         links: names of the links in the order of pinocchio's frames.
         mimics: joints that follow one of ``joints``; to pinocchio they are free, and every configuration sets them.
+        scratch: what pinocchio computes in, for all who ask this model: each call fills what it reads, and nobody keeps
+            what is in it. It grows with the third power of the joints. One model is not for two threads.
     """
 
     kinematics: PinModel
@@ -51,6 +53,7 @@ class RobotModel:
     joints: tuple[str, ...]
     links: tuple[str, ...]
     mimics: tuple[MimicJoint, ...]
+    scratch: PinData
 
     @classmethod
     def from_urdf(
@@ -86,7 +89,7 @@ class RobotModel:
         following = {mimic.joint for mimic in mimics}
         joints = tuple(name for name in single if name not in following)
         links = tuple(frame.name for frame in model.frames if frame.type == pinocchio.FrameType.BODY)
-        return cls(model, geometry, joints, links, mimics)
+        return cls(model, geometry, joints, links, mimics, model.createData())
 
     def frame_of(self, link: str) -> int:
         """Return pinocchio's index of a link's frame; raise ModelError where there is no such link."""
@@ -130,7 +133,7 @@ class RobotModel:
 
     def link_pose(self, link: str, positions: Mapping[str, float], *, base_link: str) -> Pose:
         """Return the pose of a link in the frame of another link."""
-        data = self.kinematics.createData()
+        data = self.scratch
         pinocchio.framesForwardKinematics(self.kinematics, data, self.configuration(positions))
         return to_pose(data.oMf[self.frame_of(base_link)].actInv(data.oMf[self.frame_of(link)]))
 

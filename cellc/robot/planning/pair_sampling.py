@@ -85,7 +85,7 @@ class PairCheck:
             margin_m: shapes nearer than this count as touching.
         """
         self._model = model.kinematics
-        self._data = model.kinematics.createData()
+        self._data = model.scratch
         self._geometry, links = _shapes_of(model, set(pairs))
         self._geometry_data = self._geometry.createData()
         for request in self._geometry_data.collisionRequests:

@@ -53,7 +53,7 @@ class CollisionScene:
         self._names, self._geometry = with_boxes(model, boxes)
         self._check_names()
         self._geometry.setCollisionPairs(movable_pairs(self._geometry, self._names, self.disabled_collisions))
-        self._data = model.kinematics.createData()
+        self._data = model.scratch
         self._geometry_data = self._geometry.createData()
         self._boxes_around = broad_phase(model, self._geometry, self._geometry_data)
         self._rest = model.configuration(self.other_positions)
@@ -120,8 +120,8 @@ class CollisionScene:
         """
         geometry = self._geometry
         # What is computed with has no past: a search that begins where the last one ended comes out otherwise.
-        data, geometry_data = self.model.kinematics.createData(), geometry.createData()
-        pinocchio.updateGeometryPlacements(self.model.kinematics, data, geometry, geometry_data, configuration)
+        geometry_data = geometry.createData()
+        pinocchio.updateGeometryPlacements(self.model.kinematics, self._data, geometry, geometry_data, configuration)
         pairs = enumerate(geometry.collisionPairs)
         between = [
             index
@@ -143,8 +143,8 @@ class CollisionScene:
         pairs = movable_pairs(geometry, names, self.disabled_collisions)
         pairs[:-1, :-1] = False
         geometry.setCollisionPairs(pairs)
-        data, geometry_data = self.model.kinematics.createData(), geometry.createData()
-        pinocchio.computeCollisions(self.model.kinematics, data, geometry, geometry_data, configuration, False)
+        geometry_data = geometry.createData()
+        pinocchio.computeCollisions(self.model.kinematics, self._data, geometry, geometry_data, configuration, False)
         results = zip(geometry.collisionPairs, geometry_data.collisionResults, strict=True)
         return tuple(sorted({names[pair.first] for pair, result in results if result.isCollision()}))
 

@@ -21,10 +21,7 @@ _FARTHEST = 1.0
 
 
 class Weights:
-    """The torques and forces of joints against the weight of a robot, or of some masses on its links alone.
-
-    Each call computes with scratch data of its own object: one object is not for two threads.
-    """
+    """The torques and forces of joints against the weight of a robot, or of some masses on its links alone."""
 
     def __init__(
         self,
@@ -47,7 +44,7 @@ class Weights:
         """
         self.joints = tuple(joints)
         self._model = _with_masses(robot, masses, robot_too=robot_too)
-        self._data = self._model.createData()
+        self._data = robot.scratch  # which the joints shape, not the masses
         known = {joint: value for joint, value in (others or {}).items() if joint in robot.joints}
         self._configuration = robot.configuration(known)
         self._robot = robot
