@@ -44,7 +44,7 @@ class RobotModel:
         joints: names of the independent joints of one degree of freedom, parents first, without mimic joints.
         links: names of the links in the order of pinocchio's frames.
         mimics: joints that follow one of ``joints``; to pinocchio they are free, and every configuration sets them.
-        scratch: what pinocchio computes in, for all who ask this model: each call fills what it reads, and nobody keeps
+        scratch: what pinocchio computes in, for all who ask this model: each call fills what it reads, and none keeps
             what is in it. It grows with the third power of the joints. One model is not for two threads.
     """
 

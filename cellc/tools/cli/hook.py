@@ -29,8 +29,8 @@ _SHOWN = 12
 def hook(files: tuple[str, ...], output: Path, fix: bool) -> None:
     """Check FILES for a commit: canonical form, errors, and generated folders that are up to date.
 
-    A folder means every cell.yaml below it. Prints only what fails, with the command that mends it; a cell that has
-    changed nothing since it was built is not compiled again.
+    A folder means every cell.yaml below it. Prints only what fails, with the command that corrects it; a cell that
+    has not changed since it was built is not compiled again.
 
     \b
     cellc hook .                  fails where something must be done
@@ -40,16 +40,16 @@ def hook(files: tuple[str, ...], output: Path, fix: bool) -> None:
     in_form = all(list(_formed(files, fix, refused)))
     cells = cell_files(files)
     done = list(_built(cells, output, fix))
-    failing = [findings for one in done if (findings := _errors(one)).diagnostics]
+    failing = [findings for cell in done if (findings := _errors(cell)).diagnostics]
     reported = {finding.span.file for findings in failing for finding in findings.diagnostics}
     failing += [findings for findings in refused if findings.file not in reported]
     show_findings(failing, "text")
-    for file, one in zip(cells, done, strict=True):
-        if one.wrote:
-            show(*one.messages)
-        if one.problem:
-            show(*_shortened(one.messages, build_command(file, output)), one.problem)
-    if failing or not in_form or any(one.problem for one in done):
+    for file, cell in zip(cells, done, strict=True):
+        if cell.wrote:
+            show(*cell.messages)
+        if cell.problem:
+            show(*_shortened(cell.messages, build_command(file, output)), cell.problem)
+    if failing or not in_form or any(cell.problem for cell in done):
         raise click.exceptions.Exit(1)
     show(f"{count(len(done), 'cell')} up to date", to=Stream.ERR)
 
@@ -80,8 +80,8 @@ def _built(cells: Sequence[str], output: Path, fix: bool) -> Iterator[Built]:
         yield built(task, unless_shared(result, "", places), output, only_compare=not fix, force=False)
 
 
-def _errors(one: Built) -> Findings:
-    found = one.result.findings
+def _errors(cell: Built) -> Findings:
+    found = cell.result.findings
     return replace(found, diagnostics=tuple(each for each in found.diagnostics if each.severity is Severity.ERROR))
 
 
