@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.body import KinematicCalibration, Kinematics
 from cellc.compiler.cell.device import Device
-from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Finding, Findings, Related, Severity, found, rule
 from cellc.contract.diagnostics import Span, is_slip
 from cellc.contract.pins import day_of
 from cellc.contract.vocabulary import UNKNOWN
@@ -32,6 +32,22 @@ def implausible_kinematics(graph: CellGraph) -> Findings:
                 f"`{calibration.name}` must lie within {allowed} of the type `{device.model}`, differs by {differs}"
             )
             yield found(graph, (*device.path, "calibration", "file"), message)
+
+
+@rule(Severity.ERROR)
+def kinematics_of_another_robot(graph: CellGraph) -> Findings:
+    """Yield the second device with the table of a robot, by its hash."""
+    first: dict[str, Device] = {}
+    for device in graph.cell.devices:
+        kinematics = device.body.kinematics
+        calibration = None if kinematics is None else kinematics.calibration
+        if kinematics is None or calibration is None or calibration.hash == kinematics.nominal_hash:
+            continue
+        owner = first.setdefault(calibration.hash, device)
+        if owner is not device:
+            message = f"`{calibration.name}` must be read from `{device.name}`, got the table of `{owner.name}`"
+            related = (Related("first named here", graph.cell.locate(*owner.path, "calibration", "file")),)
+            yield found(graph, (*device.path, "calibration", "file"), message, related=related)
 
 
 @rule(Severity.BLOCKER)
