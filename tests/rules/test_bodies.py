@@ -63,6 +63,13 @@ CASES = {
         3,
         "the density must be from 2 kg/m^3 to 20000 kg/m^3",
     ),
+    # 0.12 by 0.12 by 0.2 mm: a shape in mm that was scaled once more, and that no collision check would meet.
+    "shape scaled twice": (
+        'radius="0.04" length="0.2"',
+        'radius="0.00006" length="0.0002"',
+        3,
+        "the density must be from 2 kg/m^3 to 20000 kg/m^3",
+    ),
     "mass in tons": ('mass value="2"', 'mass value="0.002"', 3, "got 1.56 kg/m^3"),
     # sqrt(0.00001 / 2) = 2.24 mm; 8 % of 200 mm.
     "inertia of a screw": (

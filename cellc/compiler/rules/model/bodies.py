@@ -76,7 +76,7 @@ def limits_of_nothing(graph: CellGraph) -> Findings:
             yield Finding(message, _limit(part), part.path)
 
 
-_LIGHT_KG, _SMALL_M3, _WEIGHED_KG = 1e-3, 1e-6, 0.05
+_LIGHT_KG, _SMALL_M3, _WEIGHED_KG, _CRUMB_M = 1e-3, 1e-6, 0.05, 5e-5
 _CONCENTRATED = 0.08
 """Share of its length that the radius of gyration of a body is at least: a uniform rod has 0.29, a dumbbell 0.5."""
 _JOINTS = 4
@@ -213,9 +213,10 @@ def _masses(graph: CellGraph) -> Iterator[Figure]:
 def _densities(graph: CellGraph) -> Iterator[Figure]:
     """Yield the mass of each link by the volume of its simple shapes; a mesh tells no volume."""
     for part in _links(graph):
-        volume = sum(math.prod(edges(shape.geometry)) for shape in _simple(part.link))
+        sizes = [edges(shape.geometry) for shape in _simple(part.link)]
+        volume = sum(map(math.prod, sizes)) if all(min(size) >= _CRUMB_M for size in sizes) else 0.0
         mass = 0.0 if part.link.inertial is None else part.link.inertial.mass
-        if mass > _LIGHT_KG and volume > _SMALL_M3:
+        if volume > 0.0 and mass > (_LIGHT_KG if volume > _SMALL_M3 else _WEIGHED_KG):
             why = f"link `{part.link.name}`, by the boxes around its shapes"
             yield Figure(part.path, mass / volume, 2.0, 2e4, why, span=_weighed(part))
 
@@ -327,7 +328,7 @@ def _shapes(graph: CellGraph) -> Iterator[Figure]:
     for part in _links(graph):
         for shape in _occupied(part.link):
             for measure in (*_measures(shape.geometry), math.hypot(*shape.pose.position) or 1.0):
-                yield Figure(part.path, measure, 5e-5, 30.0, f"link `{part.link.name}`, in m", span=part.span)
+                yield Figure(part.path, measure, _CRUMB_M, 30.0, f"link `{part.link.name}`, in m", span=part.span)
 
 
 def _mesh_extents(graph: CellGraph) -> Iterator[Figure]:
@@ -336,7 +337,7 @@ def _mesh_extents(graph: CellGraph) -> Iterator[Figure]:
             reach = mesh_reach(graph, mesh)
             if reach is not None:
                 why = f"link `{part.link.name}`, with its scale"
-                yield Figure(part.path, max(reach), 5e-5, 30.0, why, span=mesh.span or part.span)
+                yield Figure(part.path, max(reach), _CRUMB_M, 30.0, why, span=mesh.span or part.span)
 
 
 def _scales(graph: CellGraph) -> Iterator[Figure]:
