@@ -26,7 +26,8 @@ class Rule(Enum):
     BACK = "dangerous where it is lower, else review"
     NAMED = "dangerous where it became UNKNOWN or vanished, else review"
     MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
-    PLACED = "dangerous for the base of an arm, and without a new revision of its calibration; else review"
+    PLACED = "dangerous for the base of an arm, of an obstacle, and without a new calibration; else review"
+    COVERED = "dangerous where it no longer takes up all the room that it took, else review"
     CLAIM = "dangerous where another claims it than before, else review"
     LOST = "dangerous where something of it is lost, else review"
 
@@ -36,8 +37,8 @@ class Graded(NamedTuple):
 
     Args:
         quantity: what changed, as people read it: `bound of its offset`; the name of the field where it is empty.
-        unit: SI unit of the value, for people: `m` is shown in mm, `rad` in degrees; `joint` is either. A unit that
-            the name of the field ends in needs no word.
+        unit: SI unit of the value, for people: `m` is shown in mm, `rad` in degrees; `joint` is either, and
+            `effort` N or N m. A unit that the name of the field ends in needs no word.
         breaking: a consumer outside of the cell breaks.
         ordered: whether the order of a list says something.
         why: what the change means, beside the rule.
@@ -56,6 +57,7 @@ class Graded(NamedTuple):
     share: bool = True
 
 
+UNAVOIDED = "planning no longer avoids all the room that it avoided"
 GRIPPED = "another part may be taken for the right one"
 STALE = "older data may be used, or a failure goes unseen for longer"
 FURTHER = "the joint may move further or faster than people at the cell expect"

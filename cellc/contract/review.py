@@ -21,6 +21,15 @@ class ReviewSide(ContractModel):
     configuration_id: str = Field(description="Id over all that evidence rests on.")
 
 
+class ReviewValue(ContractModel):
+    """A value of the spec that is another one."""
+
+    line: str = Field(description="Its path below that of the cause.")
+    before: str | None = Field(None, description="What it said; null where it is new.")
+    after: str | None = Field(None, description="What it says; null where it is gone.")
+    place: str = Field(description="File, line and column.")
+
+
 class ReviewCause(ContractModel):
     """A line of the spec, or a part of it, that causes changes."""
 
@@ -31,6 +40,7 @@ class ReviewCause(ContractModel):
     )
     place: str = Field("", description="File, line and column; of what is gone, those before.")
     lines: int = Field(1, description="How many values of that part are listed as one.")
+    values: tuple[ReviewValue, ...] = Field((), description="Those values, where there are several.")
     renamed: bool = Field(False, description="It only has another name.")
 
 
@@ -48,6 +58,8 @@ class ReviewChange(ContractModel):
     why: str = Field("", description="Why it has this grade, by the rules of docs/review.md.")
     approval: ApprovalArea = Field(description="Area of approval.")
     owner: str = Field(description="Who approves it, by the spec after the change.")
+    beside: ApprovalArea | None = Field(None, description="Area of approval that is asked beside it: that of `area`.")
+    beside_owner: str = Field("", description="Who approves it there.")
     cause: int | None = Field(None, description="Number of its cause in `causes`, from 0; null where no line is known.")
 
 

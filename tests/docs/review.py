@@ -47,7 +47,9 @@ of both sides on the mock and compares how they end. `--format markdown` writes 
 
 What is printed fits on a screen of 25 lines, and so does what a comment shows unfolded; `--all` prints every value,
 finding and gate. New findings come first, those that fail before others. Then each line of the spec that changed is a
-heading with what it causes under it: the worst first, and of one grade what safety approves first. To know what a line
+heading with what it causes under it: the worst first, and of one grade what safety approves first, then in the order
+of the areas below, in which what protects and what moves stands before versions and documents. Lines that are too long
+are broken where the whole still fits, else cut. Two lines that exchanged their values say so. To know what a line
 causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
 device and its controllers, are listed together; so are those of one part of the spec where there are many. Folders have
 no spec: their changes are listed by area. In a pull request the action annotates what is new, and what fails
@@ -84,12 +86,15 @@ A measured transform changes only with a new measurement: a changed pose of a ca
 the calibration has a new revision. So is another model, serial number, mount or day of mounting of a device that a
 calibration measured: the device of the frame, and those that carry it, up to the next joint that moves.
 
+Collision shapes are compared by the room that they take up. One that shrank or lies elsewhere is dangerous, as is one
+that is gone: planning no longer avoids where it was. One that grew is graded `review`.
+
 How far tips move in each named pose, and goals in the root frame, is computed by
 forward kinematics, with dynamic frames at their pose on the mock.
 
 A finding that a comment in the spec excuses is not resolved: the excuse is listed. Where two cells differ and no file
-shows how, each value is listed by its name in the linked cell; for two generated folders only the difference itself is
-reported.
+shows how, each value is listed by its name in the linked cell; two generated folders do not hold such a value:
+their difference is dangerous, and the review says to compare the specs.
 """
 
 

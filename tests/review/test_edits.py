@@ -12,6 +12,7 @@ import math
 
 import pytest
 
+from cellc.contract.vocabulary import ReviewArea
 from cellc.tools.review.compare import changes_between
 from cellc.tools.review.facts import facts_of
 from cellc.tools.review.sides import Package
@@ -119,7 +120,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous safety | floor | what is stated around the arms shapes | floor -> ",
             "review safety | floor | what is stated around the arms open.date | None -> 2027-01-01",
             "review safety | floor | what is stated around the arms open.person | None -> safety",
-            "review model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, length 40 mm",
+            "dangerous model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, length 40 mm",
             "review gates | gates/promotion.md | 1 line (not classified) | - [ ] Measure around each arm. Compare its "
             "floor with the spec: floor, and nothing else within reach. -> - [ ] Measure around each arm. Compare its "
             "walls with the spec: nothing within reach; the nearest is 2 m away.",
@@ -303,7 +304,11 @@ def test_an_edit_is_told_by_what_it_means(name: str, repository: Repository, mai
     edits, expected = GROUPS[name]
     after = package_of(repository, repository.commit(edited(*edits)))
     found = changes_of(main, after)
-    assert found == expected
+    # Within an area each case lists what belongs together; that areas follow each other is read from the areas.
+    assert sorted(found) == sorted(expected)
+    grades, areas = ("dangerous", "review", "safe"), [str(area) for area in ReviewArea]
+    ranks = [(grades.index(told.split()[0]), areas.index(told.partition(" ")[2].split(" | ")[0])) for told in found]
+    assert ranks == sorted(ranks)
 
 
 def test_there_are_more_than_thirty_edits() -> None:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 from cellc.compiler.pipeline import check_document
 from cellc.compiler.source.document import Child, SourceDocument
 from cellc.contract.diagnostics import YamlPath
-from cellc.contract.review import ReviewCause
+from cellc.contract.review import ReviewCause, ReviewValue
 from cellc.tools.review.compare import Change, reported
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.sides import SideError, package_of
@@ -122,8 +122,22 @@ def as_cause(cause: Cause) -> ReviewCause:
         before, after = _text(first.before), _text(first.after)
         return ReviewCause(line=_dotted(first.path), before=before, after=after, place=str(first.place))
     common = _common(cause)
-    parts = ", ".join(_dotted(edit.path[len(common) :]) for edit in cause)
-    return ReviewCause(line=_dotted(common) or "spec", after=_short(parts), place=str(first.place), lines=len(cause))
+    values = tuple(
+        ReviewValue(
+            line=_dotted(edit.path[len(common) :]),
+            before=_text(edit.before),
+            after=_text(edit.after),
+            place=str(edit.place),
+        )
+        for edit in cause
+    )
+    return ReviewCause(
+        line=_dotted(common) or "spec",
+        after=_short(", ".join(value.line for value in values)),
+        place=str(first.place),
+        lines=len(cause),
+        values=values,
+    )
 
 
 def _common(cause: Cause) -> YamlPath:

@@ -19,7 +19,7 @@ from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, f
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
 from cellc.tools.review.rows import FOLLOWS, ROWS
 from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, Thing, fits
-from cellc.tools.review.units import difference, shown
+from cellc.tools.review.units import difference, shown, unit_in
 
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 """A spec that was moved makes the same package: its path is in the head of every file."""
@@ -27,6 +27,10 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
+UNCLASSIFIED = "(not classified)"
+"""How the quantity of lines ends that no row of the table explains."""
+WHOLE = "cell"
+"""Subject of what belongs to the cell itself."""
 _PINNED = ("contract", "version_tuple")
 _SHOWS = ("graph/", "README.md")
 """Files that show people what the others say, in the order of the spec: they are reported where a hand edited them."""
@@ -68,10 +72,7 @@ def merged(found: Sequence[tuple[int | None, Change]], before: Facts, after: Fac
     alike: dict[tuple[int | None, Change], list[str]] = {}
     for cause, change in found:
         alike.setdefault((cause, replace(change, subject="")), []).append(change.subject)
-    changes = [
-        _reviewed(change, cause, tuple(subjects), owners.get(change.approval or APPROVAL[change.area], ""))
-        for (cause, change), subjects in alike.items()
-    ]
+    changes = [_reviewed(change, cause, tuple(subjects), owners) for (cause, change), subjects in alike.items()]
     return tuple(sorted(changes, key=_order))
 
 
@@ -89,7 +90,9 @@ def _order(change: ReviewChange) -> tuple[int, int, str, tuple[str, ...]]:
     return (-tuple(Grade).index(change.grade), areas.index(change.area), change.quantity, change.subjects)
 
 
-def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owner: str) -> ReviewChange:
+def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:
+    asked, own = change.approval or APPROVAL[change.area], APPROVAL[change.area]
+    owner, beside = owners.get(asked, ""), own if own != asked else None
     return ReviewChange(
         area=change.area,
         subjects=tuple(subjects),
@@ -100,8 +103,10 @@ def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owner:
         grade=change.grade,
         breaking=change.breaking,
         why=change.why,
-        approval=change.approval or APPROVAL[change.area],
+        approval=asked,
         owner=owner,
+        beside=beside,
+        beside_owner="" if beside is None else owners.get(beside, ""),
         cause=cause,
     )
 
@@ -143,15 +148,18 @@ def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
     if before.cell is not None and after.cell is not None:
         cells = (dict(flatten(as_json(before.cell))), dict(flatten(as_json(after.cell))))
         found = [difference for difference in differences(*cells) if difference.path[0] not in _SAID_ELSEWHERE]
-    for delta in found or [Delta(("cell",), was[:12], now[:12])]:
+    for delta in found:
         yield Change(
             ReviewArea.GATES,
             " ".join(delta.path),
             "value that no file of the package shows",
-            shown(delta.before, _unit_in(delta.path[-1])),
-            shown(delta.after, _unit_in(delta.path[-1])),
+            shown(delta.before, unit_in(delta.path[-1])),
+            shown(delta.after, unit_in(delta.path[-1])),
             Grade.REVIEW,
         )
+    if not found:
+        told = "value that these folders do not hold; compare the specs"
+        yield Change(ReviewArea.GATES, WHOLE, told, was[:12], now[:12], Grade.DANGEROUS)
 
 
 def _lines_of(facts: Facts, renamed: bool) -> Mapping[str, Sequence[str]]:
@@ -283,11 +291,13 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         and same(delta.before, delta.after, ordered=row.grade.ordered)
     ):
         return None
-    unit = _unit(row.grade.unit or _unit_in(delta.path[-1]), fit.subject, before, after)
+    unit = _unit(row.grade.unit or unit_in(delta.path[-1]), fit.subject, before, after)
     verdict = grade(row.grade.rule, delta, before, after)
+    if delta.path[0] == "pair" and None in (delta.before, delta.after):
+        return _of_pair(delta, row, verdict.grade)
     return Change(
         verdict.area or row.grade.area,
-        " ".join(fit.subject) or "cell",
+        " ".join(fit.subject) or WHOLE,
         " ".join((row.grade.quantity, ".".join(fit.of).removesuffix("_kg"))).rstrip(),
         shown(delta.before, unit),
         shown(delta.after, unit),
@@ -296,6 +306,25 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         row.grade.breaking and delta.before is not None,
         verdict.why or (row.grade.why if verdict.grade is Grade.DANGEROUS else ""),
         verdict.approval,
+        words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
+        differing=_differing(delta.before, delta.after),
+    )
+
+
+PAIRS = ("can now meet", "can no longer meet")
+"""What is said of two links of which a collision is checked that was not, and the other way round."""
+
+
+def _of_pair(delta: Delta, row: Row, taken: Grade) -> Change:
+    """Return that a pair of links is checked for collision now, or is not any more, as a person reads it."""
+    before, after = ("checked" if leaf is None else f"not checked ({leaf})" for leaf in (delta.before, delta.after))
+    return Change(
+        row.grade.area,
+        " with ".join(delta.path[1].split(" and ")),
+        PAIRS[delta.after is not None],
+        before,
+        after,
+        taken,
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),
     )
@@ -316,21 +345,17 @@ def area_of_file(file: str) -> ReviewArea:
     return next((area for start, area in AREA_OF_FILE if file.startswith(start)), ReviewArea.DOCUMENTS)
 
 
-def _unit_in(name: str) -> str:
-    """Return the unit that the name of a value ends in."""
-    return next(
-        (unit for end, unit in (("_s", "s"), ("_hz", "Hz"), ("_m", "m"), ("_kg", "kg")) if name.endswith(end)), ""
-    )
-
-
 def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:
     """Return the unit of a value of a joint, or of the joints of a group: those of a gripper may be lengths."""
-    if not unit.startswith("joint"):
+    if not unit.startswith(("joint", "effort")):
         return unit
     groups = (side.contract.groups.get(name) for side in (after, before) for name in names)
     wanted = {*names, *(joint for group in groups if group is not None for joint in group.joints)}
     joints = (joint for side in (after, before) for joint in side.description.joints if joint.name in wanted)
-    return unit.replace("joint", "m" if any(joint.type == "prismatic" for joint in joints) else "rad")
+    is_straight = any(joint.type == "prismatic" for joint in joints)
+    if unit == "effort":
+        return "N" if is_straight else "N m"
+    return unit.replace("joint", "m" if is_straight else "rad")
 
 
 def _effects(before: Facts, after: Facts) -> Iterator[Change]:
@@ -362,7 +387,7 @@ def _of_lines(left: LinesLeft) -> Change:
     return Change(
         area,
         left.file,
-        f"file {left.whole}" if left.whole else f"{text} (not classified)",
+        f"file {left.whole}" if left.whole else f"{text} {UNCLASSIFIED}",
         text if left.whole == "removed" else _some(left.before),
         text if left.whole == "added" else _some(left.after),
         Grade.REVIEW,

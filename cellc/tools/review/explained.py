@@ -92,6 +92,7 @@ def _of_rename(rename: Rename, before: Facts, after: Facts) -> Change:
         f"{count(len(followed), 'name')} follow{'s' * (len(followed) == 1)}" if followed else "",
         breaking=bool(known),
         why=f"consumers of {', '.join(known[:_FEW])}{more}" if known else "",
+        approval="graph" if known else None,
     )
 
 

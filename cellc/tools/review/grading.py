@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
-from cellc.contract.grading import Rule
+from cellc.contract.grading import UNAVOIDED, Rule
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
+from cellc.tools.review.covering import covers, is_obstacle
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Delta, Leaf, said
 from cellc.tools.review.measured import unmeasured
@@ -31,7 +32,7 @@ def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return verdict
     measured = ", ".join(f"`{name}`" for name in names)
     area = verdict.area if verdict.grade is Grade.DANGEROUS else ReviewArea.CALIBRATION
-    return Verdict(Grade.DANGEROUS, f"measured with it, without a new revision: {measured}", area)
+    return Verdict(Grade.DANGEROUS, f"{UNMEASURED}: {measured}", area)
 
 
 def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
@@ -39,10 +40,15 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(_FIXED[rule])
     if rule is Rule.PLACED:
         return _of_placement(delta, before, after)
+    if rule is Rule.COVERED:
+        return _of_shapes(delta, before, after)
     if rule is Rule.MEASURED:
         return _of_measurement(delta, before, after)
     return Verdict(_GRADES[rule](delta.before, delta.after))
 
+
+UNMEASURED = "measured with it, without a new revision"
+"""How a grade begins that rests on calibrations that were not renewed."""
 
 _FIXED = {Rule.SAFE: Grade.SAFE, Rule.REVIEW: Grade.REVIEW, Rule.DANGEROUS: Grade.DANGEROUS}
 
@@ -121,6 +127,8 @@ def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
     frame = delta.path[1]
     if delta.before is not None and delta.after is not None and frame in _bases(before) & _bases(after):
         return Verdict(Grade.DANGEROUS, ELSEWHERE, approval="safety")
+    if delta.before is not None and delta.after is not None and _is_obstacle(frame, before):
+        return Verdict(Grade.DANGEROUS, UNAVOIDED, ReviewArea.MODEL)
     was, now = (side.contract.frames.get(frame) for side in (before, after))
     name = None if now is None else now.calibration
     if was is None or name is None or was.calibration != name:
@@ -132,6 +140,20 @@ def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(Grade.REVIEW, f"calibration `{name}` changed from revision {old.revision} to {new.revision}")
     why = f"calibration `{name}` measured it, and has no new revision after {old.revision}"
     return Verdict(Grade.DANGEROUS, why, ReviewArea.CALIBRATION)
+
+
+def _is_obstacle(link: str, facts: Facts) -> bool:
+    devices = [device.root_link for device in facts.contract.devices.values()]
+    return is_obstacle(facts.description, link, devices)
+
+
+def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    """Shapes that take up less room, or other room, are avoided no longer where they were."""
+    was, now = (
+        next((link.collisions for link in side.description.links if link.name == delta.path[2]), ())
+        for side in (before, after)
+    )
+    return Verdict(Grade.REVIEW if covers(was, now) else Grade.DANGEROUS)
 
 
 def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:

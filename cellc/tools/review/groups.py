@@ -7,7 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChange
-from cellc.contract.vocabulary import Grade
+from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.compare import UNCLASSIFIED
+from cellc.tools.review.grading import UNMEASURED
+from cellc.tools.review.titles import Quote, title_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
 _TELLING = ("reach", "largest payload", "base in its parent", "tip", "pose in its parent", "place in the root frame")
@@ -38,6 +41,11 @@ class Group:
         """The line of the spec, with its values and its place, or the area."""
         return self._title("" if self.cause is None else self.cause.line)
 
+    @property
+    def marked(self) -> str:
+        """The title with each value in backticks, where it holds none itself."""
+        return self._title("" if self.cause is None else self.cause.line, _in_backticks)
+
     def fitting(self, width: int) -> str:
         """Return the title with as much of the path at its end as there is room for."""
         parts = [] if self.cause is None else self.cause.line.split(".")
@@ -46,21 +54,26 @@ class Group:
         is_whole = self.cause is None or len(parts) == len(self.cause.line.split("."))
         return self.title if is_whole else self._title("..." + ".".join(parts))
 
-    def _title(self, line: str) -> str:
+    def _title(self, line: str, quote: Quote = str) -> str:
         cause = self.cause
         if cause is None:
             return self.changes[0].area.value
         if cause.renamed:
             follow = next((change.delta for change in self.changes if change.quantity.startswith(NAME_OF)), "")
             return f"renamed: {cause.before} -> {cause.after}{f' ({follow})' if follow else ''}"
-        place = cause.place.replace("\\", "/").rpartition("/")[2]
-        file, _, rest = place.partition(":")
-        where = f"{file}:{rest.partition(':')[0]}" if rest else place
-        if cause.lines > 1:
-            return f"{line} ({where}): {cause.after}"
-        if cause.before is None or cause.after is None:
-            return f"{line} {'added' if cause.before is None else 'removed'} ({where})"
-        return f"{line}: {cause.before} -> {cause.after} ({where})"
+        return title_of(cause, line, quote)
+
+    @property
+    def unmeasured(self) -> tuple[str, ...]:
+        """What was measured with a part that changed, and not again since."""
+        told = [change.why for change in self.changes if change.why.startswith(UNMEASURED)]
+        return tuple(dict.fromkeys(told))
+
+    @property
+    def telling(self) -> tuple[ReviewChange, ...]:
+        """The changes without the lines of documents that only follow: others of the same cause explain them."""
+        kept = tuple(change for change in self.changes if not _only_follows(change))
+        return kept if self.cause is not None and kept else self.changes
 
     @property
     def figures(self) -> tuple[str, ...]:
@@ -78,7 +91,9 @@ class Group:
     @property
     def asks(self) -> str:
         """Who approves it: area and owner of each change that is not safe."""
-        asked = {change.approval: change.owner for change in self.changes if change.grade is not Grade.SAFE}
+        told = [change for change in self.telling if change.grade is not Grade.SAFE]
+        asked = {change.beside: change.beside_owner for change in told if change.beside is not None}
+        asked |= {change.approval: change.owner for change in told}
         return ", ".join(f"{area} ({asked[area] or 'no owner'})" for area in _ASKED if area in asked)
 
 
@@ -101,8 +116,23 @@ def groups_of(review: Review) -> tuple[Group, ...]:
 
 
 def _order(group: Group) -> tuple[int, int]:
-    worst = [change.approval for change in group.changes if change.grade is group.grade]
-    return -tuple(Grade).index(group.grade), min(map(_ASKED.index, worst))
+    worst = [change for change in group.changes if change.grade is group.grade]
+    # What else changed is read with the names after.
+    is_name = group.cause is not None and group.cause.renamed
+    return -tuple(Grade).index(group.grade), -1 if is_name else min(map(_rank, worst))
+
+
+def _rank(change: ReviewChange) -> int:
+    """Return where a change stands among those of its grade: in the order of areas, what safety approves first."""
+    return 0 if change.approval == "safety" else tuple(ReviewArea).index(change.area)
+
+
+def _only_follows(change: ReviewChange) -> bool:
+    return change.area is ReviewArea.DOCUMENTS and change.quantity.endswith(UNCLASSIFIED)
+
+
+def _in_backticks(value: str) -> str:
+    return value if "`" in value else f"`{value}`"
 
 
 def areas_of(changes: Sequence[ReviewChange]) -> str:

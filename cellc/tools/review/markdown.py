@@ -76,10 +76,11 @@ def _head(review: Review) -> Iterator[str]:
 
 def _of_group(group: Group, room: int) -> tuple[list[str], int]:
     """Return the lines of a group, and how many of its changes have no room."""
+    unmeasured = "".join(f"; **{as_prose(told)}**" for told in group.unmeasured)
     figures = f": {as_prose('; '.join(group.figures))}" if group.figures else ""
     asks = f"; asks {as_prose(group.asks)}" if group.asks else ""
     lines = [
-        f"**{group.grade}** {as_prose(group.title)}{figures}",
+        f"**{group.grade}** {as_prose(group.marked)}{unmeasured}{figures}",
         f"<details><summary>{', '.join(grades_of(group.changes))}</summary>",
         "",
         *([asks[2:], ""] if asks else []),
@@ -104,6 +105,8 @@ def _row(change: ReviewChange) -> str:
     what += f"<br>{as_prose(change.why)}" if change.why else ""
     owner = as_prose(change.owner) if change.owner else "no owner"
     approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {owner}"
+    if approval and change.beside is not None:
+        approval += f"<br>{change.beside}: {as_prose(change.beside_owner) or 'no owner'}"
     cells = (
         change.grade,
         change.area,
@@ -146,7 +149,10 @@ def _finding(found: ReviewFinding) -> str:
 
 
 def _value(text: str | None) -> str:
-    return as_prose(text) if text else ""
+    """Return a value as one piece of code; one of plain words and figures stays as it is."""
+    if not text:
+        return ""
+    return text if all(map(_PLAIN.fullmatch, text.split(" "))) else as_code(text)
 
 
 def as_prose(text: str) -> str:

@@ -15,7 +15,7 @@ from cellc.compiler.cell.site import Bringup, Host, Safety
 from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract, ContractController, ContractManager
 from cellc.contract.entities import ContractEndpoint, ContractInterface
-from cellc.contract.grading import FURTHER, PLANNED, SECOND_CLIENT, Graded, Rule
+from cellc.contract.grading import FURTHER, PLANNED, SECOND_CLIENT, UNAVOIDED, Graded, Rule
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.stated import Network
 from cellc.contract.vocabulary import ReviewArea
@@ -79,13 +79,13 @@ ROWS: Sequence[Row] = (
     ),
     Row("file config/frames.yaml calibrations {calibration} {what}", Graded(_A.CALIBRATION, "measurement")),
     # What moves, and how far.
-    Row("real joint {joint} limit effort", Graded(_A.LIMITS, "effort", Rule.MORE, why=FURTHER)),
+    Row("real joint {joint} limit effort", Graded(_A.LIMITS, "effort", Rule.MORE, "effort", why=FURTHER)),
     Row("real joint {joint} axis", Graded(_A.MODEL, "axis", Rule.DANGEROUS, why="the joint turns about another axis")),
     Row("real joint {joint} type", Graded(_A.MODEL, "type", Rule.DANGEROUS)),
     Row("real joint {joint} mimic ...", Graded(_A.MODEL, "mimicked joint", Rule.DANGEROUS)),
     Row("real joint {joint} safety ...", Graded(_A.LIMITS, "soft limit")),
     Row("real joint {joint} dynamics ...", Graded(_A.MODEL, "friction")),
-    Row("real shapes {link} ...", Graded(_A.MODEL, "collision shapes", why=PLANNED)),
+    Row("real shapes {link} ...", Graded(_A.MODEL, "collision shapes", Rule.COVERED, why=UNAVOIDED)),
     Row("real inertia {link} mass", Graded(_A.MODEL, "mass", unit="kg")),
     Row("real inertia {link} ...", Graded(_A.MODEL, "inertia")),
     Row("real visuals {link} ...", Graded(_A.DOCUMENTS, "looks", Rule.SAFE)),

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TypeAlias
+import textwrap
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple, TypeAlias
 
 from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange
+from cellc.tools.review.compare import PAIRS, WHOLE
 from cellc.tools.review.groups import NAME_OF, Group, areas_of, groups_of
 from cellc.tools.review.text import STYLES, outcomes, summed_up, values_of
 
@@ -16,19 +18,59 @@ MOST_LINES = 25
 _WIDTH = 80
 _FEW = 4
 _NOTES = 2
+_FEW_PAIRS = 2
 _LONG = 40
+_UNBOUNDED = 10_000
 
 _Lines: TypeAlias = list[Line]
+_Fold: TypeAlias = Callable[[str, str], list[str]]
+"""What makes lines of a text, and with what those after the first begin."""
+
+
+class _Folds(NamedTuple):
+    findings: _Fold
+    titles: _Fold
+    values: _Fold
 
 
 def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
-    """Yield the lines of a review, at most so many, each at most as wide as a terminal."""
+    """Yield the lines of a review, at most so many, each at most as wide as a terminal.
+
+    Long ones are broken where everything has room then; else values are cut first, then findings, then titles.
+    """
+    groups = groups_of(review)
+    for found, titles, values in ((_broken, _broken, _broken), (_broken, _broken, _cut), (_cut, _broken, _cut)):
+        lines = _rendered(review, groups, _UNBOUNDED, _Folds(found, titles, values))
+        if len(lines) <= most:
+            yield from lines
+            return
+    yield from _rendered(review, groups, most, _Folds(_cut, _cut, _cut))
+
+
+def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
     head: _Lines = [summed_up(review), *_sides(review)]
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
-    new, foot = [*_findings(review)], [*_foot(review)]
-    yield from (*head, *new)
-    yield from _of_groups(groups_of(review), most - len(head) - len(new) - len(foot))
-    yield from foot
+    new, foot = [*_findings(review, folds.findings)], [*_foot(review)]
+    return [*head, *new, *_of_groups(groups, most - len(head) - len(new) - len(foot), folds), *foot]
+
+
+def _cut(text: str, _: str) -> list[str]:
+    return [cut(text)]
+
+
+def _broken(text: str, indent: str) -> list[str]:
+    """Break a text between words, so that no line is wider than the terminal; a longer word is cut."""
+    shown = escaped(text)
+    start = shown[: len(shown) - len(shown.lstrip(" "))]
+    lines = textwrap.wrap(
+        shown.strip(),
+        _WIDTH,
+        initial_indent=start,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return [cut(line) for line in lines]
 
 
 def cut(text: str, width: int = _WIDTH) -> str:
@@ -42,12 +84,13 @@ def _sides(review: Review) -> Iterator[Line]:
         yield f"{word:7} {side.name}, {side.configuration_id}"
 
 
-def _findings(review: Review) -> Iterator[Line]:
+def _findings(review: Review, fold: _Fold) -> Iterator[Line]:
     found = review.new_findings
     if not found:
         return
     yield (Styled(f"new findings: {len(found)}", Style.BOLD),)
-    yield from (cut(f"  {each.severity}[{each.code}]: {each.message}") for each in found[:_FEW])
+    for each in found[:_FEW]:
+        yield from fold(f"  {each.severity}[{each.code}]: {each.message}", "    ")
     if len(found) > _FEW:
         yield f"  and {len(found) - _FEW} more"
 
@@ -65,33 +108,43 @@ def _foot(review: Review) -> Iterator[Line]:
         yield (Styled("--all prints every value, finding and gate", Style.DIM),)
 
 
-def _of_groups(groups: Sequence[Group], room: int) -> Iterator[Line]:
+def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Line]:
     """Yield each group with what there is room for: all of them have a line before one has many."""
     shown = groups if len(groups) <= room else groups[: room - 1]
-    left = room - len(shown) - (len(shown) < len(groups))
-    for number, group in enumerate(shown):
+    titles = [_title(group, folds.titles) for group in shown]
+    left = room - sum(map(len, titles)) - (len(shown) < len(groups))
+    for number, (group, title) in enumerate(zip(shown, titles, strict=True)):
         share = max(left // (len(shown) - number), min(left, _FEW))
-        inner = [*_inner(group, share)]
+        inner = [*_inner(group, share, folds.values)]
         left -= len(inner)
-        grade = group.grade.value
-        width = _WIDTH - len(grade) - 2
-        yield (Styled(grade, STYLES[group.grade]), "  ", cut(group.fitting(width), width))
+        yield from title
         yield from inner
     if len(shown) < len(groups):
         rest = groups[len(shown) :]
-        yield f"and {count(len(rest), 'cause')} more with {count(sum(len(each.changes) for each in rest), 'change')}"
+        changes = sum(len(group.changes) for group in rest)
+        yield f"and {count(len(rest), 'cause')} more with {count(changes, 'change')}"
 
 
-def _inner(group: Group, most: int) -> Iterator[Line]:
+def _title(group: Group, fold: _Fold) -> _Lines:
+    grade = group.grade.value
+    start = f"{grade}  "
+    text = group.title if fold is _broken else group.fitting(_WIDTH - len(start))
+    first, *more = fold(start + text, "  ")
+    return [(Styled(grade, STYLES[group.grade]), first[len(grade) :]), *more]
+
+
+def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
     """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for."""
+    changes = group.telling
     asked: _Lines = [(Styled(cut(f"  asks {group.asks}"), Style.DIM),)] if group.asks else []
-    figures: _Lines = [(Styled(cut(f"  {'; '.join(group.figures)}"), Style.BOLD),)] if group.figures else []
-    worst = _alike([change for change in group.changes if change.grade is group.grade or change.breaking])
-    others = len(group.changes) - sum(map(len, worst.values()))
+    figures: _Lines = [cut(f"  {text.replace('`', '')}") for text in group.unmeasured]
+    figures += [(Styled(cut(f"  {'; '.join(group.figures)}"), Style.BOLD),)] if group.figures else []
+    worst = _alike([change for change in changes if change.grade is group.grade or change.breaking])
+    others = len(changes) - sum(map(len, worst.values()))
     room = min(_FEW, most - len(figures) - len(asked) - (others > 0))
     listed = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
-    lines = [*figures, *(_line(text, worst[text]) for text in listed)]
-    rest = [change for change in group.changes if not any(change in worst[text] for text in listed)]
+    lines = [*figures, *(line for text in listed for line in fold(_line(text, worst[text]), "    "))]
+    rest = [change for change in changes if not any(change in worst[text] for text in listed)]
     if rest:
         lines.append((Styled(cut(f"  {len(rest)} more: {areas_of(rest)}"), Style.DIM),))
     yield from (*lines, *asked)[: max(most, 0)]
@@ -113,8 +166,11 @@ def _said(change: ReviewChange) -> str:
     return f"{change.area}  {change.quantity} {values}{breaks}"
 
 
-def _line(text: str, changes: Sequence[ReviewChange]) -> Line:
+def _line(text: str, changes: Sequence[ReviewChange]) -> str:
     subjects = [subject for change in changes for subject in change.subjects]
     more = f" and {len(subjects) - 1} more" if len(subjects) > 1 else ""
-    is_name = changes[0].quantity.startswith(NAME_OF)
-    return cut(f"  {text}" if is_name else f"  {text}: {subjects[0]}{more}")
+    if changes[0].quantity in PAIRS:
+        first, rest = ", ".join(subjects[:_FEW_PAIRS]), ", ..." * (len(subjects) > _FEW_PAIRS)
+        return f"  {changes[0].area}  {count(len(subjects), 'pair')} {changes[0].quantity}: {first}{rest}"
+    is_named = changes[0].quantity.startswith(NAME_OF) or subjects == [WHOLE]
+    return f"  {text}" if is_named else f"  {text}: {subjects[0]}{more}"

@@ -79,7 +79,10 @@ def gate_line(gate: ReviewGate) -> str:
 
 def approved_by(change: ReviewChange) -> str:
     """Return whose approval a change needs; empty for one that is safe."""
-    return "" if change.grade is Grade.SAFE else f"approval {change.approval}: {change.owner or 'no owner'}"
+    if change.grade is Grade.SAFE:
+        return ""
+    beside = "" if change.beside is None else f", {change.beside}: {change.beside_owner or 'no owner'}"
+    return f"approval {change.approval}: {change.owner or 'no owner'}{beside}"
 
 
 def _change(change: ReviewChange) -> Iterator[Line]:

@@ -32,6 +32,14 @@ def shown(value: Leaf | None, unit: str) -> str | None:
     return value if isinstance(value, str) else _with_unit(value, unit)
 
 
+_ENDS = (("_s", "s"), ("_hz", "Hz"), ("_m", "m"), ("_kg", "kg"), ("center_of_mass", "m"))
+
+
+def unit_in(name: str) -> str:
+    """Return the unit that the name of a value ends in, or that it always has."""
+    return next((unit for end, unit in _ENDS if name.endswith(end)), "")
+
+
 def _shown_list(value: tuple[str | float | int | bool, ...], unit: str) -> str:
     if value and all(isinstance(item, (int, float)) and not isinstance(item, bool) for item in value):
         factor, name = _SHOWN.get(unit, (1.0, unit))

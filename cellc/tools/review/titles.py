@@ -1,0 +1,78 @@
+"""The heading of a cause: the line of the spec with its values before and after, of several lines those of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
+from cellc.contract.review import ReviewCause, ReviewValue
+
+_MOST = 6
+"""Values of one cause that a heading names."""
+_PAIR = 2
+
+Quote: TypeAlias = Callable[[str], str]
+"""How a value stands in the heading."""
+
+
+def title_of(cause: ReviewCause, line: str, quote: Quote) -> str:
+    """Return the heading of a cause.
+
+    Args:
+        line: its path, or what there is room for.
+    """
+    if len(cause.values) > 1:
+        return _of_several(cause, line, quote)
+    where = _where(cause.place)
+    if cause.before is None or cause.after is None:
+        return f"{line} {'added' if cause.before is None else 'removed'} ({where})"
+    return f"{line}: {quote(cause.before)} -> {quote(cause.after)} ({where})"
+
+
+def _of_several(cause: ReviewCause, line: str, quote: Quote) -> str:
+    values, where = cause.values, _places(cause.values)
+    paths = [value.line.split(".") for value in values]
+    names = [path[0] for path in paths]
+    ends = {tuple(path[1:]) for path in paths}
+    if len(ends) == 1 and len(values) <= _MOST and all(len(path) > 1 for path in paths):
+        whole = ".".join((line, "{" + ",".join(names) + "}", *paths[0][1:]))
+        first = values[0]
+        if all((value.before, value.after) == (first.before, first.after) for value in values):
+            return f"{whole}{_change(first, quote, shortened=True)} ({where})"
+        if _are_exchanged(values):
+            told = ", ".join(f"{name}{_change(value, quote)}" for name, value in zip(names, values, strict=True))
+            return f"{whole} exchanged: {told.replace(':', '')} ({where})"
+    told = ", ".join(value.line + _change(value, quote).removeprefix(":") for value in values[:_MOST])
+    more = f" and {len(values) - _MOST} more" if len(values) > _MOST else ""
+    return f"{line} ({where}): {told}{more}"
+
+
+def _are_exchanged(values: Sequence[ReviewValue]) -> bool:
+    """Tell whether two lines have each what the other had."""
+    if len(values) != _PAIR:
+        return False
+    one, other = values
+    return None not in (one.before, one.after) and (one.before, one.after) == (other.after, other.before)
+
+
+def _change(value: ReviewValue, quote: Quote, *, shortened: bool = False) -> str:
+    before, after = value.before, value.after
+    if before is None or after is None:
+        return " added" if before is None else " removed"
+    named, version = before.split(), after.split()
+    if shortened and len(named) == len(version) == _PAIR and named[0] == version[0] and named[0].isidentifier():
+        after = version[1]  # a version of the same package
+    return f": {quote(before)} -> {quote(after)}"
+
+
+def _places(values: Sequence[ReviewValue]) -> str:
+    """Return the file and the lines of values; of those in several files, the first."""
+    split = [_where(value.place).rpartition(":") for value in values]
+    lines = [line for file, _, line in split if file == split[0][0]]
+    return f"{split[0][0]}:{', '.join(dict.fromkeys(lines[:_MOST]))}"
+
+
+def _where(place: str) -> str:
+    """Return the name of a file and a line in it."""
+    file, _, rest = place.replace("\\", "/").rpartition("/")[2].partition(":")
+    return f"{file}:{rest.partition(':')[0]}" if rest else file
