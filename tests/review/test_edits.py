@@ -120,7 +120,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous safety | floor | what is stated around the arms shapes | floor -> ",
             "review safety | floor | what is stated around the arms open.date | None -> 2027-01-01",
             "review safety | floor | what is stated around the arms open.person | None -> safety",
-            "dangerous model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, length 40 mm",
+            "dangerous model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, "
+            "length 40 mm",
             "review gates | gates/promotion.md | 1 line (not classified) | - [ ] Measure around each arm. Compare its "
             "floor with the spec: floor, and nothing else within reach. -> - [ ] Measure around each arm. Compare its "
             "walls with the spec: nothing within reach; the nearest is 2 m away.",

@@ -312,7 +312,7 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
 
 
 PAIRS = ("can now meet", "can no longer meet")
-"""What is said of two links of which a collision is checked that was not, and the other way round."""
+"""What is said of two links of which a collision is checked that was not, and in the other direction."""
 
 
 def _of_pair(delta: Delta, row: Row, taken: Grade) -> Change:

@@ -123,7 +123,7 @@ def _order(group: Group) -> tuple[int, int]:
 
 
 def _rank(change: ReviewChange) -> int:
-    """Return where a change stands among those of its grade: in the order of areas, what safety approves first."""
+    """Return the place of a change among those of its grade: in the order of areas, what safety approves first."""
     return 0 if change.approval == "safety" else tuple(ReviewArea).index(change.area)
 
 

@@ -12,7 +12,7 @@ _MOST = 6
 _PAIR = 2
 
 Quote: TypeAlias = Callable[[str], str]
-"""How a value stands in the heading."""
+"""How a value is written in the heading."""
 
 
 def title_of(cause: ReviewCause, line: str, quote: Quote) -> str:
