@@ -80,9 +80,11 @@ def _search(path: Path, file: str | None) -> None:
     except LogError as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
-    show(*render_searched(searched))
-    if searched.pasted:
-        show("", *render_answer(answer_to(searched.pasted, cell)))
+    answer = answer_to(searched.answered, cell) if searched.answered else None
+    if searched.pasted or answer is None or not answer.fits:
+        show(*render_searched(searched))
+    if answer is not None and (searched.pasted or answer.fits):
+        show(*([""] if searched.pasted else []), *render_answer(answer))
         raise click.exceptions.Exit(1)
 
 

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice
 
+from cellc.tools.diagnose.evidence import Stated, stated
 from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, graver, length, plain, spoken
 from cellc.tools.diagnose.os_errors import os_errors
 from cellc.tools.diagnose.symptoms import LayerKnowledge, Symptom, knowledge, questions, synonyms
@@ -97,7 +98,8 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     if len({match.layer.layer for match in causes}) == 1:
         return Classified(tuple(causes[:_AT_MOST]))
     possible = [match for match in known if _is_of(match, drivers)]
-    like = _words_of(possible).likenesses(_besides(logged, spoken(text)))
+    known_facts = stated(text)
+    like = _weighed(_words_of(possible).likenesses(_besides(logged, spoken(text))), possible, known_facts)
     calls, bare = _failed_calls(known, text)
     said = [*causes, *(match for match in logged if match not in causes and not match.says_little), *calls]
     least = _LEAST_BESIDES if said else _LEAST_POINTS
@@ -108,7 +110,7 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     if not is_like and not said and not little:
         return Classified(best, fits=False)
     is_ahead = not logged and not calls and _is_ahead(like, possible) if like else False
-    return Classified(best, _question(best, is_ahead=is_ahead))
+    return Classified(best, _question(best, known_facts, is_ahead=is_ahead))
 
 
 def logged(text: str) -> tuple[Match, ...]:
@@ -161,6 +163,13 @@ def _words_of(known: Sequence[Match]) -> Words:
     return Words(table.words, [match.symptom.said for match in known], heard, table.together, table.ignored)
 
 
+def _weighed(like: Sequence[Likeness], possible: Sequence[Match], facts: Stated) -> list[Likeness]:
+    """Return the likenesses, the likest first, with what the text states counted in."""
+    factors = [facts.factor(possible[each.number].symptom.name) for each in like]
+    weighed = [replace(each, points=each.points * factor) for each, factor in zip(like, factors, strict=True)]
+    return sorted(weighed, key=lambda each: (-each.points, each.number))
+
+
 def _near(like: Sequence[Likeness], possible: Sequence[Match], least: float) -> Iterator[Match]:
     """Yield what comes near the likest; at last the likest of another layer, unless it has less than asked for."""
     like = [each for each in like if each.points >= least]
@@ -191,17 +200,25 @@ def _is_ahead(like: Sequence[Likeness], possible: Sequence[Match]) -> bool:
     return like[0].points >= _AHEAD * other
 
 
-def _question(matches: Sequence[Match], *, is_ahead: bool) -> Question:
-    """Return what separates the first proposal from the others best: its own question, or that of the two layers."""
+def _question(matches: Sequence[Match], facts: Stated, *, is_ahead: bool) -> Question:
+    """Return what separates the first proposal from the others best: its own question, or that of the two layers.
+
+    A question that the text answers is left for the next one.
+    """
     first, *rest = matches
-    if first.symptom.ask is not None:
+    if first.symptom.ask is not None and not facts.answers(first.symptom.ask):
         return Question(first.symptom.ask, (first,), tuple(rest), is_ahead)
     other = next((match.layer.layer for match in rest if match.layer.layer != first.layer.layer), None)
     layers = {first.layer.layer} if is_ahead or other is None else {first.layer.layer, other}
-    of_both = (each for each in questions().between if set(each.layers) == layers)
+    of_both = (each for each in questions().between if set(each.layers) == layers and not facts.answers(each.ask))
     between = next(of_both, None)
-    asked = next(question for question in questions().deciding if question.layer in layers)
-    ask, layer = (asked.ask, asked.layer) if between is None else (between.ask, between.layers[0])
+    if between is not None:
+        ask, layer = between.ask, between.layers[0]
+    else:
+        of_any = [each for each in questions().deciding if each.layer in {match.layer.layer for match in matches}]
+        open_yet = [each for each in of_any if not facts.answers(each.ask)]
+        asked = next((each for each in open_yet if each.layer in layers), (open_yet or of_any)[0])
+        ask, layer = asked.ask, asked.layer
     yes = tuple(match for match in matches if match.layer.layer == layer)
     return Question(ask, yes, tuple(match for match in matches if match not in yes), is_ahead)
 

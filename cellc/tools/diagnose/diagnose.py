@@ -8,11 +8,14 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from string import Formatter
 from typing import TYPE_CHECKING
 
 from cellc.compiler.formats.escape import shell_word
 from cellc.tools.diagnose.classify import Match, classify
-from cellc.tools.diagnose.fields import FIELDS, Scope, Subject, placeholders
+from cellc.tools.diagnose.evidence import Stated, stated
+from cellc.tools.diagnose.fields import FIELDS, NOT_STATED, Scope, Subject, placeholders
+from cellc.tools.diagnose.naming import loggers, names_of
 from cellc.tools.diagnose.symptoms import Hypothesis, Observation, knowledge, questions
 
 if TYPE_CHECKING:
@@ -68,6 +71,7 @@ class Answer:
             the first suspicion is certain.
         likely: the layer of the first suspicion is far ahead of all others, though not certain.
         fits: False where the suspicions are merely the nearest.
+        stated: what the text says beside the symptom and was counted with.
     """
 
     suspicions: tuple[Suspicion, ...]
@@ -76,10 +80,12 @@ class Answer:
     no: tuple[str, ...] = ()
     likely: bool = False
     fits: bool = True
+    stated: tuple[str, ...] = ()
 
 
 _ELSE = "no other layer has any of these words; add what was done before, or a line of the log"
 _SHOWN_SUBJECTS = 3
+_OF_NETWORK = re.compile(r"\bping\b|\bip route\b|\bsubnet\b|\bnetwork\b")
 # What a line may name → the scope in which the cell would have it.
 _SCOPE_OF_NAMED: dict[str, Scope] = {"controller": "controller", "topic": "topic", "frame": "frame", "target": "frame"}
 
@@ -93,16 +99,16 @@ def diagnose(text: str, cell: Cell | None) -> Answer:
     """
     classified = classify(text, knowledge(), _drivers(cell))
     suspicions = tuple(suspicion_of(match, text, cell) for match in classified.matches)
-    question = classified.question
+    question, said = classified.question, stated(text).names
     if question is not None:
         no = _meant(question.no) or (_ELSE,)
-        return Answer(suspicions, question.ask, _meant(question.yes), no, question.confirms)
+        return Answer(suspicions, question.ask, _meant(question.yes), no, question.confirms, stated=said)
     if classified.fits:
-        return Answer(suspicions)
+        return Answer(suspicions, stated=said)
     asked = questions().narrowing
     titles = {layer.layer: layer.title for layer in knowledge()}
     yes, no = (tuple(titles[layer] for layer in layers) for layers in (asked.yes, asked.no))
-    return Answer(suspicions, asked.ask, yes, no, fits=False)
+    return Answer(suspicions, asked.ask, yes, no, fits=False, stated=said)
 
 
 def _meant(matches: Sequence[Match]) -> tuple[str, ...]:
@@ -117,7 +123,8 @@ def suspicion_of(match: Match, text: str, cell: Cell | None) -> Suspicion:
     """Return what a symptom that fits may mean in a cell."""
     area = match.layer.owner
     owner = f"owner of the approval `{area}`" if cell is None else str(getattr(cell.owners.approvals, area))
-    causes = [_cause(hypothesis, text, cell) for hypothesis in match.symptom.hypotheses]
+    facts = stated(text)
+    causes = [_cause(hypothesis, text, cell, facts) for hypothesis in _open(match.symptom.hypotheses, facts)]
     return Suspicion(
         layer=match.layer.title,
         symptom=match.symptom.name,
@@ -143,11 +150,19 @@ def _unknown(match: Match, cell: Cell | None) -> tuple[str, ...]:
     )
 
 
-def _cause(hypothesis: Hypothesis, text: str, cell: Cell | None) -> Cause:
+def _open(hypotheses: Sequence[Hypothesis], facts: Stated) -> list[Hypothesis]:
+    """Return the hypotheses that what is stated leaves, those first that it speaks for."""
+    left = [each for each in hypotheses if not facts.rules_out(each.cause)] or list(hypotheses)
+    return sorted(left, key=lambda each: not facts.speaks_for(each.cause))
+
+
+def _cause(hypothesis: Hypothesis, text: str, cell: Cell | None, facts: Stated) -> Cause:
     steps: list[Step] = []
     omitted = 0
     for observation in hypothesis.observations:
-        chosen = _chosen(_subjects(cell, observation.of), observation.of, text)
+        if facts.has_seen(" ".join((observation.run or observation.look or "", observation.refuted))):
+            continue
+        chosen = [each for each in _chosen(cell, observation.of, text) if _is_fit(observation, each)]
         steps += [_step(observation, subject, cell is not None) for subject in chosen[:_SHOWN_SUBJECTS]]
         omitted = max(omitted, len(chosen) - _SHOWN_SUBJECTS)
     return Cause(hypothesis.cause, tuple(dict.fromkeys(steps)), omitted)
@@ -161,11 +176,30 @@ def _subjects(cell: Cell | None, scope: Scope) -> tuple[Subject, ...]:
     return subjects(cell, scope)
 
 
-def _chosen(found: tuple[Subject, ...], scope: Scope, text: str) -> tuple[Subject, ...]:
+def _chosen(cell: Cell | None, scope: Scope, text: str) -> tuple[Subject, ...]:
     """Return the subjects that the text names, all where it names none."""
+    found = _subjects(cell, scope)
+    own = names_of(text, scope)
+    if cell is None:
+        return ({**found[0], **own},)
     key = FIELDS[scope][0]
-    named = tuple(mapping for mapping in found if re.search(rf"(?<![\w/]){re.escape(mapping[key])}(?![\w/])", text))
+    spoken = " ".join((text, *loggers(text)))
+    named = tuple(mapping for mapping in found if re.search(rf"(?<![\w/]){re.escape(mapping[key])}(?![\w/])", spoken))
+    if not named and key in own:
+        return ({**dict.fromkeys(FIELDS[scope], NOT_STATED), **own},)
     return named or found
+
+
+def _is_fit(observation: Observation, subject: Subject) -> bool:
+    """Tell that a subject has every value that an observation speaks of, and an address of the right kind."""
+    text = " ".join((observation.run or observation.look or "", observation.refuted))
+    used = {name for _, name, _, _ in Formatter().parse(text) if name}
+    if any(subject[name] == NOT_STATED for name in used):
+        return False
+    address = subject["address"] if "address" in used else ""
+    if address.startswith("/dev/"):
+        return not _OF_NETWORK.search(text)
+    return not address or address.startswith("<") or "/dev/" not in text
 
 
 def _step(observation: Observation, subject: Subject, of_cell: bool) -> Step:

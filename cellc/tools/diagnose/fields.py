@@ -25,6 +25,9 @@ Scope = Literal[
 Subject = Mapping[str, str]
 """Field → text; the first field is the subject's name."""
 
+NOT_STATED = "not stated"
+"""Value of a field that a cell does not have: no observation speaks of it."""
+
 _CONTROLLER = ("controller", "node", "manager", "plugin", "joints", "claims", "path_tolerance")
 _DEVICE = ("device", "address", "modes", "states", "firmware", "driver", "payload")
 

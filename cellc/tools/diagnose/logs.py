@@ -28,6 +28,8 @@ _MOST_FILES = 10_000
 _MOST_ODD = 5
 """Errors of a file that no symptom has which are kept."""
 _MOST_TOLD = 8
+_MOST_SHORT = 8192
+"""Letters of a log that can be answered as a whole, as if it had been pasted."""
 _QUARTER_NS = 15 * 60 * 1_000_000_000
 """Zones are whole quarters of an hour away from UTC."""
 
@@ -86,6 +88,7 @@ class Searched:
         unread: None where every error is one that a symptom has.
         notes: what was left out, or is less certain, one line each.
         odd: the first errors that no symptom has, in the order of time.
+        short: the whole text of a log that is no longer than what people paste; empty for others.
     """
 
     spoken: tuple[Spoken, ...]
@@ -94,13 +97,27 @@ class Searched:
     notes: tuple[str, ...]
     unread: Unread | None = None
     odd: tuple[Unread, ...] = ()
+    short: str = ""
 
     @property
     def pasted(self) -> str:
-        """The first errors, a line each; the first warning where there is no error; empty where there is neither."""
+        """The first errors, a line each, and known warnings before them; the first warning where there is no error."""
         grave: list[Spoken | Unread] = [each for each in self.spoken if each.gravity is not Gravity.WARNING]
-        lines = sorted([*grave, *self.odd], key=_order) or self.spoken[:1]
+        lines = sorted([*grave, *self.odd], key=_order)
+        first = _order(lines[0]) if lines else None
+        early = [each for each in self.spoken if first is not None and _order(each) < first]
+        lines = [*early[:1], *lines] if lines else list(self.spoken[:1])
         return "\n".join(dict.fromkeys(each.text for each in lines[:_MOST_TOLD]))
+
+    @property
+    def answered(self) -> str:
+        """What is answered as if it had been pasted: all of a short log, the first lines of gravity of a long one.
+
+        A short log whose lines are all of no gravity, and none known, is of a start without trouble: it is empty.
+        """
+        lines = [line for line in self.short.splitlines() if line.strip()]
+        speaks = self.pasted or any(entry_of(line).gravity is not Gravity.MINOR for line in lines) or logged(self.short)
+        return self.short if speaks and self.short else self.pasted
 
     @property
     def first(self) -> Spoken | None:
@@ -124,6 +141,7 @@ class _File:
         passed: the line before, where it was passed over.
         odd: the first errors that no symptom has; ``odd_count`` all of them.
         unstated: what its times do not state.
+        text: its beginning, of up to what people paste.
     """
 
     name: str
@@ -136,6 +154,7 @@ class _File:
     odd: list[tuple[Stamp | None, Unread]] = field(default_factory=list)
     odd_count: int = 0
     unstated: dict[str, None] = field(default_factory=dict)
+    text: str = ""
 
 
 def search(path: Path) -> Searched:
@@ -213,6 +232,8 @@ def _search(found: _File, stream: BinaryIO, most: int) -> int:
         while not rest.endswith(b"\n") and used < most and (rest := stream.readline(min(_LONGEST, most - used))):
             used += len(rest)
         found.lines += 1
+        if len(found.text) <= _MOST_SHORT:
+            found.text += line.decode("utf-8", "replace")
         before = _take(found, line.decode("utf-8", "replace"), before)
     return used
 
@@ -287,7 +308,9 @@ def _joined(files: list[_File], notes: list[str]) -> Searched:
     ]
     timeless = [f"{each.file}: line {each.line} has no time" for each in ordered if each.at_ns is None]
     lines = sum(file.lines for file in files)
-    return Searched(tuple(ordered), len(files), lines, (*notes, *uncertain, *timeless), unread, odd)
+    short = "\n".join(file.text for file in files)
+    short = short.strip() if len(short) <= _MOST_SHORT else ""
+    return Searched(tuple(ordered), len(files), lines, (*notes, *uncertain, *timeless), unread, odd, short)
 
 
 def _first_odd(files: list[_File], epochs: list[int]) -> tuple[Unread, ...]:

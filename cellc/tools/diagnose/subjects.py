@@ -12,9 +12,7 @@ from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.cell.site import Host
 from cellc.compiler.formats.numbers import shortest
 from cellc.contract.vocabulary import TRAJECTORIES, InterfaceKind
-from cellc.tools.diagnose.fields import FIELDS, Scope, Subject
-
-_NOT_STATED = "not stated"
+from cellc.tools.diagnose.fields import FIELDS, NOT_STATED, Scope, Subject
 
 
 def subjects(cell: Cell, scope: Scope) -> tuple[Subject, ...]:
@@ -52,9 +50,9 @@ def _topic(topic: Interface) -> tuple[str, ...]:
         topic.name,
         topic.type,
         _list(end.node for end in topic.sources),
-        "; ".join(ends) or _NOT_STATED,
-        _NOT_STATED if topic.rate_hz is None else f"{shortest(topic.rate_hz)} Hz",
-        _NOT_STATED if topic.max_age_s is None else f"{shortest(topic.max_age_s)} s",
+        "; ".join(ends) or NOT_STATED,
+        NOT_STATED if topic.rate_hz is None else f"{shortest(topic.rate_hz)} Hz",
+        NOT_STATED if topic.max_age_s is None else f"{shortest(topic.max_age_s)} s",
     )
 
 
@@ -105,7 +103,7 @@ def _controller(controller: Controller, manager: ControllerManager) -> tuple[str
         controller.plugin,
         _list(controller.joints),
         _list(controller.command_interfaces),
-        _list(shortest(tolerance) for tolerance in stated) or _NOT_STATED,
+        _list(shortest(tolerance) for tolerance in stated) or NOT_STATED,
     )
 
 
@@ -153,7 +151,7 @@ def _hosts(cell: Cell) -> Rows:
 def _host(host: Host) -> tuple[str, ...]:
     cards = _list(f"{name} {card.address}" for name, card in host.nics.items())
     offset = host.clock.max_offset_s
-    return (host.name, host.scheduling, cards, _NOT_STATED if offset is None else f"{shortest(offset)} s")
+    return (host.name, host.scheduling, cards, NOT_STATED if offset is None else f"{shortest(offset)} s")
 
 
 def _groups(cell: Cell) -> Rows:
@@ -183,7 +181,7 @@ def _cameras(cell: Cell) -> Rows:
 
 def _device(cell: Cell, device: Device) -> tuple[str, ...]:
     connection = device.site.connection
-    address = _NOT_STATED if connection is None else connection.address or connection.port or _NOT_STATED
+    address = NOT_STATED if connection is None else connection.address or connection.port or NOT_STATED
     mass, center = (cell.text(*device.path, "payload", key) for key in ("mass", "center_of_mass"))
     load = "" if device.robot.payload is None else f"{mass}, center of mass {center}"
     return (
@@ -193,12 +191,12 @@ def _device(cell: Cell, device: Device) -> tuple[str, ...]:
         _list(state.name for state in device.procedures.safety.states),
         device.software.versions.firmware,
         device.software.versions.driver,
-        load or _NOT_STATED,
+        load or NOT_STATED,
     )
 
 
 def _list(names: Iterable[str]) -> str:
-    return ", ".join(names) or _NOT_STATED
+    return ", ".join(names) or NOT_STATED
 
 
 _ROWS: dict[Scope, Callable[[Cell], Rows]] = {

@@ -188,6 +188,39 @@ class Questions(CatalogModel):
     narrowing: Narrowing
 
 
+Pattern = Annotated[str, StringConstraints(min_length=3, max_length=300)]
+"""A regular expression on a text in small letters, one space between words."""
+
+
+class Evidence(CatalogModel):
+    """What users state beside a symptom, and what it says of causes.
+
+    Args:
+        unless: patterns that turn the statement round.
+        answers: pieces of questions that need not be asked.
+        leaves_out: pieces of observations whose outcome is stated.
+        rules_out: pieces of causes that are excluded.
+        likelier: pieces of causes that come first in their symptom.
+        strengthens, weakens: names of symptoms.
+    """
+
+    stated: Text
+    says: tuple[Pattern, ...] = Field(min_length=1)
+    unless: tuple[Pattern, ...] = ()
+    answers: tuple[Text, ...] = ()
+    leaves_out: tuple[Text, ...] = ()
+    rules_out: tuple[Text, ...] = ()
+    likelier: tuple[Text, ...] = ()
+    strengthens: tuple[Text, ...] = ()
+    weakens: tuple[Text, ...] = ()
+
+
+class EvidenceTable(CatalogModel):
+    """All statements that are understood."""
+
+    evidence: tuple[Evidence, ...]
+
+
 class OsError(CatalogModel):
     """An error of the operating system, and which symptom it is on which kind of object.
 
@@ -237,6 +270,16 @@ def questions() -> Questions:
         ValueError: as ``knowledge``.
     """
     return _read("symptoms/questions.yaml", Questions)
+
+
+@cache
+def evidence() -> EvidenceTable:
+    """Return what statements of users say of causes.
+
+    Raises:
+        ValueError: as ``knowledge``.
+    """
+    return _read("symptoms/evidence.yaml", EvidenceTable)
 
 
 @cache

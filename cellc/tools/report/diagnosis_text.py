@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 def render_answer(answer: Answer) -> Iterator[Line]:
     """Yield what a text may mean; where no layer is certain, first the question that decides."""
+    if answer.stated:
+        yield f"counted with, as the text says it: {'; '.join(answer.stated)}"
     if not answer.fits:
         yield from _nearest(answer)
     elif answer.ask:
