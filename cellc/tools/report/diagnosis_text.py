@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 def render_answer(answer: Answer) -> Iterator[Line]:
     """Yield what a text may mean; where no layer is certain, first the question that decides."""
-    if answer.stated:
-        yield f"counted with, as the text says it: {'; '.join(answer.stated)}"
     if not answer.fits:
         yield from _nearest(answer)
     elif answer.ask:
@@ -23,6 +21,8 @@ def render_answer(answer: Answer) -> Iterator[Line]:
         guess = f"likely, not sure: {layers[0]}" if answer.likely else f"not sure: {', or '.join(layers)}?"
         yield (Styled(guess, Style.BOLD),)
         yield from _question("one question decides", answer, "; or ")
+        if answer.stated:
+            yield f"counted with, as the text says it: {'; '.join(answer.stated)}"
         yield ""
         yield from render_suspicions(answer.suspicions)
     else:
