@@ -186,7 +186,7 @@ def _chosen(cell: Cell | None, scope: Scope, text: str) -> tuple[Subject, ...]:
     spoken = " ".join((text, *loggers(text)))
     named = tuple(mapping for mapping in found if re.search(rf"(?<![\w/]){re.escape(mapping[key])}(?![\w/])", spoken))
     if not named and key in own:
-        return ({**dict.fromkeys(FIELDS[scope], NOT_STATED), **own},)
+        return ({**placeholders(scope), **own},)
     return named or found
 
 

@@ -113,10 +113,10 @@ class Searched:
     def answered(self) -> str:
         """What is answered as if it had been pasted: all of a short log, the first lines of gravity of a long one.
 
-        A short log whose lines are all of no gravity, and none known, is of a start without trouble: it is empty.
+        A short log whose lines are all of no gravity is of a start without trouble: it is empty.
         """
         lines = [line for line in self.short.splitlines() if line.strip()]
-        speaks = self.pasted or any(entry_of(line).gravity is not Gravity.MINOR for line in lines) or logged(self.short)
+        speaks = self.pasted or any(entry_of(line).gravity is not Gravity.MINOR for line in lines)
         return self.short if speaks and self.short else self.pasted
 
     @property
