@@ -165,6 +165,17 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
         (1, "this looks like XML/URDF"),
         (0, "1 file is in canonical form"),
     ),
+    "hook {} -o out --fix": (
+        (2, "there is no cell.yaml, device.yaml or *.family.yaml below `{}`"),
+        (1, NO_FILE),
+        (1, TEXT),
+        (1, NO_FILE),
+        (1, BYTES),
+        (1, DEVICE),
+        (2, "below `{}`"),
+        (1, ROBOT),
+        (0, "1 cell up to date"),
+    ),
     "import {} -o made": (
         (1, "refused: `{}` holds no URDF or xacro file"),
         (1, NO_SOURCE),

@@ -30,6 +30,8 @@ CALLS = (
     (f"build {SPEC}", 0, f"{BUILT}: "),
     ("build nothing.yaml", 1, NO_SPEC),
     (f"build {SPEC} --cluster tcp://127.0.0.1:1", 2, CLUSTER),
+    (f"hook {SPEC}", 0, "1 cell up to date"),
+    ("hook nothing.yaml", 1, NO_SPEC),
     (f"mock {BUILT}", 0, "passed  ready: succeeded"),
     ("mock nothing", 2, "error: nothing: no such folder; name one that `cellc build` wrote"),
     (f"mock {BUILT} --evidence evidence", 2, EVIDENCE),

@@ -116,7 +116,8 @@ class Searched:
         A short log whose lines are all of no gravity is of a start without trouble: it is empty.
         """
         lines = [line for line in self.short.splitlines() if line.strip()]
-        speaks = self.pasted or any(entry_of(line).gravity is not Gravity.MINOR for line in lines)
+        grave = any(entry_of(line).gravity is not Gravity.MINOR for line in lines)
+        speaks = self.pasted or (grave and logged(self.short))
         return self.short if speaks and self.short else self.pasted
 
     @property
