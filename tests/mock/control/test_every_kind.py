@@ -70,8 +70,10 @@ def _combinations(kind: ControllerKind, device: DeviceModel) -> Iterator[tuple[s
 
 
 def _gains(device: CatalogDevice) -> str:
-    """Return a proportional gain for each joint that is driven: without one, velocity alone moves nothing."""
-    driven = [joint.name for joint in device.description.joints if joint.type != "fixed" and joint.mimic is None]
+    """Return a proportional gain for each joint of the arm: without one, velocity alone moves nothing."""
+    moving = [joint.name for joint in device.description.joints if joint.type != "fixed" and joint.mimic is None]
+    gripper = device.model.gripper
+    driven = [name for name in moving if gripper is None or len(moving) == 1 or name != gripper.joint]
     return ", parameters: {" + ", ".join(f'"gains.{{prefix}}{name}.p": 1.0' for name in driven) + "}"
 
 

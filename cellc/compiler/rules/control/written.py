@@ -20,7 +20,8 @@ def parameter_of_nothing(graph: CellGraph) -> Findings:
     """Yield parameters that are named for a joint of no such controller, or for a group that the cell does not have."""
     for parameter in stated_parameters(graph.cell):
         yield from _unknown_names(graph, parameter)
-        named = named_part(parameter.key, parameter.name) if parameter.facts is not None else None
+        name = _filled(graph.cell, parameter, parameter.name)
+        named = named_part(parameter.key, name) if parameter.facts is not None else None
         known, what = _known(graph.cell, parameter)
         if named is None or not known or named in known:
             continue
@@ -30,11 +31,17 @@ def parameter_of_nothing(graph: CellGraph) -> Findings:
         yield found(graph, parameter.path, message, did_you_mean(named, known, what))
 
 
+def _filled(cell: Cell, parameter: StatedParameter, text: str) -> str:
+    """Return a text with the prefix of the controller's device where it has a placeholder for it."""
+    device = None if parameter.controller is None else parameter.controller.device
+    return text if device is None else text.replace("{prefix}", cell.device(device).body.prefix)
+
+
 def _unknown_names(graph: CellGraph, parameter: StatedParameter) -> Findings:
     what = None if parameter.facts is None else parameter.facts.names
     for path, item in parameter.items() if what is not None else ():
         known = _names(graph.cell, what or "", parameter.controller)
-        if item and item not in known:
+        if item and _filled(graph.cell, parameter, str(item)) not in known:
             message = f"`{parameter.name}` of `{parameter.owner}` must be the name of a {what}, got `{item}`"
             yield found(graph, path, message, did_you_mean(str(item), known, f"{what}s"))
 
