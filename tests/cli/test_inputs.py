@@ -123,7 +123,7 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
     ),
     "diff {} cell/cell.yaml": (
         (2, NOT_GENERATED),
-        (2, NO_GIT),
+        (2, NOTHING),
         (2, TEXT),
         (2, NO_GIT),
         (2, BYTES),

@@ -52,8 +52,9 @@ of the areas below, which begin with what protects and what moves. Lines that ar
 are broken where the whole still fits, else cut. Two lines that exchanged their values say so. To know what a line
 causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
 device and its controllers, are listed together; so are those of one part of the spec where there are many. Folders have
-no spec: their changes are listed by area. In a pull request the action annotates what is new, and what fails
-(`cellc check --format github --against REVISION`).
+no spec: their changes are listed by area, and names that changed are found in the contract. In a pull request the
+action annotates what is new, and what fails (`cellc check --format github --against REVISION`), and draws both states
+of each cell that changed in one page (`cellc view SPEC --against REVISION`).
 
 A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line, with how many
 names follow and which of those break consumers. What else changed is compared under the new names. A namespace is a

@@ -68,7 +68,7 @@ CALLS = (
     ("diagnose --log nothing", 2, "error: nothing: no such file or folder"),
     ("diagnose xyzzy", 1, "UNKNOWN: no known symptom fits"),
     (f"diff {SPEC} {BUILT}", 0, "no change"),
-    (f"diff {BUILT} nothing", 2, "there is no file `nothing`"),
+    (f"diff {BUILT} nothing", 2, "there is no file or folder `nothing`"),
     ("explain missing-unit", 0, "# missing-unit"),
     ("explain zero-axis", 0, "# zero-axis (error)"),
     ("explain missing-unitt", 2, "did you mean `missing-unit`"),

@@ -37,7 +37,15 @@ def run_step(
     ran = subprocess.run(
         ("bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"]),
         cwd=folder,
-        env=environment(**values, GITHUB_STEP_SUMMARY=str(summary), RUNNER_TEMP=str(runner)),
+        env=environment(
+            **values,
+            GITHUB_STEP_SUMMARY=str(summary),
+            GITHUB_OUTPUT=str(folder.parent / "outputs.txt"),
+            GITHUB_SERVER_URL="https://github.com",
+            GITHUB_REPOSITORY="lab/cells",
+            GITHUB_RUN_ID="7",
+            RUNNER_TEMP=str(runner),
+        ),
         capture_output=True,
         text=True,
         check=False,

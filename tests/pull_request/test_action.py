@@ -65,6 +65,21 @@ def test_summary_tells_what_changed_against_the_base(repository: Path) -> None:
     assert code == 0, out
     assert "path tolerance" in summary.replace("_", " ")
     assert "A new cell: new" in summary
+    assert (
+        "\nBoth states in 3D: [line.html](https://github.com/lab/cells/actions/runs/7#artifacts), "
+        f"or `cellc view SPEC --against {base}`\n"
+    ) in summary
+    pages = repository.parent / "runner/cellc-pages"
+    assert (repository.parent / "outputs.txt").read_text(encoding="utf-8") == f"pages={pages}\n"
+    assert [page.name for page in pages.iterdir()] == ["line.html"]
+    assert base in (pages / "line.html").read_text(encoding="utf-8")
+
+
+def test_summary_of_a_cell_that_did_not_change_names_no_page(repository: Path) -> None:
+    base = git(repository, "rev-parse", "HEAD").strip()
+    code, out, summary = run_step(repository, "Tell what changed", base=base)
+    assert (code, "Both states" in summary) == (0, False), out
+    assert not list((repository.parent / "runner/cellc-pages").iterdir())
 
 
 def test_no_name_of_a_file_keeps_a_changed_cell_out_of_the_summary(repository: Path) -> None:

@@ -93,7 +93,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
             "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",
             "dangerous payload | arm | robot TCP xyz | 0.00 0.00 173.00 mm -> 0.00 0.00 174.00 mm",
-            "dangerous payload | arm | robot payload mass | 1.0 kg -> 1.5 kg",
+            "dangerous payload | arm | robot payload mass | 1.0 kg -> 1.5 kg | +50 %",
             "dangerous rehearsals | canceled | bound of the outcome | 200 ms -> 400 ms | +100 %",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",

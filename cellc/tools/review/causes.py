@@ -20,6 +20,8 @@ _MOST = 20
 """Causes that are tried one by one; of more edits, those of one part of the spec are one cause."""
 _TOGETHER = 3
 """Values of one mapping that are listed as one: of a calibration, its revision, its day and its residual."""
+_AS_ONE = ("payload",)
+"""Mappings whose values are listed as one however few they are: a mass and where it is."""
 _LONGEST = 60
 
 Cause: TypeAlias = tuple[SpecEdit, ...]
@@ -46,11 +48,15 @@ def causes_between(before: SourceDocument, after: SourceDocument) -> tuple[Cause
     """Return the edits between two states of a spec, those of one part as one where there are many."""
     edits = spec_edits(before, after)
     beside = Counter(edit.path[:-1] for edit in edits)
-    causes = _grouped(edits, [edit.path[:-1] if beside[edit.path[:-1]] >= _TOGETHER else edit.path for edit in edits])
+    causes = _grouped(edits, [edit.path[:-1] if _is_together(edit.path, beside) else edit.path for edit in edits])
     for depth in (3, 2, 1):
         if len(causes) > _MOST:
             causes = _grouped(edits, [edit.path[:depth] for edit in edits])
     return causes
+
+
+def _is_together(path: YamlPath, beside: Mapping[YamlPath, int]) -> bool:
+    return beside[path[:-1]] >= (2 if path[-2:-1] and path[-2] in _AS_ONE else _TOGETHER)
 
 
 def _grouped(edits: Sequence[SpecEdit], paths: Sequence[YamlPath]) -> tuple[Cause, ...]:

@@ -18,7 +18,7 @@ from cellc.tools.review.grading import ELSEWHERE, grade, is_reaching
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
 from cellc.tools.review.rows import FOLLOWS, ROWS
-from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, THINGS, Fit, Row, Thing, fits
+from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
 from cellc.tools.review.units import difference, shown, unit_in
 
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
@@ -85,9 +85,10 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     }
 
 
-def _order(change: ReviewChange) -> tuple[int, int, str, tuple[str, ...]]:
+def _order(change: ReviewChange) -> tuple[int, int, bool, str, tuple[str, ...]]:
     areas = tuple(ReviewArea)
-    return (-tuple(Grade).index(change.grade), areas.index(change.area), change.quantity, change.subjects)
+    is_later = change.quantity.endswith(LATER)
+    return (-tuple(Grade).index(change.grade), areas.index(change.area), is_later, change.quantity, change.subjects)
 
 
 def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:
@@ -298,7 +299,7 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
     return Change(
         verdict.area or row.grade.area,
         " ".join(fit.subject) or WHOLE,
-        " ".join((row.grade.quantity, ".".join(fit.of).removesuffix("_kg"))).rstrip(),
+        quantity_of(row, fit),
         shown(delta.before, unit),
         shown(delta.after, unit),
         verdict.grade,

@@ -11,6 +11,7 @@ from cellc.contract.vocabulary import Grade
 from cellc.tools.review.causes import State, as_cause, attributed, causes_between, facts_of_document
 from cellc.tools.review.compare import Change, change_of, changes_between, follows, merged, reported
 from cellc.tools.review.facts import Facts
+from cellc.tools.review.folder_names import facts_with_names, renames_between_folders
 from cellc.tools.review.groups import NAME_OF
 from cellc.tools.review.leaves import Leaf, Path, Prose, differences, same
 from cellc.tools.review.renames import Names, Rename, names_of, renamed, renames_between
@@ -33,20 +34,37 @@ class Explained:
 def explained(before: Package, after: Package) -> Explained:
     """Return every change with what causes it; of folders, of which no spec is there, the changes alone."""
     if before.document is None or after.document is None:
-        return Explained((), changes_between(before.facts, after.facts))
+        return _of_folders(before, after)
     was, now = State(before.document, before.facts), State(after.document, after.facts)
     renames, base = _with_names_after(was, now)
     leading = _leading(renames)
     names = [_of_rename(rename, was.facts, base.facts) for rename in leading]
     changes = reported(base.facts, now.facts)
     causes, found = attributed(changes, causes_between(base.document, now.document), base, now)
-    first = [
-        ReviewCause(line=_line(rename), before=rename.before, after=rename.after, renamed=True) for rename in leading
-    ]
+    first = [_as_cause(rename) for rename in leading]
     numbered: list[tuple[int | None, Change]] = list(enumerate(names))
     numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
     numbered += [(None if number is None else number + len(first), change) for number, change in found]
     return Explained((*first, *map(as_cause, causes)), merged(numbered, before.facts, after.facts), renames)
+
+
+def _of_folders(before: Package, after: Package) -> Explained:
+    """Return the changes between packages of which no spec is there: their names are those of their contracts."""
+    renames = renames_between_folders(before.facts.contract, after.facts.contract)
+    base = facts_with_names(before, after, renames) if renames else None
+    if base is None:
+        return Explained((), changes_between(before.facts, after.facts))
+    leading = _leading(renames)
+    found: list[tuple[int | None, Change]] = [
+        (number, _of_rename(rename, before.facts, base)) for number, rename in enumerate(leading)
+    ]
+    found += [(0, change) for change in _beside_names(renames, before.facts, base)]
+    found += [(None, change) for change in reported(base, after.facts)]
+    return Explained(tuple(map(_as_cause, leading)), merged(found, before.facts, after.facts), renames)
+
+
+def _as_cause(rename: Rename) -> ReviewCause:
+    return ReviewCause(line=_line(rename), before=rename.before, after=rename.after, renamed=True)
 
 
 def _with_names_after(was: State, now: State) -> tuple[tuple[Rename, ...], State]:
@@ -134,7 +152,10 @@ def _followed(rename: Rename, before: Facts, after: Facts) -> frozenset[str]:
     """Return the names of a package that were removed with a name, where the same were added with the other."""
     names = names_of([rename], inside=_LETTERS)
     was, now = _names_in(before), _names_in(after)
-    return frozenset(name for name in was - now if name != rename.before and names.in_text(name) in now - was)
+    come = now - was
+    return frozenset(
+        name for name in was - now if name != rename.before and any(read in come for read in names.readings(name))
+    )
 
 
 def _names_in(facts: Facts) -> frozenset[str]:

@@ -30,7 +30,7 @@ from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.robot.description.yaml_values import load_values
 from cellc.tools.review.graded import graded_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
-from cellc.tools.review.rights import COMMON, POLICY, rights
+from cellc.tools.review.rights import COMMON, POLICY, of_checklist, rights
 from cellc.tools.review.units import shown
 
 CONTRACT, MANIFEST, OBSERVATION = "contract.json", "manifest.json", "config/observe.json"
@@ -110,7 +110,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         flatten(as_json(mock.hardware), ("mock", "hardware")),
         flatten(_dumped(_model(files, named.rehearsals, Rehearsals))["rehearsals"], ("rehearsals",)),
         _of_bring_up(_model(files, named.bring_up, BringUp)),
-        () if gates is None else _of_gates(gates, contract.cell),
+        () if gates is None else (*of_checklist(files), *_of_gates(gates, contract.cell)),
         _of_middleware(files),
         _of_pairs(files, named.srdf),
         _of_policy(files, contract.cell),

@@ -141,6 +141,12 @@ def areas_of(changes: Sequence[ReviewChange]) -> str:
     return ", ".join(f"{area} {number}" for area, number in counted.most_common())
 
 
+def quantities_of(changes: Sequence[ReviewChange]) -> str:
+    """Return how many changes each quantity has, the most first."""
+    counted = Counter(change.quantity for change in changes)
+    return ", ".join(f"{quantity}{f' {number}' if number > 1 else ''}" for quantity, number in counted.most_common())
+
+
 def grades_of(changes: Sequence[ReviewChange]) -> Iterator[str]:
     """Yield how many changes have each grade, the worst first."""
     for grade in reversed(Grade):

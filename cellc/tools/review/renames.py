@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 from cellc.compiler.source.document import Node, Plain, SourceDocument, rebuilt
 from cellc.contract.diagnostics import YamlPath
@@ -33,6 +34,8 @@ _SECTIONS: Mapping[tuple[str, ...], tuple[ReviewArea, str]] = {
 _ALIKE = 0.6
 """Share of equal values from which a part that was removed and a part that was added are one part of another name."""
 _MOST_PAIRS = 2_500
+_MOST_PLACES = 6
+"""Words of one text of which each may be the name, or look alike."""
 _NAMESPACE = "namespace"
 
 
@@ -62,6 +65,17 @@ class Names:
         """Return a text with the names that the parts have now."""
         return self.pattern.sub(lambda found: self.by_name[found[0]], text)
 
+    def readings(self, text: str) -> Iterator[str]:
+        """Yield a text with the names that the parts have now, then with fewer of them: others only look alike."""
+        places = list(self.pattern.finditer(text))
+        few = len(places) <= _MOST_PLACES
+        for taken in product((True, False), repeat=len(places)) if few else ((True,) * len(places),):
+            read, end = "", 0
+            for place, is_name in zip(places, taken, strict=True):
+                read += text[end : place.start()] + (self.by_name[place[0]] if is_name else place[0])
+                end = place.end()
+            yield read + text[end:]
+
 
 def names_of(renames: Sequence[Rename], inside: str = r"[\w-]") -> Names:
     """Return the words that changed.
@@ -71,7 +85,7 @@ def names_of(renames: Sequence[Rename], inside: str = r"[\w-]") -> Names:
     """
     by_name = {rename.before: rename.after for rename in renames}
     words = "|".join(re.escape(name) for name in sorted(by_name, key=len, reverse=True))
-    return Names(by_name, re.compile(rf"(?<!{inside})(?:{words})(?!{inside})"))
+    return Names(by_name, re.compile(rf"(?<!{inside})(?:{words or '(?!)'})(?!{inside})"))
 
 
 def renames_between(before: SourceDocument, after: SourceDocument) -> tuple[Rename, ...]:
@@ -119,18 +133,19 @@ def _is_at(section: tuple[str, ...], path: YamlPath) -> bool:
 def _likeness(before: Plain, after: Plain, old: str, new: str) -> float:
     """Return the share of values that are the same, but for the name itself."""
     names = names_of([Rename((), old, new, _A.DOCUMENTS, "")])
-    was = {tuple(map(names.in_text, path)): names.in_text(text) for path, text in _texts(before)}
-    now = dict(_texts(after))
+    was = {tuple(map(names.in_text, path)): names.in_text(text) for path, text in texts_of(before)}
+    now = dict(texts_of(after))
     return sum(now.get(path) == text for path, text in was.items()) / max(len(was), len(now), 1)
 
 
-def _texts(value: Plain, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], str]]:
+def texts_of(value: Plain, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Yield every scalar of a value with its path."""
     if isinstance(value, dict):
         for key, inner in value.items():
-            yield from _texts(inner, (*path, key))
+            yield from texts_of(inner, (*path, key))
     elif isinstance(value, list):
         for number, inner in enumerate(value):
-            yield from _texts(inner, (*path, str(number)))
+            yield from texts_of(inner, (*path, str(number)))
     else:
         yield path, str(value)
 

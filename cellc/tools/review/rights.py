@@ -10,13 +10,17 @@ import re
 from collections.abc import Iterator, Mapping
 
 from cellc.robot.description.xml_tree import XmlElement
-from cellc.tools.review.leaves import Leaf, Path
+from cellc.tools.review.leaves import Leaf, Path, Prose
 
 POLICY, COMMON = "security/policy.xml", "security/common.xml"
 _FRAGMENT = re.compile(r"xpointer\(/common/(\w+)/\*\)")
 _GROUPS = ("topics", "services", "actions")
 # A spawner names itself after the first of its controllers, whose order says nothing.
 _SPAWNER = re.compile(r"^spawner_.+")
+_CHECKLIST = "gates/promotion.md"
+_PAYLOAD = re.compile(
+    r"^- \[ \] Payload of (\w+): (\S+ kg) with tool, center of mass (\S+ \S+ \S+ \w+)[^\n]*? in (\w+)\.", re.MULTILINE
+)
 
 
 def rights(policy: XmlElement, common: XmlElement | None, cell: str) -> Iterator[tuple[Path, Leaf]]:
@@ -56,3 +60,10 @@ def _included(child: XmlElement, kinds: Mapping[str, list[XmlElement]]) -> list[
     if child.tag != "xi:include" or child.attributes.get("href") != "common.xml" or fragment is None:
         return [child]
     return kinds.get(fragment[1], [child])
+
+
+def of_checklist(files: Mapping[str, str]) -> Iterator[tuple[Path, Prose]]:
+    """Yield the payloads that people set where no program can compare them: the checklist alone has them."""
+    for device, *values in _PAYLOAD.findall(files.get(_CHECKLIST, "")):
+        for what, value in zip(("mass", "center_of_mass", "frame"), values, strict=True):
+            yield ("check", "payload", device, what), Prose(value)

@@ -105,7 +105,7 @@ THINGS: Sequence[Thing] = (
     Thing("step real {step}", _A.START_ORDER, "hardware startup step", _D, _D, shown="phase"),
     Thing("step mock {step}", _A.START_ORDER, "mock startup step", _R, _R, shown="phase", follows=True),
     Thing("watch {watch}", _A.SAFETY, "watch that deactivates controllers", _S, _D),
-    Thing("check payload {device}", _A.PAYLOAD, "payload to set in the robot", _R, _D),
+    Thing("check payload {device}", _A.PAYLOAD, "payload to set in the robot", _R, _D, shown="mass"),
     Thing("check tcp {device}", _A.PAYLOAD, "TCP to set in the robot", _R, _D),
     Thing("check load {device}", _A.PAYLOAD, "load to set in the robot", _R, _D),
     Thing("check joint_impedance {device}", _A.SAFETY, "impedance of the joints", _R, _D),
@@ -231,3 +231,13 @@ class Fit:
 
     subject: tuple[str, ...]
     of: tuple[str, ...]
+
+
+LATER = "center of mass"
+"""What is listed behind the mass that it is of."""
+
+
+def quantity_of(row: Row, fit: Fit) -> str:
+    """Return what changed of a subject, in words."""
+    of = ".".join(fit.of).removesuffix("_kg")
+    return f"{row.grade.quantity} {LATER if of == 'center_of_mass' else of}".rstrip()

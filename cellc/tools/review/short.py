@@ -11,7 +11,7 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange
 from cellc.tools.review.compare import PAIRS, WHOLE
-from cellc.tools.review.groups import NAME_OF, Group, areas_of, groups_of
+from cellc.tools.review.groups import NAME_OF, Group, areas_of, groups_of, quantities_of
 from cellc.tools.review.text import STYLES, outcomes, summed_up, values_of
 
 MOST_LINES = 25
@@ -146,8 +146,16 @@ def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
     lines = [*figures, *(line for text in listed for line in fold(_line(text, worst[text]), "    "))]
     rest = [change for change in changes if not any(change in worst[text] for text in listed)]
     if rest:
-        lines.append((Styled(cut(f"  {len(rest)} more: {areas_of(rest)}"), Style.DIM),))
+        lines.append((Styled(cut(_rest(rest, group, is_whole=not listed)), Style.DIM),))
     yield from (*lines, *asked)[: max(most, 0)]
+
+
+def _rest(rest: Sequence[ReviewChange], group: Group, *, is_whole: bool) -> str:
+    """Return what there is no room for: one change itself, of more those of each area, or of one area of each kind."""
+    if len(rest) == 1:
+        return _line(_said(rest[0]), rest)
+    kinds = areas_of(rest) if group.cause is not None else quantities_of(rest)
+    return f"  {count(len(rest), 'change')}: {kinds}" if is_whole else f"  {len(rest)} more: {kinds}"
 
 
 def _alike(changes: Sequence[ReviewChange]) -> dict[str, list[ReviewChange]]:

@@ -19,6 +19,7 @@ from cellc.contract.review import ReviewFinding
 from cellc.mock.errors import MockError
 from cellc.mock.folder import read_text
 from cellc.tools.report.json_report import as_review_finding
+from cellc.tools.review.absent import no_package, no_path, not_in_revision
 from cellc.tools.review.facts import MANIFEST, Facts, FactsError, facts_of
 from cellc.tools.review.objects import RevisionError
 from cellc.tools.review.revisions import Taken, repository_of
@@ -85,7 +86,8 @@ def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
         raise SideError(f"expected a spec or a folder after `{arguments[0]}`")
     if len(arguments) == 1:
         if not Path(arguments[0]).exists():
-            raise SideError(f"there is no file or folder `{arguments[0]}`")
+            raise SideError(no_path(arguments[0]))
+        _refuse_folder(arguments[0], Path(arguments[0]))
         return _revised("HEAD", arguments[0]), _stated(arguments[0])
     first, second = arguments
     _refuse_ambiguous(first, second)
@@ -93,6 +95,7 @@ def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
         if ".." in first and ":" not in first:
             return _range(first, second)
         if ":" not in first:
+            _refuse_unknown(first, second)
             return _revised(first, second), _stated(second)
     return _stated(first), _stated(second)
 
@@ -111,6 +114,16 @@ def _refuse_ambiguous(first: str, second: str) -> None:
     raise SideError(
         f"`{first}` is a revision and a file; write `./{first}` for the file, or name the revision otherwise"
     )
+
+
+def _refuse_unknown(first: str, second: str) -> None:
+    """Refuse what is neither a revision nor there: a folder that was not built looks like a branch."""
+    if "/" not in first or not Path(second).exists():
+        return
+    try:
+        repository_of(Path(second).absolute()).commit(first)
+    except RevisionError:
+        raise SideError(no_path(first, second)) from None
 
 
 def _stated(argument: str) -> Side:
@@ -165,6 +178,9 @@ def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
     if side.merged_into is not None:
         revision = repository.merge_base(revision, side.merged_into)
     path = PurePosixPath(side.path).as_posix()
+    if repository.objects.entry(repository.commit(revision), path) is None:
+        instead = not_in_revision(repository, revision, path)
+        raise SideError(f"revision `{revision}` has no `{path}`{instead}")
     taken = stack.enter_context(repository.taken(revision, path))
     package = _read(side.name, taken.path, taken.path.as_posix())
     named = _names_shown(side, taken)
@@ -223,6 +239,8 @@ def _of_spec(name: str, file: str) -> Package:
     # Folders are compared without the compiler, which takes a second to load.
     from cellc.compiler.pipeline import check
 
+    if not Path(file).exists():
+        raise SideError(no_path(file))
     return package_of(name, check(file))
 
 
@@ -248,11 +266,13 @@ def package_of(name: str, checked: Checked) -> Package:
     return Package(name, files, facts, findings, excused, is_spec=True, document=checked.document)
 
 
+def _refuse_folder(name: str, path: Path) -> None:
+    if path.is_dir() and not (path / MANIFEST).exists():
+        raise SideError(no_package(name, path))
+
+
 def _of_folder(name: str, folder: Path) -> Package:
-    if not (folder / MANIFEST).exists():
-        raise SideError(
-            f"{name} has no `{MANIFEST}`: it is not a generated folder; name the spec or the folder of one cell"
-        )
+    _refuse_folder(name, folder)
     try:
         manifest = read_json(read_text(folder, MANIFEST), Manifest)
     except FormatError as problem:

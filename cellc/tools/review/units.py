@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 
 from cellc.contract.transforms import Pose, apart
 from cellc.tools.review.leaves import Leaf, Prose, said
 
+_FIGURE = re.compile(r"[0-9]{1,15}(?:\.[0-9]{1,15})?")
 _FEW = 6
 """Entries of a list that are shown; of a longer one, those that differ."""
 
@@ -84,6 +86,8 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: boo
         return motion(*apart(before, after))
     if isinstance(before, tuple) and isinstance(after, tuple):
         return _of_lists(before, after)
+    if isinstance(before, Prose) and isinstance(after, Prose):
+        return _of_quantities(before.text, after.text) if share else ""
     if isinstance(before, (bool, str, Prose)) or isinstance(after, (bool, str, Prose)):
         return ""
     if not isinstance(before, (int, float)) or not isinstance(after, (int, float)):
@@ -94,6 +98,14 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: boo
         return f"{_rounded(100.0 * (after - before) / abs(before)):+.10g} %"
     sign = "+" if after > before else ""
     return sign + _with_unit(after - before, unit)
+
+
+def _of_quantities(before: str, after: str) -> str:
+    """Return the share by which one figure with a unit differs from another with the same."""
+    (was, unit), (now, other) = (text.partition(" ")[::2] for text in (before, after))
+    if not unit or unit != other or not (_FIGURE.fullmatch(was) and _FIGURE.fullmatch(now)) or not float(was):
+        return ""
+    return f"{_rounded(100.0 * (float(now) - float(was)) / float(was)):+.10g} %"
 
 
 def motion(meters: float, radians: float) -> str:
