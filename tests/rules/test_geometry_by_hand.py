@@ -115,11 +115,11 @@ DOWN = Pose((1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0))
 def test_a_camera_sees(thing: Vector3, seen: bool, seen_without_view: bool) -> None:
     for view, expected in ((VIEW, seen), (None, seen_without_view)):
         stream = CameraStream(topic="t", type="i", info_topic="c", frame="f", rate_hz=30.0, view=view)
-        assert _sees(stream, DOWN, thing) is expected
+        assert _sees(stream, DOWN.inverse().apply(thing)) is expected
 
 
 @pytest.mark.parametrize(
     ("thing", "aside_deg"), [((1.0, 2.0, 1.0), 0.0), ((2.0, 2.0, 2.0), 45.0), ((1.0, 1.0, 3.0), 90.0)]
 )
 def test_angle_between_the_axis_of_a_camera_and_a_place(thing: Vector3, aside_deg: float) -> None:
-    assert math.degrees(_aside(DOWN, thing)) == pytest.approx(aside_deg)
+    assert math.degrees(_aside(DOWN.inverse().apply(thing))) == pytest.approx(aside_deg)

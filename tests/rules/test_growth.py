@@ -18,6 +18,7 @@ from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.pipeline import check, emit_cell
 from cellc.compiler.rules.run import ALL_RULES
 from tests.cells import there
+from tests.rules.halls import HALLS, of_groups
 
 if TYPE_CHECKING:
     from _typeshed import TraceFunction
@@ -119,12 +120,12 @@ WORK = {rule.code: rule.check for rule in ALL_RULES} | {name: rows for name, row
 _TWICE = 2.3
 
 
-@pytest.mark.parametrize("spec", [_cell, _stands])
+@pytest.mark.parametrize("spec", [_cell, _stands, *HALLS], ids=lambda spec: spec.__name__.strip("_"))
 def test_no_rule_and_no_line_of_a_gate_searches_the_cell_for_each_of_its_things(
     spec: Callable[[int], str], tmp_path: Path
 ) -> None:
     cells = []
-    for size in (15, 30, 60):
+    for size in (15, 30, 60) if spec is not of_groups else (3, 6, 12):  # more pairs of shapes are refused
         (tmp_path / "cell.yaml").write_text(spec(size), encoding="utf-8")
         graph = there(check(tmp_path / "cell.yaml").graph)
         cells.append(graph.cell)

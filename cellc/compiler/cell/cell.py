@@ -7,7 +7,7 @@ from dataclasses import field
 from functools import cached_property
 
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager
-from cellc.compiler.cell.device import Device, Stamp
+from cellc.compiler.cell.device import Device, DeviceJoint, Stamp
 from cellc.compiler.cell.entity import Places
 from cellc.compiler.cell.frame import Frame, SharedArea, Solid
 from cellc.compiler.cell.interface import Endpoint, ImpliedEndpoints, Interface, Node, NodeSource
@@ -143,6 +143,16 @@ class Cell:
         return {name: tuple(nodes) for name, nodes in by_device.items()}
 
     @cached_property
+    def frames_by_name(self) -> Mapping[str, Frame]:
+        """Frames by name, the last where a name occurs twice."""
+        return {frame.name: frame for frame in self.frames}
+
+    @cached_property
+    def joints_by_name(self) -> Mapping[str, DeviceJoint]:
+        """Joints of all devices by name, the first where a name occurs twice."""
+        return {joint.name: joint for device in reversed(self.devices) for joint in reversed(device.joints)}
+
+    @cached_property
     def controllers_of(self) -> Mapping[str, Mapping[str, str]]:
         """Full names of the controllers of each device that has some, by their kind."""
         by_device: dict[str, dict[str, str]] = {}
@@ -188,6 +198,11 @@ class Cell:
         return frozenset(node.full_name for node in self.movers)
 
     @cached_property
+    def managing_hosts(self) -> frozenset[str]:
+        """Hosts of controller managers; an empty name where the spec states none."""
+        return frozenset(manager.host for manager in self.managers)
+
+    @cached_property
     def controllers(self) -> tuple[Controller, ...]:
         """Controllers of all managers, in order."""
         return tuple(controller for manager in self.managers for controller in manager.controllers)
@@ -204,17 +219,30 @@ class Cell:
         taken = [taker.joints for taker in self.trajectory_controllers] + [taker.joints for taker in self.adapters]
         return frozenset(joint for joints in taken for joint in joints)
 
+    def controllers_for(self, group: PlanningGroup) -> tuple[Controller, ...]:
+        """Return the controllers that execute the plans of a group, in order."""
+        places = {place for label in group.controllers for place in self._places_of_labels.get(label, ())}
+        return tuple(self.controllers[place] for place in sorted(places))
+
+    @cached_property
+    def _places_of_labels(self) -> Mapping[str, tuple[int, ...]]:
+        places: dict[str, tuple[int, ...]] = {}
+        for place, controller in enumerate(self.controllers):
+            places[controller.label] = (*places.get(controller.label, ()), place)  # one, but for a mistake
+        return places
+
     def reporting(self, device: Device, source: RecordSource | Reading) -> Controller | None:
         """Return the controller of a device that tells something of it on the real target, if one does."""
-        kind = source.controller_kind
-        reporters = (
-            controller
-            for controller in self.controllers
-            if controller.device == device.name and controller.kind == kind
-        )
-        return next(
-            (controller for controller in reporters if controller.active and "real" in controller.targets), None
-        )
+        return self._reporters.get((device.name, source.controller_kind or ""))
+
+    @cached_property
+    def _reporters(self) -> Mapping[tuple[str, str], Controller]:
+        """The first controller of a device and kind that is active on the real target."""
+        return {
+            (controller.device, controller.kind): controller
+            for controller in reversed(self.controllers)
+            if controller.device is not None and controller.active and "real" in controller.targets
+        }
 
     def carried_mass_kg(self, device: Device) -> float:
         """Return the mass of what a device carries, as the descriptions of those say; 0 where they say nothing."""

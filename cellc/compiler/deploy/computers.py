@@ -25,23 +25,23 @@ def computers(graph: CellGraph) -> dict[str, ObservedComputer]:
 
 def _computer(graph: CellGraph, host: Host | None, versions: tuple[str, ...]) -> ObservedComputer:
     environment = dict(_environment(graph.cell))
-    controls = any(host is None or manager.host == host.name for manager in graph.cell.managers)
+    controls = bool(graph.cell.managers) if host is None else host.name in graph.cell.managing_hosts
     if host is None:
         return ObservedComputer(versions=versions, environment=environment, controls=controls)
     cards = {
         nic.name: ObservedCard(
             address=nic.text, interface=host.nics[nic.name].interface, speed_bps=host.nics[nic.name].speed_bps
         )
-        for nic in graph.network.nics
-        if nic.host == host.name and nic.interface is not None
+        for nic in graph.network.cards.get(host.name, {}).values()
+        if nic.interface is not None
     }
     return ObservedComputer(
         versions=versions,
         cards=cards,
         routes={
             device.device: ObservedRoute(address=str(device.address), card=device.nic)
-            for device in graph.network.devices
-            if device.host == host.name and device.nic in cards and device.nic and device.address is not None
+            for device in graph.network.devices_of.get(host.name, ())
+            if device.nic in cards and device.nic and device.address is not None
         },
         environment=environment,
         scheduling=host.scheduling,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, DeviceJoint
@@ -64,28 +65,38 @@ def first_goals(cell: Cell) -> tuple[FirstGoal, ...]:
     """
     if not motion_clients(cell):
         return ()
-    return tuple(goal for first in cell.bringup.first_motions for goal in _goals(cell, first))
+    takers = {joint: taker for taker in reversed(tuple(_takers(cell))) for joint in taker.joints}
+    absent = tuple(node.full_name for node in motion_clients(cell))
+    goals = (_goal(cell, first, takers, absent) for first in cell.bringup.first_motions)
+    return tuple(goal for goal in goals if goal is not None)
 
 
-def _goals(cell: Cell, first: FirstMotion) -> Iterator[FirstGoal]:
+class _Taker(NamedTuple):
+    """What takes trajectories: its action, its joints, and where their states arrive."""
+
+    action: str
+    joints: tuple[str, ...]
+    state_topic: str
+
+
+def _goal(cell: Cell, first: FirstMotion, takers: Mapping[str, _Taker], absent: tuple[str, ...]) -> FirstGoal | None:
     device = cell.device(first.device)
     stated = next((joint.name for joint in device.joints if joint.local_name == first.local_joint), "")
-    for action, names, topic in _takers(cell):
-        if stated in names:
-            by, control = first.max_delta.value / 2.0, device.procedures.speed_control
-            yield FirstGoal(
-                device=device.name,
-                release=device.name if len(cell.bringup.first_motions) > 1 else "",
-                action=action,
-                topic=topic,
-                joints=tuple(_joint(cell, name) for name in names),
-                moves=(stated, *(name for name in _movable(device, first) if name in names and name != stated)),
-                by=-by if first.direction == "-" else by,
-                duration_s=max(_PEAK * by / first.velocity.value, first.timeout_s / 2.0),
-                timeout_s=first.timeout_s / (1.0 if control is None else control.low),
-                absent=tuple(node.full_name for node in motion_clients(cell)),
-            )
-            return
+    if (taker := takers.get(stated)) is None:
+        return None
+    by, control = first.max_delta.value / 2.0, device.procedures.speed_control
+    return FirstGoal(
+        device=device.name,
+        release=device.name if len(cell.bringup.first_motions) > 1 else "",
+        action=taker.action,
+        topic=taker.state_topic,
+        joints=tuple(cell.joints_by_name[name] for name in taker.joints),
+        moves=(stated, *(name for name in _movable(device, first) if name in taker.joints and name != stated)),
+        by=-by if first.direction == "-" else by,
+        duration_s=max(_PEAK * by / first.velocity.value, first.timeout_s / 2.0),
+        timeout_s=first.timeout_s / (1.0 if control is None else control.low),
+        absent=absent,
+    )
 
 
 def _movable(device: Device, first: FirstMotion) -> Iterator[str]:
@@ -93,14 +104,12 @@ def _movable(device: Device, first: FirstMotion) -> Iterator[str]:
     return (joint.name for joint in reversed(device.actuated_joints) if joint.slides == first.max_delta.linear)
 
 
-def _joint(cell: Cell, name: str) -> DeviceJoint:
-    return next(joint for device in cell.devices for joint in device.joints if joint.name == name)
-
-
-def _takers(cell: Cell) -> Iterator[tuple[str, tuple[str, ...], str]]:
-    """Yield what takes trajectories on the real target: its action, its joints, and where their states arrive."""
-    yield from ((taker.action, taker.joints, JOINT_STATES) for taker in cell.trajectory_controllers if taker.action)
-    yield from ((adapted.action, adapted.joints, adapted.state_topic) for adapted in cell.adapters)
+def _takers(cell: Cell) -> Iterator[_Taker]:
+    """Yield what takes trajectories on the real target."""
+    for controller in cell.trajectory_controllers:
+        if controller.action:
+            yield _Taker(controller.action, controller.joints, JOINT_STATES)
+    yield from (_Taker(adapted.action, adapted.joints, adapted.state_topic) for adapted in cell.adapters)
 
 
 def programs(cell: Cell) -> tuple[str, ...]:

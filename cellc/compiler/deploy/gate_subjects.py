@@ -81,7 +81,7 @@ from cellc.compiler.deploy.gate_versions import (
 )
 from cellc.compiler.deploy.labels import said_around
 from cellc.compiler.deploy.processes import description_nodes, launch_hosts, used_hosts
-from cellc.compiler.deploy.readiness import is_shown_late
+from cellc.compiler.deploy.readiness import shown_late
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, move_mock, restart_of, start_mock, start_real
 from cellc.compiler.deploy.versions import fetched_parts
@@ -266,9 +266,7 @@ def _seen(graph: CellGraph) -> Iterator[Values]:
 
 def _late_groups(graph: CellGraph) -> Iterator[Values]:
     """Yield the ends of planning groups whose joints do not show from the start on."""
-    for group in graph.cell.groups:
-        if is_shown_late(graph.cell, group.base_link, group.tip_frame):
-            yield group.tip_frame, group.base_link
+    return ((group.tip_frame, group.base_link) for group in shown_late(graph.cell))
 
 
 def _on_real(graph: CellGraph) -> Iterator[Interface]:

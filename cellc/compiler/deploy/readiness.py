@@ -9,6 +9,7 @@ from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import WORLD, FrameKind
 from cellc.compiler.cell.interface import Node
+from cellc.compiler.cell.motion import PlanningGroup
 from cellc.compiler.deploy.processes import asks_for_motion
 from cellc.compiler.graph.claims import crosses_a_joint
 from cellc.contract.entities import Target
@@ -88,9 +89,10 @@ def hardware_before(cell: Cell, node: Node, target: Target) -> tuple[str, ...]:
     )
 
 
-def is_shown_late(cell: Cell, parent: str, child: str, target: Target = "real") -> bool:
-    """Whether a transform goes over joints whose states show only once hardware has been activated."""
-    return crosses_a_joint(cell, parent, child, _unconfigured(cell, target))
+def shown_late(cell: Cell) -> Iterator[PlanningGroup]:
+    """Yield the groups with joints whose states show only once hardware has been activated, on the real target."""
+    devices = frozenset(_unconfigured(cell, "real"))
+    return (group for group in cell.groups if crosses_a_joint(cell, group.base_link, group.tip_frame, devices))
 
 
 def _unconfigured(cell: Cell, target: Target) -> tuple[str, ...]:

@@ -97,8 +97,13 @@ def fetched_parts(cell: Cell) -> Iterator[tuple[str, str, str]]:
 def compared_on(cell: Cell) -> Iterator[tuple[str, tuple[Installed, ...]]]:
     """Yield each computer that starts something, with the parts that it must show; an empty name for the only one."""
     parts = tuple(installed_parts(cell))
+    at_host: dict[str, list[int]] = {}
+    for place, part in enumerate(parts):
+        holder = part.name.rpartition(".")[0]
+        at_host.setdefault(cell.device(holder).site.host if holder else "", []).append(place)
     for host in launch_hosts(cell) or ("",):
-        yield host, tuple(part for part in parts if not host or _is_on(cell, part.name, host))
+        places = sorted((*at_host.get(host, ()), *at_host.get("", ()))) if host else range(len(parts))
+        yield host, tuple(parts[place] for place in places if not host or _is_on(cell, parts[place].name, host))
 
 
 def _is_on(cell: Cell, part: str, host: str) -> bool:
@@ -109,5 +114,5 @@ def _is_on(cell: Cell, part: str, host: str) -> bool:
     if name == "kernel":
         return cell.hosts[host].scheduling != _GENERIC
     if name == "ros2_control":
-        return any(manager.host == host for manager in cell.managers)
+        return host in cell.managing_hosts
     return name != "moveit" or any(node.host == host for node in cell.planners)

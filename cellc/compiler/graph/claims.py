@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Container, Iterator, Mapping
+from functools import cached_property
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice, Controller, ControllerManager, ControllerSwitch
@@ -51,11 +52,20 @@ class ClaimConflict:
     second: Controller
 
 
-@dataclass(frozen=True, slots=True)
+# Without slots, so that the states are sorted by manager when they are first asked for.
+@dataclass(frozen=True)
 class ClaimGraph:
     """Every state of every controller manager that its declared switches can reach."""
 
     states: tuple[ControlState, ...]
+
+    @cached_property
+    def states_of(self) -> Mapping[str, tuple[ControlState, ...]]:
+        """States of each manager, by its key."""
+        by_manager: dict[str, list[ControlState]] = {}
+        for state in self.states:
+            by_manager.setdefault(state.manager, []).append(state)
+        return {manager: tuple(states) for manager, states in by_manager.items()}
 
     def at_start(self) -> tuple[ControlState, ...]:
         """Return the first state of each manager."""
@@ -74,7 +84,7 @@ class ClaimGraph:
 
     def ever_active(self, manager: str) -> frozenset[str]:
         """Name the controllers of a manager that are active in some state."""
-        return frozenset(c.name for state in self.states if state.manager == manager for c in state.active)
+        return frozenset(c.name for state in self.states_of.get(manager, ()) for c in state.active)
 
 
 def build_claims(cell: Cell) -> ClaimGraph:
@@ -162,7 +172,7 @@ def crosses_an_adapter(cell: Cell, parent: str, child: str) -> bool:
 
 def crosses_a_joint(cell: Cell, parent: str, child: str, devices: Container[str]) -> bool:
     """Tell whether a joint of some devices lies between two frames, the child below the parent."""
-    frames, frame = {frame.name: frame for frame in cell.frames}, child
+    frames, frame = cell.frames_by_name, child
     while frame != parent and frame in frames:
         device = frames[frame].device
         if frames[frame].moving and device is not None and device in devices:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from heapq import heapify, heappop, heappush
+from itertools import product
 from typing import TYPE_CHECKING
 
 from cellc.compiler.catalog.load import load_message_types, load_programs
@@ -13,7 +14,9 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
+from cellc.contract.entities import Qos
 from cellc.contract.frozen import dataclass
+from cellc.contract.qos import Incompatibility, incompatibilities
 from cellc.contract.vocabulary import InterfaceKind
 
 if TYPE_CHECKING:
@@ -22,11 +25,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class TopicPair:
-    """A publisher of a topic and one of its subscribers, whose QoS the middleware compares."""
+    """A publisher of a topic and one of its subscribers, with the policies by which the middleware keeps them apart."""
 
     topic: Interface
     source: Endpoint
     sink: Endpoint
+    rows: tuple[Incompatibility, ...]
 
 
 # Without slots, so that the graph over all nodes is built once and kept.
@@ -68,14 +72,20 @@ class DataFlow:
         shortest = min(paths, key=lambda path: (len(path), path), default=())
         return " → ".join(f"`{name}`" for name in (interface.name, *shortest))
 
-    def topic_pairs(self) -> Iterator[TopicPair]:
-        """Yield each publisher of a topic with each of its subscribers."""
+    def unmatched(self) -> Iterator[TopicPair]:
+        """Yield each publisher of a topic with each of its subscribers that requests more than it offers."""
         for interfaces in self.interfaces.values():
-            topics = [interface for interface in interfaces if interface.kind is InterfaceKind.TOPIC]
-            sources = [(topic, source) for topic in topics for source in topic.sources]
-            sinks = [sink for topic in topics for sink in topic.sinks]
-            for topic, source in sources:
-                yield from (TopicPair(topic, source, sink) for sink in sinks)
+            offered: dict[Qos, list[tuple[Interface, Endpoint]]] = {}
+            requested: dict[Qos, list[Endpoint]] = {}
+            for topic in (interface for interface in interfaces if interface.kind is InterfaceKind.TOPIC):
+                for source in topic.sources:
+                    offered.setdefault(source.qos, []).append((topic, source))
+                for sink in topic.sinks:
+                    requested.setdefault(sink.qos, []).append(sink)
+            for ours, theirs in product(offered, requested):
+                if rows := incompatibilities(ours, theirs):
+                    ends = product(offered[ours], requested[theirs])
+                    yield from (TopicPair(topic, source, sink, rows) for (topic, source), sink in ends)
 
     def path_to_motion(self, node: str) -> tuple[str, ...]:
         """Return the shortest way from a node to a controller, both included; empty without one."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import cached_property
 from ipaddress import IPv4Address, IPv4Interface
 
 from cellc.compiler.cell.cell import Cell
@@ -44,21 +46,40 @@ class DeviceAddress:
     path: YamlPath
 
 
-@dataclass(frozen=True, slots=True)
+# Without slots, so that the cards are sorted by host when they are first asked for.
+@dataclass(frozen=True)
 class NetworkGraph:
     """Cards of hosts and addresses of devices, in the order of the spec."""
 
     nics: tuple[Nic, ...]
     devices: tuple[DeviceAddress, ...]
 
+    @cached_property
+    def cards(self) -> Mapping[str, Mapping[str, Nic]]:
+        """Cards of each host that has some, by their names."""
+        cards: dict[str, dict[str, Nic]] = {}
+        for nic in self.nics:
+            cards.setdefault(nic.host, {})[nic.name] = nic
+        return cards
+
+    @cached_property
+    def devices_of(self) -> Mapping[str, tuple[DeviceAddress, ...]]:
+        """Devices with a connection to each host that has some."""
+        devices: dict[str, list[DeviceAddress]] = {}
+        for device in self.devices:
+            devices.setdefault(device.host, []).append(device)
+        return {host: tuple(connected) for host, connected in devices.items()}
+
     def nic(self, host: str, name: str) -> Nic | None:
         """Find a card."""
-        return next((nic for nic in self.nics if nic.host == host and nic.name == name), None)
+        return self.cards.get(host, {}).get(name)
 
     def ros_cards(self, host: str) -> tuple[Nic, ...]:
         """Return the cards of a host that ROS may use: those with an address that are not for control."""
         return tuple(
-            nic for nic in self.nics if nic.host == host and nic.interface is not None and "control" not in nic.carries
+            nic
+            for nic in self.cards.get(host, {}).values()
+            if nic.interface is not None and "control" not in nic.carries
         )
 
     def card_of(self, server: DiscoveryServer) -> Nic | None:

@@ -22,12 +22,12 @@ from cellc.contract.vocabulary import InterfaceKind
 def seen_rates(cell: Cell) -> Iterator[Pair]:
     """What a node says in a frame of a camera is at most as fast as the fastest that it hears from this camera."""
     frames = {device.name: set(device.body.frames.values()) for device in cell.devices if device.sensing.camera}
-    topics = [topic for topic in topics_of(cell) if topic.rate_hz]
+    topics, seen = [topic for topic in topics_of(cell) if topic.rate_hz], set[str]().union(*frames.values())
     heard_by: dict[str, list[Interface]] = {}
     for topic in topics:
         for node in dict.fromkeys(sink.node for sink in topic.sinks):
             heard_by.setdefault(node, []).append(topic)
-    for topic in topics:
+    for topic in (topic for topic in topics if topic.frame in seen):
         for source in topic.sources:
             heard = [
                 image

@@ -70,7 +70,8 @@ def startup_cycle(graph: CellGraph) -> Findings:
     if not cycle:
         return
     waits = list(zip(cycle, (*cycle[1:], cycle[0]), strict=True))
-    needs = [next(n for n in graph.startup.needs if (n.part, n.needs) == pair) for pair in waits]
+    first = {(need.part, need.needs): need for need in reversed(graph.startup.needs)}
+    needs = [first[pair] for pair in waits]
     names = " → ".join(f"`{name}`" for name in (*cycle, cycle[0]))
     places = [graph.cell.locate("interfaces", need.proof) for need in needs]
     related = tuple(Related(f"`{n.part}` waits for `{n.proof}`", p) for n, p in zip(needs, places, strict=True))

@@ -67,9 +67,10 @@ def host_offset_beyond_age(graph: CellGraph) -> Findings:
 def _crossings(graph: CellGraph) -> Iterator[_Crossing]:
     hosts = graph.cell.hosts
     running = running_hosts(graph.cell)
+    most_s = sum(sorted((host.clock.max_offset_s or 0.0 for host in hosts.values()), reverse=True)[:2])
     for interface in graph.cell.interfaces:
         ends = ((source, sink) for source in interface.sources for sink in interface.sinks)
-        for source, sink in ends if interface.max_age_s is not None else ():
+        for source, sink in ends if interface.max_age_s is not None and interface.max_age_s <= most_s else ():
             pair = [hosts.get(running.get(end.full_name, "")) for end in (source, sink)]
             first, other = pair
             if first is None or other is None or first.name == other.name:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import DeviceJoint
@@ -172,24 +172,34 @@ def _misses(graph: CellGraph) -> Iterator[Figure]:
     """Yield how far the tip of a group can be from its goal with one joint at its goal tolerance."""
     uncertainty = graph.cell.uncertainty
     allowed = {} if uncertainty is None else uncertainty.tolerances_m
+    goals: dict[str, dict[str, float]] = {}
+    for goal in graph.cell.goals:
+        if goal.name in allowed:
+            goals.setdefault(goal.group, {})[goal.name] = allowed[goal.name]
     for group in graph.cell.groups:
-        own = {
-            goal.name: allowed[goal.name]
-            for goal in graph.cell.goals
-            if goal.group == group.name and goal.name in allowed
-        }
+        own = goals.get(group.name, {})
         loosest = max(own, key=lambda name: own[name], default="")
         most = _TIMES_ALLOWED * own[loosest] if own else _MISSED_M
         because = f"ten times the tolerance of goal `{loosest}`" if own else ""
         places = [("uncertainty", "tolerances", loosest)] if own else []
         related = tuple(Related("the tip may be so far from it", graph.cell.locate(*place)) for place in places)
         arms = chain_of(graph, group).arms
-        for controller in graph.cell.controllers:
+        watching = {place for joint in arms for place in graph.once(_watching).get(joint, ())}
+        for controller in (graph.cell.controllers[place] for place in sorted(watching)):
             figures = controller.goal_tolerance or {}
             ways = {name: figures[name].value * arms[name] for name in arms if name in figures}
-            if controller.behavior in TRAJECTORIES and ways:
+            if ways:
                 path = (*controller.path, "goal_tolerance")
                 yield Figure(path, max(ways.values()), most=most, because=because, related=related)
+
+
+def _watching(graph: CellGraph) -> Mapping[str, Sequence[int]]:
+    """Return the trajectory controllers with a goal tolerance for each joint, by their place among all."""
+    watching: dict[str, list[int]] = {}
+    for place, controller in enumerate(graph.cell.controllers):
+        for joint in (controller.goal_tolerance or {}) if controller.behavior in TRAJECTORIES else ():
+            watching.setdefault(joint, []).append(place)
+    return watching
 
 
 def _of_adapters(graph: CellGraph) -> Iterator[Figure]:

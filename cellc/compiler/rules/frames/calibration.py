@@ -7,6 +7,7 @@ import re
 from collections.abc import Container, Mapping, Sequence
 
 from cellc.compiler.cell.frame import WORLD, Frame, FrameKind
+from cellc.compiler.cell.motion import CartesianGoal
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.vocabulary import UNKNOWN
 
@@ -127,7 +128,7 @@ def coarse_calibration(graph: CellGraph) -> Findings:
     """Yield calibrations that a frame rests on with a residual of more than 5 mm."""
     for calibration in graph.cell.calibrations.values():
         residual_m = calibration.residual_m
-        users = [frame for frame in graph.cell.frames if frame.calibration == calibration.name]
+        users = graph.once(_users).get(calibration.name, ())
         most, related = _finest(graph, calibration.name)
         if users and residual_m is not None and residual_m > most:
             path = (*calibration.path, "residual")
@@ -136,13 +137,20 @@ def coarse_calibration(graph: CellGraph) -> Findings:
             yield found(graph, path, f"{message} got {graph.cell.text(*path)}", related=related)
 
 
+def _users(graph: CellGraph) -> Mapping[str, tuple[Frame, ...]]:
+    """Return the frames that name each calibration."""
+    users: dict[str, list[Frame]] = {}
+    for frame in graph.cell.frames:
+        if frame.calibration is not None:
+            users.setdefault(frame.calibration, []).append(frame)
+    return {name: tuple(frames) for name, frames in users.items()}
+
+
 def _finest(graph: CellGraph, name: str) -> tuple[float, tuple[Related, ...]]:
     """Return the least tolerance of the goals that rest on a calibration, at most the general one, m, and its place."""
     uncertainty = graph.cell.uncertainty
     stated = {} if uncertainty is None else uncertainty.tolerances_m
-    goals = [
-        goal for goal in graph.cell.goals if goal.name in stated and name in graph.once(_resting).get(goal.name, ())
-    ]
+    goals = [goal for goal in graph.once(_resting).get(name, ()) if goal.name in stated]
     finest = min(goals, key=lambda goal: stated[goal.name], default=None)
     if finest is None or stated[finest.name] >= _COARSEST_M:
         return _COARSEST_M, ()
@@ -150,18 +158,15 @@ def _finest(graph: CellGraph, name: str) -> tuple[float, tuple[Related, ...]]:
     return stated[finest.name], (Related(f"the tolerance of `{finest.name}`, which rests on it", place),)
 
 
-def _resting(graph: CellGraph) -> Mapping[str, frozenset[str]]:
-    """Return for each goal the calibrations of its frame and of the tip that goes there."""
+def _resting(graph: CellGraph) -> Mapping[str, Sequence[CartesianGoal]]:
+    """Return for each calibration the goals whose frame, or the tip that goes there, rests on it."""
     tips = {group.name: group.tip_frame for group in graph.cell.groups}
-    return {
-        goal.name: frozenset(
-            frame.calibration
-            for name in (goal.frame, tips.get(goal.group, ""))
-            for frame in graph.frames.chain(name)
-            if frame.calibration is not None
-        )
-        for goal in graph.cell.goals
-    }
+    resting: dict[str, list[CartesianGoal]] = {}
+    for goal in graph.cell.goals:
+        chains = (graph.frames.chain(name) for name in (goal.frame, tips.get(goal.group, "")))
+        for name in {frame.calibration for chain in chains for frame in chain if frame.calibration is not None}:
+            resting.setdefault(name, []).append(goal)
+    return resting
 
 
 _MOBILE = frozenset(
@@ -204,7 +209,7 @@ def too_few_samples(graph: CellGraph) -> Findings:
     """Yield calibrations below the number of samples that what rests on them needs."""
     cameras = {device.name for device in graph.cell.devices if device.kind == "camera"}
     for calibration in graph.cell.calibrations.values():
-        users = [frame for frame in graph.cell.frames if frame.calibration == calibration.name]
+        users = graph.once(_users).get(calibration.name, ())
         least = _LEAST_OF_CAMERA if any(user.device in cameras for user in users) else _LEAST_OF_OTHERS
         if users and calibration.samples is not None and calibration.samples < least:
             what = "that of a camera" if least == _LEAST_OF_CAMERA else "any"

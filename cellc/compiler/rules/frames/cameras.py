@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from cellc.compiler.cell.device import CameraStream, Device, FieldOfView
 from cellc.compiler.cell.frame import FrameKind, Solid
 from cellc.compiler.feasibility import ViewAnswer, motion_answer
+from cellc.compiler.graph.neighbors import Neighbors
 from cellc.compiler.rules.described import described
 from cellc.compiler.rules.geometry import KNOWN_GOALS
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
@@ -43,26 +44,51 @@ def camera_sees_nothing(graph: CellGraph) -> Findings:
     """Yield cameras that no joint moves and that have no frame, box or device before them, where there are places."""
     for device in graph.cell.devices:
         streams = () if device.sensing.camera is None else device.sensing.camera.streams
-        eyes = [(stream, graph.frames.in_world(stream.frame)) for stream in streams]
-        if not eyes:
+        eyes = [(stream, eye) for stream in streams if (eye := graph.frames.in_world(stream.frame)) is not None]
+        things = graph.once(_things) if eyes else ()
+        if not things or any(_sees_any(graph, device, stream, eye) for stream, eye in eyes):
             continue
-        things = list(_places(graph, _PLACED)) + [corner for box in graph.cell.scene for corner in _corners(graph, box)]
-        seen = [*things, *_places(graph, (FrameKind.MOUNT,), device.name)]
-        known = [(stream, eye) for stream, eye in eyes if eye is not None]
-        if not things or not known or any(_sees(stream, eye, thing) for stream, eye in known for thing in seen):
-            continue
-        nearest = min(things, key=lambda thing: _aside(known[0][1], thing))
-        aside_deg = math.degrees(_aside(known[0][1], nearest))
+        aside_deg = math.degrees(min(_aside(place) for place in _before(graph, *eyes[0])))
         message = f"`{device.name}` must look at something of the cell, but the nearest lies {aside_deg:.0f} deg"
         yield found(graph, (*device.path, "mount"), f"{message} beside its axis")
 
 
-def _places(graph: CellGraph, kinds: tuple[FrameKind, ...], but_of: str = "") -> Iterator[Vector3]:
-    """Yield where frames of some kinds stand in the world, m, as far as no joint moves them."""
-    for frame in graph.cell.frames:
-        place = graph.frames.in_world(frame.name) if frame.kind in kinds and frame.device != but_of else None
-        if place is not None:
-            yield place.position
+def _things(graph: CellGraph) -> list[Vector3]:
+    """Return where frames and boxes of the scene stand in the world, m, as far as no joint moves them."""
+    frames = (graph.frames.in_world(frame.name) for frame in graph.cell.frames if frame.kind in _PLACED)
+    corners = (corner for box in graph.cell.scene for corner in _corners(graph, box))
+    return [*(frame.position for frame in frames if frame is not None), *corners]
+
+
+_CUBE_M = 5.0
+"""How far cameras of cells see."""
+
+
+def _visible(graph: CellGraph) -> Neighbors[str]:
+    """Return these places, and with their names those of the devices, as far as no joint moves them."""
+    mounts = (frame for frame in graph.cell.frames if frame.kind is FrameKind.MOUNT)
+    placed = ((graph.frames.in_world(frame.name), frame.device or "") for frame in mounts)
+    devices = ((pose.position, device) for pose, device in placed if pose is not None)
+    return Neighbors(((*((place, "") for place in graph.once(_things)), *devices)), _CUBE_M)
+
+
+def _sees_any(graph: CellGraph, camera: Device, stream: CameraStream, eye: Pose) -> bool:
+    """Whether a thing, or another device, is before a camera."""
+    world_in_eye = eye.inverse()
+    near = graph.once(_visible).within(_farthest_m(stream), of=eye.position)
+    return any(device != camera.name and _sees(stream, world_in_eye.apply(place)) for place, device in near)
+
+
+def _before(graph: CellGraph, stream: CameraStream, eye: Pose) -> list[Vector3]:
+    """Return things that a camera is near enough to see, in its frame; all where it is near none."""
+    world_in_eye = eye.inverse()
+    near = graph.once(_visible).within(_farthest_m(stream), of=eye.position)
+    seen = [place for place, device in near if not device]
+    return [world_in_eye.apply(place) for place in seen or graph.once(_things)]
+
+
+def _farthest_m(stream: CameraStream) -> float:
+    return math.inf if stream.view is None else stream.view.farthest_m
 
 
 def _corners(graph: CellGraph, box: Solid) -> Iterator[Vector3]:
@@ -76,8 +102,9 @@ def _corners(graph: CellGraph, box: Solid) -> Iterator[Vector3]:
         yield (center @ Pose((x, y, z), (0.0, 0.0, 0.0, 1.0))).position
 
 
-def _sees(stream: CameraStream, eye: Pose, thing: Vector3) -> bool:
-    x, y, z = _before(eye, thing)
+def _sees(stream: CameraStream, thing: Vector3) -> bool:
+    """Whether a place in the frame of a camera, m, is within its view."""
+    x, y, z = thing
     if z <= 0.0 or stream.view is None:
         return z > 0.0
     aside, above = math.atan2(abs(x), z), math.atan2(abs(y), z)
@@ -85,13 +112,9 @@ def _sees(stream: CameraStream, eye: Pose, thing: Vector3) -> bool:
     return within and math.hypot(x, y, z) <= stream.view.farthest_m
 
 
-def _before(eye: Pose, thing: Vector3) -> Vector3:
-    return (eye.inverse() @ Pose(thing, (0.0, 0.0, 0.0, 1.0))).position
-
-
-def _aside(eye: Pose, thing: Vector3) -> float:
-    """Return the angle between the axis of a camera and a place, rad."""
-    x, y, z = _before(eye, thing)
+def _aside(thing: Vector3) -> float:
+    """Return the angle between the axis of a camera and a place in its frame, rad."""
+    x, y, z = thing
     return math.atan2(math.hypot(x, y), z)
 
 

@@ -4,23 +4,44 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 
+from cellc.compiler.graph.neighbors import Neighbors
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
-from cellc.contract.transforms import Pose, from_xyz_rpy, identity
+from cellc.contract.transforms import Pose, Vector3, from_xyz_rpy, identity
 
 _LARGEST_CELL_M = 20.0
 
 
 @rule(Severity.ERROR)
 def implausible_distance(graph: CellGraph) -> Findings:
-    """Yield frames more than 20 m from their parent."""
+    """Yield frames more than 20 m from their parent, and from the nearest frame beside them that is none of these.
+
+    A hall of 120 m is a row of stations: each has a neighbor. A frame in the wrong unit has none.
+    """
+    placed: dict[str, dict[str, Vector3]] = {}
     for frame in graph.cell.frames:
-        if frame.transform_to_parent is None:
-            continue
-        distance = math.hypot(*frame.transform_to_parent.position)
-        if distance > _LARGEST_CELL_M:
-            message = f"`{frame.name}` must lie within {_LARGEST_CELL_M:g} m of `{frame.parent}`, got {distance:g} m"
-            yield found(graph, (*frame.path, "xyz"), message)
+        if frame.transform_to_parent is not None:
+            placed.setdefault(frame.parent, {})[frame.name] = frame.transform_to_parent.position
+    alone = {name for beside in placed.values() for name in _without_neighbor(beside)}
+    for frame in graph.cell.frames if alone else ():
+        if frame.name in alone:
+            wanted = f"within {_LARGEST_CELL_M:g} m of `{frame.parent}`, or of another frame that is"
+            distance = math.hypot(*placed[frame.parent][frame.name])
+            yield found(graph, (*frame.path, "xyz"), f"`{frame.name}` must lie {wanted}, got {distance:g} m")
+
+
+def _without_neighbor(beside: Mapping[str, Vector3]) -> list[str]:
+    """Return the frames of one parent that no row of neighbors joins with its origin."""
+    far = [(position, name) for name, position in beside.items() if math.hypot(*position) > _LARGEST_CELL_M]
+    left = Neighbors(far, _LARGEST_CELL_M)
+    alone = {name for _, name in far}
+    reached = [position for name, position in beside.items() if name not in alone] if far else []
+    while reached:
+        joined = [neighbor for place in reached for neighbor in left.take(_LARGEST_CELL_M, of=place)]
+        alone.difference_update(name for _, name in joined)
+        reached = [place for place, _ in joined]
+    return [name for _, name in far if name in alone]
 
 
 _DEGREES = re.compile(r"[-+0-9.,\s]*\d\s*deg\s*")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import FrameKind
-from cellc.compiler.cell.motion import CartesianGoal
+from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
 from cellc.contract.transforms import Pose, Vector3
 
@@ -60,11 +61,7 @@ def tcp_beside_the_tips(graph: CellGraph) -> Findings:
     for device in graph.cell.devices:
         tool, tcp = device.body.tool_frame, device.robot.tcp
         place = None if tool is None or tcp is None else graph.frames.pose_in(tcp, tool, rigid=True)
-        groups = [
-            group
-            for group in graph.cell.groups
-            if any(frame.name == tool for frame in graph.frames.chain(group.tip_frame))
-        ]
+        groups = graph.once(_groups_beyond).get(tool or "", ())
         if place is None or tool is None or not groups:
             continue
         tips = [graph.frames.pose_in(group.tip_frame, tool, rigid=True) for group in groups]
@@ -77,15 +74,29 @@ def tcp_beside_the_tips(graph: CellGraph) -> Findings:
             yield found(graph, (*device.path, "tcp"), message, related=related)
 
 
-@rule(Severity.ERROR)
-def tip_off_the_tool_chain(graph: CellGraph) -> Findings:
-    """Yield groups of an arm with a tip that does not come after its tool frame."""
-    arms = {
+def _groups_beyond(graph: CellGraph) -> Mapping[str, Sequence[PlanningGroup]]:
+    """Return the groups whose tip each frame carries."""
+    groups: dict[str, list[PlanningGroup]] = {}
+    for group in graph.cell.groups:
+        for frame in graph.frames.chain(group.tip_frame):
+            groups.setdefault(frame.name, []).append(group)
+    return groups
+
+
+def _arms(graph: CellGraph) -> Mapping[str, Device]:
+    """Return the device with a tool frame of which each link is."""
+    return {
         link.name: device
         for device in graph.cell.devices
         if device.body.tool_frame
         for link in device.body.description.links
     }
+
+
+@rule(Severity.ERROR)
+def tip_off_the_tool_chain(graph: CellGraph) -> Findings:
+    """Yield groups of an arm with a tip that does not come after its tool frame."""
+    arms = graph.once(_arms)
     for group in graph.cell.groups:
         arm = arms.get(group.base_link)
         if arm is None or arm.body.tool_frame is None:
@@ -112,7 +123,7 @@ def tip_within_tool(graph: CellGraph) -> Findings:
     """
     for group in graph.cell.groups:
         tip = graph.frames.get(group.tip_frame)
-        arm = next((device for device in graph.cell.devices if group.base_link in _links(device)), None)
+        arm = graph.once(_arms).get(group.base_link)
         if tip is None or arm is None or arm.body.tool_frame is None:
             continue
         pose = graph.frames.pose_in(tip.name, arm.body.tool_frame)

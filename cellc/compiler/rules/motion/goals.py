@@ -70,9 +70,9 @@ def _stretched(graph: CellGraph, group: PlanningGroup) -> float:
         if frame.name == group.base_link:
             break
         length += math.hypot(*frame.transform_to_parent.position) if frame.transform_to_parent else 0.0
-    joints = [joint for device in graph.cell.devices for joint in device.joints if joint.name in group.joints]
-    travel = (max(abs(j.lower or 0.0), abs(j.upper or 0.0)) for j in joints if j.type == "prismatic")
-    return length + sum(travel)
+    joints = graph.cell.joints_by_name
+    own = (joints[name] for name in group.joints if name in joints)
+    return length + sum(max(abs(j.lower or 0.0), abs(j.upper or 0.0)) for j in own if j.type == "prismatic")
 
 
 _SHORTEST_M = 0.001

@@ -19,9 +19,8 @@ _PARTIAL = "allow_partial_joints_goal"
 def controller_beyond_its_group(graph: CellGraph) -> Findings:
     """Yield groups whose controllers want more joints than a plan of the group has."""
     for group in graph.cell.groups:
-        for controller in graph.cell.controllers:
-            executes = controller.label in group.controllers and controller.behavior in TRAJECTORIES
-            if not executes or controller.parameters.get(_PARTIAL) is True:
+        for controller in graph.cell.controllers_for(group):
+            if controller.behavior not in TRAJECTORIES or controller.parameters.get(_PARTIAL) is True:
                 continue
             lacking = [joint for joint in controller.joints if joint not in group.joints]
             if lacking:

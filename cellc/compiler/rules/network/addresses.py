@@ -29,8 +29,8 @@ def address_of_a_carried_device(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def cards_in_one_subnet(graph: CellGraph) -> Findings:
     """Yield the second card of a host whose subnet overlaps."""
-    for first, second in combinations(graph.network.nics, 2):
-        if first.host != second.host or first.interface is None or second.interface is None:
+    for first, second in (pair for cards in graph.network.cards.values() for pair in combinations(cards.values(), 2)):
+        if first.interface is None or second.interface is None:
             continue
         same = first.interface.ip == second.interface.ip  # a duplicate address, which is reported as such
         if first.interface.network.overlaps(second.interface.network) and not same:
@@ -85,7 +85,7 @@ def no_route_to_device(graph: CellGraph) -> Findings:
     for device in graph.network.devices:
         if device.nic is not None or device.address is None:
             continue
-        cards = [nic for nic in graph.network.nics if nic.host == device.host and nic.interface is not None]
+        cards = graph.network.cards.get(device.host, {}).values()
         if not any(nic.interface is not None and device.address in nic.interface.network for nic in cards):
             message = f"no card of `{device.host}` is in the subnet of {device.address} of `{device.device}`"
             yield found(graph, (*device.path, "address"), message)

@@ -113,8 +113,9 @@ def missing_ros_card(graph: CellGraph) -> Findings:
     with_card = [host for host in hosts if any("ros" in nic.carries for nic in host.nics.values())]
     if not with_card:
         return
+    names = {host.name for host in with_card}
     for host in hosts:
-        if host.nics and host not in with_card:
+        if host.nics and host.name not in names:
             others = ", ".join(f"`{other.name}`" for other in with_card)
             message = f"`{host.name}` runs nodes and must have a card that carries `ros`, as {others} has"
             related = tuple(Related("nodes of the cell run here too", other.span) for other in with_card)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 
-from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.graph.claims import ControlState, adapter_of_group, can_switch
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
@@ -41,7 +40,7 @@ def double_claim_after_switch(graph: CellGraph) -> Findings:
 def group_joints_without_controller(graph: CellGraph) -> Findings:
     """Yield groups with joints that are in none of their controllers."""
     for group in graph.cell.groups:
-        controllers = [c for c in graph.cell.controllers if c.label in group.controllers]
+        controllers = graph.cell.controllers_for(group)
         moved = {joint for controller in controllers for joint in controller.joints}
         missing = [joint for joint in group.joints if joint not in moved]
         if controllers and missing:
@@ -77,7 +76,7 @@ def idle_controller(graph: CellGraph) -> Findings:
 def impossible_switch(graph: CellGraph) -> Findings:
     """Yield switches that no reachable state allows."""
     for manager in graph.cell.managers:
-        states = [state for state in graph.claims.states if state.manager == manager.name]
+        states = graph.claims.states_of.get(manager.name, ())
         active = [frozenset(controller.name for controller in state.active) for state in states]
         for switch in manager.switches:
             if not any(can_switch(names, switch) for names in active):
@@ -90,7 +89,7 @@ def refused_command_modes(graph: CellGraph) -> Findings:
     """Yield the switch that leads to two controllers whose command modes exclude each other, once for a pair."""
     seen: set[tuple[str, str, str]] = set()
     for state in graph.claims.states:
-        for first, second, device, modes in _refused_modes(graph.cell, state):
+        for first, second, device, modes in _refused_modes(graph, state):
             pair = (state.manager, first.name, second.name)
             if pair in seen:
                 continue
@@ -103,14 +102,25 @@ def refused_command_modes(graph: CellGraph) -> Findings:
             yield found(graph, path, message, f"deactivate `{first.name}` in the same switch", related)
 
 
-def _refused_modes(cell: Cell, state: ControlState) -> Iterator[tuple[Controller, Controller, str, str]]:
+def _owners(graph: CellGraph) -> Mapping[str, tuple[int, ...]]:
+    """Return which devices of the cell, by their place in it, have a joint or a mode of a name."""
+    owners: dict[str, list[int]] = {}
+    for at, device in enumerate(graph.cell.devices):
+        modes = None if device.control.hardware is None else device.control.hardware.modes
+        for name in {*(joint.name for joint in device.joints), *modes.names} if modes is not None else ():
+            owners.setdefault(name, []).append(at)
+    return {name: tuple(places) for name, places in owners.items()}
+
+
+def _refused_modes(graph: CellGraph, state: ControlState) -> Iterator[tuple[Controller, Controller, str, str]]:
     """Yield pairs of active controllers that no driver runs together, with the device and its two modes."""
     claiming: dict[str, dict[str, Controller]] = {}
     for controller in state.active:
         for claim in controller.claims("real") if "real" in controller.targets else ():
             claiming.setdefault(claim.rpartition("/")[0], {})[controller.label] = controller
     order = {controller.label: number for number, controller in enumerate(state.active)}
-    for device in cell.devices:
+    owners = graph.once(_owners)
+    for device in (graph.cell.devices[at] for at in sorted({at for name in claiming for at in owners.get(name, ())})):
         modes = None if device.control.hardware is None else device.control.hardware.modes
         if modes is None:
             continue

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
@@ -24,7 +24,7 @@ def second_state_publisher(graph: CellGraph) -> Findings:
             continue
         first: dict[_Part, Endpoint] = {}
         for source in topic.sources:
-            parts = tuple(_parts(graph.cell, topic, source, first))
+            parts = tuple(_parts(graph, topic, source, first))
             again = next((part for part in parts if part in first), None)
             if again is not None:
                 what = f"the state of `{again[1]}`" if again[1] else "what counts newest"
@@ -46,7 +46,7 @@ def joint_without_state(graph: CellGraph) -> Findings:
     for manager, controller in listed:
         names = {topic.name for topic in controller.own_topics if topic.type == JOINT_STATE_TYPE and topic.publishes}
         for topic in graph.cell.interfaces:
-            without = _unpublished(graph.cell, manager, controller, topic) if topic.name in names else ()
+            without = _unpublished(graph, manager, controller, topic) if topic.name in names else ()
             if without:
                 more = f" and {len(without) - 1} more" if len(without) > 1 else ""
                 message = f"`{controller.name}` must publish `{without[0]}`{more}, because nothing else does"
@@ -54,17 +54,19 @@ def joint_without_state(graph: CellGraph) -> Findings:
                 yield found(graph, path, message, f"add `{without[0]}`{more}, or delete the list")
 
 
-def _unpublished(cell: Cell, manager: ControllerManager, controller: Controller, topic: Interface) -> tuple[str, ...]:
+def _unpublished(
+    graph: CellGraph, manager: ControllerManager, controller: Controller, topic: Interface
+) -> tuple[str, ...]:
     """Return the joints of a manager with a state of their own of which a topic says nothing on a target."""
     said = set[_Part]()
     for source in topic.sources:
-        joints = _joints(cell, source)
+        joints = _joints(graph, source)
         if joints is None:
             return ()  # of a node, nothing says which joints it publishes
         said.update(joints)
     return tuple(
         joint.name
-        for device in map(cell.device, manager.devices)
+        for device in map(graph.cell.device, manager.devices)
         for joint in device.joints
         if device.control.hardware is not None and joint.mimics is None and "position" in joint.state_interfaces
         for target in controller.targets[:1]
@@ -72,32 +74,40 @@ def _unpublished(cell: Cell, manager: ControllerManager, controller: Controller,
     )
 
 
-def _parts(cell: Cell, topic: Interface, source: Endpoint, known: Iterable[_Part]) -> Iterator[_Part]:
+def _parts(graph: CellGraph, topic: Interface, source: Endpoint, known: Iterable[_Part]) -> Iterator[_Part]:
     """Yield what a publisher speaks of; of joints, a node of which nothing says it speaks of all that have none yet."""
     if topic.type != JOINT_STATE_TYPE:
         yield from ((target, "") for target in source.targets if topic.wants == "newest")
         return
-    joints = _joints(cell, source)
+    joints = _joints(graph, source)
     if joints is not None:
         yield from joints
         return
-    moving = {joint.name for device in cell.devices for joint in device.joints if joint.type != "fixed"}
+    moving = {joint.name for device in graph.cell.devices for joint in device.joints if joint.type != "fixed"}
     said = set(known)
     for target in source.targets:
         parts = {(target, joint) for joint in moving}
         yield from sorted(parts - said or parts)
 
 
-def _joints(cell: Cell, source: Endpoint) -> tuple[_Part, ...] | None:
+def _joints(graph: CellGraph, source: Endpoint) -> tuple[_Part, ...] | None:
     """Return the joints of a controller or device; None of a node, which may speak of any."""
-    for manager in cell.managers:
-        for controller in manager.controllers:
-            if controller.label == source.node:
-                return tuple(_broadcast(cell, manager, controller))
-    device = next((device for device in cell.devices if device.name == source.node), None)
-    if device is None:
-        return None
-    return tuple((target, joint.name) for target in source.targets for joint in device.joints)
+    if (broadcaster := graph.once(_controllers).get(source.node)) is not None:
+        return tuple(_broadcast(graph.cell, *broadcaster))
+    joints = graph.once(_joints_of_devices).get(source.node)
+    return None if joints is None else tuple((target, joint) for target in source.targets for joint in joints)
+
+
+def _controllers(graph: CellGraph) -> Mapping[str, tuple[ControllerManager, Controller]]:
+    return {
+        controller.label: (manager, controller)
+        for manager in reversed(graph.cell.managers)
+        for controller in reversed(manager.controllers)
+    }
+
+
+def _joints_of_devices(graph: CellGraph) -> Mapping[str, tuple[str, ...]]:
+    return {device.name: tuple(joint.name for joint in device.joints) for device in reversed(graph.cell.devices)}
 
 
 def _broadcast(cell: Cell, manager: ControllerManager, controller: Controller) -> Iterator[_Part]:

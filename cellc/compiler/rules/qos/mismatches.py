@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from cellc.compiler.graph.data_flow import TopicPair
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule, rules
-from cellc.contract.qos import incompatibilities
+
+
+def _unmatched(graph: CellGraph) -> tuple[TopicPair, ...]:
+    return tuple(graph.data.unmatched())
 
 
 def _mismatched(graph: CellGraph, policy: str) -> Findings:
     """Yield a finding at each subscriber that requests more of a policy than one publisher of its topic offers."""
-    for pair in graph.data.topic_pairs():
+    for pair in graph.once(_unmatched):
         source, sink = pair.source, pair.sink
-        for row in incompatibilities(source.qos, sink.qos):
+        for row in pair.rows:
             if row.policy == policy:
                 message = (
                     f"`{sink.node}` requests `{policy}: {row.requested}` on `{pair.topic.name}`, "
