@@ -56,6 +56,17 @@ def _nodes(size: int) -> Section:
     return {f"n{n}": {"run": "tasks/node", "owner": "team", "lifecycle": True} for n in range(size)}
 
 
+def stations(places: list[str]) -> str:
+    """Write stands at places of the world."""
+    return _spec(
+        {
+            "devices": {
+                f"s{n}": {"model": "pedestal", "mount": {"parent": "world", "xyz": xyz}} for n, xyz in enumerate(places)
+            }
+        }
+    )
+
+
 def of_chained_frames(size: int) -> str:
     """Write frames each of which hangs on the one before."""
     parents = ["world", *(f"f{n}" for n in range(size))]
