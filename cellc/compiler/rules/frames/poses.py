@@ -15,7 +15,7 @@ _LARGEST_CELL_M = 20.0
 
 @rule(Severity.ERROR)
 def implausible_distance(graph: CellGraph) -> Findings:
-    """Yield frames more than 20 m from their parent, and from the nearest frame beside them that is none of these.
+    """Yield frames more than 20 m from their parent, and from each frame beside them that is near.
 
     A hall of 120 m is a row of stations: each has a neighbor. A frame in the wrong unit has none.
     """
