@@ -276,7 +276,8 @@ def _carried(spec: CellSpec) -> dict[str, list[str]]:
     """Return the devices whose mount names a frame of a device, in the order of the spec."""
     carried: dict[str, list[str]] = {}
     for name, device_spec in spec.devices.items():
-        carrier = "" if device_spec.mount is None else device_spec.mount.parent.partition("/")[0]
+        parent = "" if device_spec.mount is None else device_spec.mount.parent
+        carrier = parent.partition("/")[0] if "/" in parent else ""  # a device may have the name of a frame
         if carrier != name:
             carried.setdefault(carrier, []).append(name)
     return carried

@@ -211,7 +211,8 @@ def _unknown(name: str | None, read: _Read, names: FrameNames, document: SourceD
         message = f"`{read.entry.from_}` names no frames, and `{read.name}` states no `parent` and `child`"
         return Diagnostic(_FRAMES, Severity.ERROR, message, place, path, "state both, as `device/link`")
     known = {*names.by_reference, *names.by_reference.values()}
-    help_ = f"{did_you_mean(name, known, 'frames of this cell')}; or state `parent` and `child` of `{read.name}`"
+    more = f"; or state `parent` and `child` of `{read.name}`"
+    help_ = did_you_mean(name, known, "frames of this cell").and_more(more)
     return Diagnostic(_FRAMES, Severity.ERROR, f"there is no frame `{name}`", place, path, help_)
 
 

@@ -11,7 +11,7 @@ from functools import wraps
 
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.code_page import CodePage, page_of
-from cellc.contract.diagnostics import Related, Severity, Span, YamlPath, did_you_mean
+from cellc.contract.diagnostics import Related, Severity, Span, YamlPath, did_you_mean, meant, write
 from cellc.contract.frozen import dataclass
 
 __all__ = [
@@ -24,8 +24,10 @@ __all__ = [
     "YamlPath",
     "did_you_mean",
     "found",
+    "meant",
     "rule",
     "rules",
+    "write",
 ]
 
 FAMILIES = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from typing import TypeAlias, Union
 
@@ -100,19 +100,35 @@ class SourceDocument:
 
     def locate_key(self, path: YamlPath) -> Span:
         """Return where the key of ``path`` is written; for an item of a list or a missing path, as `locate`."""
-        child = self._child(path)
+        child = self.child(path)
         if child is not None and child.key_span is not None:
             return child.key_span
         return self.locate(path)
 
     def has(self, path: YamlPath) -> bool:
         """Return whether the user wrote a value at ``path``; the root always exists."""
-        return not path or self._child(path) is not None
+        return not path or self.child(path) is not None
 
     def text_at(self, path: YamlPath) -> str:
         """Return the scalar at ``path`` as written (``1e3``, ``0x1F``), quotes removed; empty for anything else."""
-        child = self._child(path)
+        child = self.child(path)
         return child.node.text if child is not None else ""
+
+    def child(self, path: YamlPath) -> Child | None:
+        """Return the value at a path in its place; None for the root and a path that does not exist."""
+        node, child = self.root, None
+        for part in path:
+            child = node.children.get(part)
+            if child is None:
+                return None
+            node = child.node
+        return child
+
+    def below(self, path: YamlPath) -> Iterator[tuple[YamlPath, Child]]:
+        """Yield all that is written below a path with its own path, outer ones first; nothing for a missing one."""
+        child = self.child(path)
+        if child is not None or not path:
+            yield from places(self.root if child is None else child.node, path)
 
     def fix(self, span: Span, written: str, text: str | None, *, sure: bool) -> Fix | None:
         """Return the edit of a text at the end of a span, quotes apart; None where it is not there as it is."""
@@ -136,7 +152,7 @@ class SourceDocument:
 
     def with_text(self, path: YamlPath, text: str) -> SourceDocument:
         """Return the same with another scalar at a path that exists; places stay."""
-        child = self._child(path)
+        child = self.child(path)
         if child is None:
             return self
         scalar = replace(child, node=replace(child.node, data=text, text=text))
@@ -159,15 +175,6 @@ class SourceDocument:
         """Return the same with other values."""
         return replace(self, root=root)
 
-    def _child(self, path: YamlPath) -> Child | None:
-        node, child = self.root, None
-        for part in path:
-            child = node.children.get(part)
-            if child is None:
-                return None
-            node = child.node
-        return child
-
     def _nearest(self, path: YamlPath) -> Child | None:
         node, found = self.root, None
         for part in path:
@@ -176,6 +183,13 @@ class SourceDocument:
                 break
             node, found = child.node, child
         return found
+
+
+def places(node: Node, path: YamlPath = ()) -> Iterator[tuple[YamlPath, Child]]:
+    """Yield every child below a node with its path, outer ones first."""
+    for part, child in node.children.items():
+        yield (*path, part), child
+        yield from places(child.node, (*path, part))
 
 
 def rebuilt(node: Node, children: Mapping[str | int, Child], text: str = "") -> Node:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from cellc.compiler.source.findings import finding
-from cellc.contract.diagnostics import Diagnostic, Outcome, Span, nearest
+from cellc.contract.diagnostics import Diagnostic, Outcome, Span, meant, nearest
 from cellc.contract.diagnostics.unsafe_text import HIDDEN, hidden
 from cellc.contract.errors import reason_of
 from cellc.contract.file_names import SPEC_FILE
@@ -101,7 +101,7 @@ def _similar_file(path: Path) -> str:
     except OSError:
         return f"check the folder: `{path.parent.as_posix()}` cannot be listed"
     close = nearest(path.name, names)
-    return "did you mean " + " or ".join(f"`{name}`" for name in close) + "?" if close else ""
+    return meant(path.name, close) if close else ""
 
 
 def _decode(content: bytes, name: str) -> str | Diagnostic:

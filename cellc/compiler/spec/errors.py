@@ -23,7 +23,7 @@ from cellc.compiler.spec.wording import (
     scalar_text,
     value_at,
 )
-from cellc.contract.diagnostics import did_you_mean, only_nearest
+from cellc.contract.diagnostics import Advice, did_you_mean, nearest, only_nearest
 from cellc.contract.frozen import dataclass
 
 _TYPES: Mapping[str, str] = {
@@ -36,6 +36,10 @@ _TYPES: Mapping[str, str] = {
     "dict_type": "a mapping",
     "model_type": "a mapping",
 }
+
+
+_TRUTHS = ("true", "false")
+_WORDS_OF_YAML_1_1 = {"yes": "true", "y": "true", "on": "true", "no": "false", "n": "false", "off": "false"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +73,10 @@ def _missing(error: ErrorDetails, place: Place, document: SourceDocument) -> Pro
 def _unknown_key(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     key = str(place.path[-1])
     message = f"{quote_path(place.path[:-1])} has no key {quote(key)}"
-    return Problem("unknown-key", message, help_for_unknown_key(key, place), key, meant_key(key, place))
+    help_ = help_for_unknown_key(key, place)
+    if isinstance(help_, Advice):  # a key that is there already would be there twice
+        help_ = help_.without(other for other in help_.instead if document.has((*place.path[:-1], other)))
+    return Problem("unknown-key", message, help_, key, meant_key(key, place))
 
 
 def _wrong_type(expected: str, place: Place, document: SourceDocument) -> Problem:
@@ -77,8 +84,12 @@ def _wrong_type(expected: str, place: Place, document: SourceDocument) -> Proble
     text = document.text_at(place.path)
     message = f"expected {expected} for {quote_path(place.path)}, got {describe(value, text)}"
     if expected == "text" and isinstance(value, (int, float)):
-        return Problem("wrong-type", message, f'put it in quotes: `"{text}"`')
-    return Problem("wrong-type", message, f"write {expected}{_example(place.field)}")
+        return Problem("wrong-type", message, Advice(f'put it in quotes: `"{text}"`', text, (f'"{text}"',)))
+    help_ = f"write {expected}{_example(place.field)}"
+    if expected == _TYPES["bool_type"] and isinstance(value, str):
+        near = (_WORDS_OF_YAML_1_1[value.lower()],) if value.lower() in _WORDS_OF_YAML_1_1 else nearest(value, _TRUTHS)
+        help_ = Advice(help_, value, dict.fromkeys((*near, *_TRUTHS)), is_near=bool(near))
+    return Problem("wrong-type", message, help_)
 
 
 def _other(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
@@ -163,7 +174,8 @@ def _missing_unit(error: ErrorDetails, place: Place, document: SourceDocument) -
     context = error["ctx"]
     text = document.text_at(place.path) or str(context["text"])
     message = f"expected {context['what']} with its unit, got {quote(text)}"
-    return Problem("missing-unit", message, _units_help(error))
+    instead = (f"{text.strip()} {unit}" for unit in _units(error))
+    return Problem("missing-unit", message, Advice(_units_help(error), text, instead, is_near=False))
 
 
 def _wrong_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
@@ -171,8 +183,11 @@ def _wrong_unit(error: ErrorDetails, place: Place, document: SourceDocument) -> 
     message = f"{quote(str(context['unit']))} is not a unit of {context['what']}"
     unit = str(context["unit"])
     meant = UNIT_OF_SPELLING.get(unit.lower())
-    taken = meant in str(context["units"]).split(", ")
-    return Problem("wrong-unit", message, _units_help(error), unit, meant if taken else None)
+    units = _units(error)
+    if meant in units:
+        return Problem("wrong-unit", message, Advice(_units_help(error), unit, (meant,)), unit, meant)
+    near = nearest(unit, units)
+    return Problem("wrong-unit", message, Advice(_units_help(error), unit, (*near, *units), is_near=bool(near)))
 
 
 def _not_a_quantity(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
@@ -193,6 +208,13 @@ def _units_help(error: ErrorDetails) -> str:
     return f"write a number and the unit {listed}, such as `{error['ctx']['example']}`"
 
 
+def _units(error: ErrorDetails) -> tuple[str, ...]:
+    """Return the units that fit, that of the example first."""
+    units = str(error["ctx"]["units"]).split(", ")
+    example = str(error["ctx"]["example"])
+    return tuple(sorted(units, key=lambda unit: not example.endswith(f" {unit}")))
+
+
 def _kind_missing(error: ErrorDetails, place: Place, document: SourceDocument) -> Problem:
     value = value_at(document.data, place.path)
     if not isinstance(value, dict):
@@ -203,7 +225,7 @@ def _kind_missing(error: ErrorDetails, place: Place, document: SourceDocument) -
     help_ = f"write one of the keys {listed}"
     if misspelt:
         key, kind = misspelt[0]
-        help_ = f"did you mean `{kind}` where {quote(key)} stands?"
+        help_ = Advice(f"did you mean `{kind}` where {quote(key)} stands?", key, (kind,))
     return Problem(error["type"], f"{quote_path(place.path)} has none of the keys {listed}", help_)
 
 

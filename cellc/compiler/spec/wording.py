@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from cellc.compiler.source.document import Plain
 from cellc.compiler.spec.base import PACKAGE_NAME_PATTERN, REFERENCE_PATTERN
 from cellc.compiler.spec.place import Place, annotations_by_key, fields_by_key, model_of
-from cellc.contract.diagnostics import YamlPath, did_you_mean, format_path, nearest, only_nearest
+from cellc.contract.diagnostics import Advice, YamlPath, did_you_mean, format_path, nearest, only_nearest
 from cellc.contract.stated import NAME_PATTERN
 
 _MAX_QUOTE = 60
@@ -72,7 +72,7 @@ def help_for_bad_name(written: str, pattern: str) -> str:
     suggestion = re.sub(r"[^A-Za-z0-9_/]+", "_", written.strip()).strip("_/")
     suggestion = suggestion.lower() if pattern == PACKAGE_NAME_PATTERN else suggestion
     fits = pattern in _RULES and len(suggestion) <= 64 and re.search(pattern, suggestion)
-    return f"{rule}, such as `{suggestion}`" if fits else rule
+    return Advice(f"{rule}, such as `{suggestion}`", written, (suggestion,)) if fits else rule
 
 
 def help_for_unknown_key(key: str, place: Place) -> str:

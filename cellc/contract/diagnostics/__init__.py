@@ -10,9 +10,10 @@ from cellc.contract.diagnostics.diagnostic import (
     YamlPath,
     format_path,
 )
-from cellc.contract.diagnostics.nearest import did_you_mean, is_slip, nearest, only_nearest
+from cellc.contract.diagnostics.nearest import Advice, did_you_mean, is_slip, meant, nearest, only_nearest, write
 
 __all__ = [
+    "Advice",
     "Diagnostic",
     "Fix",
     "Outcome",
@@ -23,6 +24,8 @@ __all__ = [
     "did_you_mean",
     "format_path",
     "is_slip",
+    "meant",
     "nearest",
     "only_nearest",
+    "write",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from heapq import nsmallest
 from itertools import takewhile
@@ -11,7 +11,38 @@ _COMPARED = 128
 """Most candidates that one name is compared with."""
 _LONGEST = 200
 """Longest text that is compared at all."""
+_SHOWN = 12
 _SEPARATORS = str.maketrans("", "", "-_ ")
+
+
+class Advice(str):
+    """A help that says what may stand in the place of a text; to all else it is its words.
+
+    Attributes:
+        written: what is there; empty where it is not known.
+        instead: what it may become, the nearest first.
+        is_near: whether the first is near enough to be what was meant; else each is one of the few that exist.
+    """
+
+    __slots__ = ("instead", "is_near", "written")
+    written: str
+    instead: tuple[str, ...]
+    is_near: bool
+
+    def __new__(cls, text: str, written: str = "", instead: Iterable[str] = (), *, is_near: bool = True) -> Advice:
+        advice = super().__new__(cls, text)
+        advice.written, advice.instead, advice.is_near = written, tuple(dict.fromkeys(instead)), is_near
+        return advice
+
+    def and_more(self, text: str) -> Advice:
+        """Return the same with further words."""
+        return Advice(f"{self}{text}", self.written, self.instead, is_near=self.is_near)
+
+    def without(self, texts: Iterable[str]) -> Advice:
+        """Return the same words, with less that may be put in the place."""
+        left = set(texts)
+        instead = (text for text in self.instead if text not in left)
+        return Advice(str(self), self.written, instead, is_near=self.is_near)
 
 
 def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> tuple[str, ...]:
@@ -31,7 +62,7 @@ def nearest(name: str, candidates: Iterable[str], limit: int = 3) -> tuple[str, 
     return tuple(lowered[match] for match in matches)
 
 
-def did_you_mean(name: str, candidates: Iterable[str], kind: str) -> str:
+def did_you_mean(name: str, candidates: Iterable[str], kind: str) -> Advice:
     """Write the help for an unknown name: the nearest that exist, or all of them where few exist.
 
     Args:
@@ -40,12 +71,22 @@ def did_you_mean(name: str, candidates: Iterable[str], kind: str) -> str:
     known = sorted(set(candidates))
     close = nearest(name, known)
     if close:
-        return "did you mean " + " or ".join(f"`{match}`" for match in close) + "?"
+        return meant(name, close)
     if not known:
-        return f"there are no {kind}"
-    shown = ", ".join(f"`{candidate}`" for candidate in known[:12])
-    more = f" and {len(known) - 12} more" if len(known) > 12 else ""
-    return f"use one of the {kind}: {shown}{more}"
+        return Advice(f"there are no {kind}")
+    shown = ", ".join(f"`{candidate}`" for candidate in known[:_SHOWN])
+    more = f" and {len(known) - _SHOWN} more" if len(known) > _SHOWN else ""
+    return Advice(f"use one of the {kind}: {shown}{more}", name, known[:_SHOWN], is_near=False)
+
+
+def meant(name: str, close: Sequence[str]) -> Advice:
+    """Write the help for a text with others that are near to it, the nearest first."""
+    return Advice("did you mean " + " or ".join(f"`{match}`" for match in close) + "?", name, close)
+
+
+def write(text: str, written: str, more: str = "") -> Advice:
+    """Write the help of a text that must be another one."""
+    return Advice(f"write `{text}`{more}", written, (text,))
 
 
 def only_nearest(name: str, candidates: Iterable[str]) -> str | None:

@@ -35,7 +35,7 @@ def lsp() -> None:
     cellc lsp                                  as an editor calls it
     """
     with gate(LSP):
-        from cellc.tools.lsp.server import server
+        from cellc.tools.lsp.features import server
     logging.getLogger().addHandler(_Shown())
     # Nothing else may come between its messages.
     sink = Stream.OUT.opened().fileno()

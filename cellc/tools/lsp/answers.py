@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,9 +14,7 @@ from cellc.compiler.source.compose import compose
 from cellc.compiler.source.document import Node, SourceDocument
 from cellc.compiler.source.include import INCLUDE
 from cellc.compiler.spec.cell_spec import CellSpec
-from cellc.contract.diagnostics import Diagnostic, Severity, Span, YamlPath
-from cellc.tools.edit.fixes import edit_of
-from cellc.tools.edit.rewrite import Edit
+from cellc.contract.diagnostics import Diagnostic, Span, YamlPath
 from cellc.tools.lsp.cursor import Typed, here, typed_at
 from cellc.tools.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
 from cellc.tools.lsp.names import Names, kinds_at, names_of
@@ -167,43 +165,6 @@ def _controller_types(known: Known) -> Iterator[Proposal]:
         own = device.control.controller_kinds
         here = (kind for kind, distros in own.items() if known.cell is None or known.cell.distro in distros)
         yield from (Proposal(kind, f"controller of {device.name}") for kind in here)
-
-
-def fixes(diagnostics: Sequence[Diagnostic], document: SourceDocument) -> Iterator[tuple[Diagnostic, Edit]]:
-    """Yield the fix of each finding, and the comment that excuses one which may be excused.
-
-    The comment has no reason, and no effect, until its author writes one.
-    """
-    for item in diagnostics:
-        if item.fix is not None:
-            yield item, edit_of(item.fix)
-        comment = _excuse(item, document)
-        if comment is not None:
-            yield item, comment
-
-
-def _excuse(diagnostic: Diagnostic, document: SourceDocument) -> Edit | None:
-    from cellc.compiler.rules.ignores import may_be_ignored
-
-    lines = document.texts.get(diagnostic.span.file, "").split("\n")
-    if (
-        diagnostic.severity is Severity.ERROR
-        or not may_be_ignored(diagnostic.code)
-        or diagnostic.span.line > len(lines)
-    ):
-        return None
-    line = lines[diagnostic.span.line - 1]
-    if "#" in line:
-        return None
-    end, text = len(line.rstrip()) + 1, f"  # cellc: ignore {diagnostic.code} "
-    return Edit(
-        diagnostic.span.file,
-        diagnostic.span.line,
-        end,
-        end,
-        text,
-        f"Ignore `{diagnostic.code}`: say why behind the comment",
-    )
 
 
 def symbols(text: str) -> list[Symbol]:

@@ -54,7 +54,7 @@ class Cells:
         text = opened.get(spec)
         diagnostics: tuple[Diagnostic, ...] = ()
         if os.path.basename(spec) == DEVICE_FILE:
-            diagnostics = _device_findings(spec, text) if text is not None else ()
+            diagnostics = self._check_device(spec, text) if text is not None else ()
         elif os.path.basename(spec) == SPEC_FILE or (text is not None and _OF_A_CELL.search(text)):
             checked = check(spec, opened)
             diagnostics = checked.diagnostics
@@ -68,6 +68,33 @@ class Cells:
         before = {diagnostic.span.file for diagnostic in self._found.get(spec, ())}
         self._found[spec] = diagnostics
         return diagnostics, before - {diagnostic.span.file for diagnostic in diagnostics} | {spec}
+
+    def _check_device(self, file: str, text: str) -> tuple[Diagnostic, ...]:
+        """Return what is wrong with the file of a device by itself."""
+        device_yaml = as_yaml(text, file)
+        if device_yaml.diagnostics:
+            return device_yaml.diagnostics
+        composed = compose(file, text)
+        root = composed.value
+        if root is None or composed.diagnostics:
+            return composed.diagnostics
+        document = SourceDocument(file, {file: text}, root)
+        self._documents[file] = document
+        if isinstance(root.data, dict) and "family" in root.data:
+            return ()  # half of an entry, which the other half completes
+        return validated(document, DeviceModel).diagnostics
+
+    def read(self, file: str, opened: Mapping[str, str]) -> SourceDocument | None:
+        """Return the cell of a file as its texts are now; None where they cannot be read, or are no cell's."""
+        spec = self.spec_of(file, opened)
+        document = read(spec, opened)
+        name = os.path.basename(spec)
+        is_cell = name == SPEC_FILE or (name != DEVICE_FILE and spec in self._documents)
+        return document.value if document.ok and is_cell else None
+
+    def others(self, spec: str) -> Mapping[str, SourceDocument]:
+        """Return what the last checks of other specs read."""
+        return {other: document for other, document in self._documents.items() if other != spec}
 
     def known(self, file: str) -> Known:
         """Return what is known of the cell of a file."""
@@ -89,17 +116,3 @@ class Cells:
 
 def _texts(document: SourceDocument | None) -> Mapping[str, str]:
     return {} if document is None else document.texts
-
-
-def _device_findings(file: str, text: str) -> tuple[Diagnostic, ...]:
-    """Return what is wrong with the file of a device by itself."""
-    device_yaml = as_yaml(text, file)
-    if device_yaml.diagnostics:
-        return device_yaml.diagnostics
-    composed = compose(file, text)
-    root = composed.value
-    if root is None or composed.diagnostics:
-        return composed.diagnostics
-    if isinstance(root.data, dict) and "family" in root.data:
-        return ()  # half of an entry, which the other half completes
-    return validated(SourceDocument(file, {file: text}, root), DeviceModel).diagnostics

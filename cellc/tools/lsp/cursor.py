@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from cellc.compiler.source.compose import compose
-from cellc.compiler.source.document import Child, Node, Plain
+from cellc.compiler.source.document import Node, Plain, places
 from cellc.contract.diagnostics import Span, YamlPath
 
 MARK = "cellc__here"
@@ -44,13 +44,6 @@ def here(root: Node, line: int, column: int) -> Here | None:
         if not child.node.is_collection and _within(child.span, line, column):
             return Here(path, False, child.span, child.node.text)
     return None
-
-
-def places(node: Node, path: YamlPath = ()) -> Iterator[tuple[YamlPath, Child]]:
-    """Yield every child below a node with its path, outer ones first."""
-    for part, child in node.children.items():
-        yield (*path, part), child
-        yield from places(child.node, (*path, part))
 
 
 def _within(span: Span, line: int, column: int) -> bool:

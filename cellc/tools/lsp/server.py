@@ -22,14 +22,14 @@ from pygls.protocol import LanguageServerProtocol
 from pygls.uris import from_fs_path, to_fs_path
 from pygls.workspace import PositionCodec, TextDocument
 
+from cellc.compiler.source import SourceDocument
 from cellc.compiler.source.text import read_text
 from cellc.contract.diagnostics import Diagnostic, Severity, Span
 from cellc.contract.limits import limits
 from cellc.contract.printing import refuse
 from cellc.contract.signals import Stopped, raise_again
-from cellc.tools.edit.rewrite import Edit, normalized
-from cellc.tools.layout.layout import formatted
-from cellc.tools.lsp.answers import Symbol, by_file, completions, definition, fixes, hover, symbols
+from cellc.tools.edit.rewrite import normalized
+from cellc.tools.lsp.answers import by_file
 from cellc.tools.lsp.cells import Cells
 from cellc.version import __version__
 
@@ -48,11 +48,6 @@ _SEVERITIES = {
     Severity.BLOCKER: lsp.DiagnosticSeverity.Warning,
     Severity.WARNING: lsp.DiagnosticSeverity.Warning,
     Severity.AUDIT: lsp.DiagnosticSeverity.Information,
-}
-_KINDS = {
-    "key": lsp.CompletionItemKind.Property,
-    "required key": lsp.CompletionItemKind.Property,
-    "word": lsp.CompletionItemKind.EnumMember,
 }
 
 
@@ -109,7 +104,7 @@ class CellServer(LanguageServer):
 
     def soon(self, uri: str) -> None:
         """Check the cell of a document after a pause in typing; a later change restarts the wait."""
-        spec = self.cells.spec_of(file_of(uri), self._opened())
+        spec = self.cells.spec_of(file_of(uri), self.opened())
         before = self._waiting.pop(spec, None)
         if before is not None:
             before.cancel()
@@ -119,7 +114,7 @@ class CellServer(LanguageServer):
         await asyncio.sleep(_QUIET_S)
         self._waiting.pop(spec, None)  # from here on a change begins another check, which comes after this one
         async with self._checking:
-            opened = self._opened()
+            opened = self.opened()
             diagnostics, gone = await asyncio.to_thread(self.cells.check, spec, opened)
         by_path = by_file(diagnostics)
         for file in dict.fromkeys((*by_path, *gone)):
@@ -153,11 +148,19 @@ class CellServer(LanguageServer):
 
     def location(self, span: Span) -> lsp.Location:
         """Return a place in any file."""
-        opened = self._opened()
+        opened = self.opened()
         text = opened.get(span.file) or self.cells.shown(span.file) or read_text(Path(span.file), "", span).value or ""
+        return self._location(text, span)
+
+    def location_in(self, document: SourceDocument, span: Span) -> lsp.Location:
+        """Return a place in a file of a document."""
+        return self._location(document.texts[span.file], span)
+
+    def _location(self, text: str, span: Span) -> lsp.Location:
         return lsp.Location(from_fs_path(span.file) or "", Ranges(self.workspace.position_codec, text).of(span))
 
-    def _opened(self) -> dict[str, str]:
+    def opened(self) -> dict[str, str]:
+        """Return the text of every open document by its file."""
         documents: dict[str, TextDocument] = dict(self.workspace.text_documents)
         most = limits().spec_bytes + 1  # of a larger one so much that it is refused as a file is
         return {file_of(uri): normalized(document.source[:most]) for uri, document in documents.items()}
@@ -240,119 +243,3 @@ def file_of(uri: str) -> str:
     """Return the absolute path of a document with forward slashes, as spans name it."""
     # No file has a zero character in its name, and Python refuses to look for one.
     return Path((to_fs_path(uri) or uri).replace("\0", "\ufffd")).as_posix()
-
-
-server = CellServer()
-
-_Touched = (
-    lsp.DidOpenTextDocumentParams
-    | lsp.DidChangeTextDocumentParams
-    | lsp.DidSaveTextDocumentParams
-    | lsp.DidCloseTextDocumentParams
-)
-
-
-async def _touched(of: CellServer, params: _Touched) -> None:
-    uri = params.text_document.uri
-    if len(of.workspace.text_documents) > limits().open_documents:
-        of.workspace.remove_text_document(uri)  # from here on it is what its file holds
-        refuse(f"`{file_of(uri)}` is one document too many: at most {limits().open_documents} may be open")
-    of.soon(uri)
-
-
-for _event in (
-    lsp.TEXT_DOCUMENT_DID_OPEN,
-    lsp.TEXT_DOCUMENT_DID_CHANGE,
-    lsp.TEXT_DOCUMENT_DID_SAVE,
-    lsp.TEXT_DOCUMENT_DID_CLOSE,
-):
-    server.feature(_event)(_touched)
-
-
-@server.feature(lsp.TEXT_DOCUMENT_HOVER)
-def _hover(of: CellServer, params: lsp.HoverParams) -> lsp.Hover | None:
-    text, ranges = _text(of, params.text_document.uri)
-    answer = hover(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
-    if answer is None:
-        return None
-    return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, answer[0]), ranges.of(answer[1]))
-
-
-@server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
-def _definition(of: CellServer, params: lsp.DefinitionParams) -> lsp.Location | None:
-    file = file_of(params.text_document.uri)
-    text, ranges = _text(of, params.text_document.uri)
-    span = definition(text, *ranges.place(params.position), of.cells.known(file), Path(file))
-    return None if span is None else of.location(span)
-
-
-@server.feature(lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=[":", " ", "{", "[", "/"]))
-def _completion(of: CellServer, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
-    if of.known_text(params.text_document.uri) is None:
-        return []
-    text, ranges = _text(of, params.text_document.uri)
-    proposals = completions(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
-    return [
-        lsp.CompletionItem(
-            label=proposal.word,
-            kind=_KINDS.get(proposal.kind, lsp.CompletionItemKind.Reference),
-            detail=proposal.kind,
-            documentation=lsp.MarkupContent(lsp.MarkupKind.Markdown, proposal.meaning) if proposal.meaning else None,
-            sort_text=f"{number:04}",
-            insert_text=f"{proposal.word}: " if proposal.kind.endswith("key") else proposal.word,
-        )
-        for number, proposal in enumerate(proposals)
-    ]
-
-
-@server.feature(lsp.TEXT_DOCUMENT_CODE_ACTION, lsp.CodeActionOptions([lsp.CodeActionKind.QuickFix]))
-def _actions(of: CellServer, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
-    uri, file = params.text_document.uri, file_of(params.text_document.uri)
-    document = of.cells.document(file)
-    if document is None or document.texts.get(file) != of.text_of(uri):
-        return []  # the places are those of another text: the next check will tell
-    lines = range(params.range.start.line + 1, params.range.end.line + 2)
-    diagnostics = [
-        diagnostic
-        for diagnostic in of.cells.found(file)
-        if diagnostic.span.file == file and diagnostic.span.line in lines
-    ]
-    ranges = _text(of, uri)[1]
-    return [
-        lsp.CodeAction(
-            title=edit.message.replace("`", ""),
-            kind=lsp.CodeActionKind.QuickFix,
-            diagnostics=[diagnostic for diagnostic in params.context.diagnostics if diagnostic.code == about.code],
-            edit=lsp.WorkspaceEdit(changes={uri: [lsp.TextEdit(ranges.of(_span(edit)), edit.text)]}),
-        )
-        for about, edit in fixes(diagnostics, document)
-    ]
-
-
-@server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
-def _symbols(of: CellServer, params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
-    text, ranges = _text(of, params.text_document.uri)
-    return [_symbol(symbol, ranges) for symbol in symbols(text)]
-
-
-@server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
-def _formatting(of: CellServer, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
-    text, ranges = _text(of, params.text_document.uri)
-    result = formatted("", text).value
-    return [] if result is None or result == text else [lsp.TextEdit(ranges.whole(), result)]
-
-
-def _text(of: CellServer, uri: str) -> tuple[str, Ranges]:
-    text = of.text_of(uri)
-    return text, Ranges(of.workspace.position_codec, text)
-
-
-def _span(edit: Edit) -> Span:
-    return Span(edit.file, edit.line, edit.column, edit.line, edit.end_column)
-
-
-def _symbol(one: Symbol, ranges: Ranges) -> lsp.DocumentSymbol:
-    kind = lsp.SymbolKind.Namespace if one.inner else lsp.SymbolKind.Field
-    inner = [_symbol(each, ranges) for each in one.inner]
-    place = ranges.of(one.span)
-    return lsp.DocumentSymbol(one.name, kind, place, place, detail=one.detail, children=inner)

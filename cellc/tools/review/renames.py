@@ -12,7 +12,7 @@ from cellc.contract.diagnostics import YamlPath
 from cellc.contract.vocabulary import ReviewArea
 
 _A = ReviewArea
-_SECTIONS: Mapping[tuple[str, ...], tuple[ReviewArea, str]] = {
+SECTIONS: Mapping[tuple[str, ...], tuple[ReviewArea, str]] = {
     ("devices",): (_A.DEVICES, "device"),
     ("managers",): (_A.CONTROL, "controller manager"),
     ("managers", "*", "controllers"): (_A.CONTROL, "controller"),
@@ -106,7 +106,7 @@ def _in_mapping(before: Node, after: Node, path: YamlPath) -> Iterator[Rename]:
         yield from _in_mapping(was, now, (*path, key))
         if key == _NAMESPACE and was.text != now.text and was.text.strip("/") and now.text.strip("/"):
             yield Rename((*path, key), was.text, now.text, _A.CONTROL, _NAMESPACE)
-    held = next((named for section, named in _SECTIONS.items() if _is_at(section, path)), None)
+    held = named_in(path)
     if held is None:
         return
     gone = [key for key in before.children if key not in after.children]
@@ -126,6 +126,11 @@ def _in_mapping(before: Node, after: Node, path: YamlPath) -> Iterator[Rename]:
             yield from _in_mapping(before.children[old].node, after.children[new].node, (*path, old))
 
 
+def named_in(path: YamlPath) -> tuple[ReviewArea, str] | None:
+    """Return area and noun of what the keys of a mapping name; None where they are not names that people chose."""
+    return next((named for section, named in SECTIONS.items() if _is_at(section, path)), None)
+
+
 def _is_at(section: tuple[str, ...], path: YamlPath) -> bool:
     return len(section) == len(path) and all(part in ("*", key) for part, key in zip(section, path, strict=True))
 
@@ -133,9 +138,10 @@ def _is_at(section: tuple[str, ...], path: YamlPath) -> bool:
 def _likeness(before: Plain, after: Plain, old: str, new: str) -> float:
     """Return the share of values that are the same, but for the name itself."""
     names = names_of([Rename((), old, new, _A.DOCUMENTS, "")])
-    was = {tuple(map(names.in_text, path)): names.in_text(text) for path, text in texts_of(before)}
+    # A text with the name may speak of the part itself, or of another one that keeps its name.
+    was = {tuple(map(names.in_text, path)): (text, names.in_text(text)) for path, text in texts_of(before)}
     now = dict(texts_of(after))
-    return sum(now.get(path) == text for path, text in was.items()) / max(len(was), len(now), 1)
+    return sum(now.get(path) in texts for path, texts in was.items()) / max(len(was), len(now), 1)
 
 
 def texts_of(value: Plain, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], str]]:

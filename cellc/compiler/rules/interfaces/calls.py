@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.interface import Interface, NodeSource
 from cellc.compiler.graph.data_flow import program_types
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule, write
 from cellc.contract.vocabulary import InterfaceKind
 
 
@@ -160,7 +160,7 @@ def _unoffered(graph: CellGraph, interface: Interface, server: str, offers: Mapp
     alike = [name for name, type_ in offers.items() if type_ == interface.type]
     if has is not None and has != interface.type and not _has_controller(graph, server):
         message = f"`{server}` has the {kind} `{interface.name}` with the type `{has}`, got `{interface.type}`"
-        yield found(graph, (*interface.path, kind), message, f"write `{has}`")
+        yield found(graph, (*interface.path, kind), message, write(has, interface.type))
     elif has is None and alike:
         message = f"`{server}` has no {kind} `{interface.name}`"
         advice = did_you_mean(interface.name, alike, f"{kind}s of `{server}` with `{interface.type}`")

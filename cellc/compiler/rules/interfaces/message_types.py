@@ -8,7 +8,7 @@ from difflib import SequenceMatcher
 
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.graph.data_flow import KnownTopics, interface_types, known_topics
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, meant, rule, write
 from cellc.contract.vocabulary import InterfaceKind
 
 _FOLDER = {InterfaceKind.TOPIC: "msg", InterfaceKind.SERVICE: "srv", InterfaceKind.ACTION: "action"}
@@ -54,7 +54,7 @@ def type_conflict(graph: CellGraph) -> Findings:
         for node, real in _types(graph, interface):
             if real is not None and real != interface.type:
                 message = f"`{interface.name}` is declared as `{interface.type}`, but `{node}` has `{real}`"
-                yield found(graph, (*interface.path, interface.kind.value), message, f"write `{real}`")
+                yield found(graph, (*interface.path, interface.kind.value), message, write(real, interface.type))
 
 
 def _types(graph: CellGraph, interface: Interface) -> Iterator[tuple[str, str | None]]:
@@ -151,9 +151,8 @@ def unknown_interface_type(graph: CellGraph) -> Findings:
             close = [name for name in known if _alike(name, interface.type)]
             if close:
                 path = (*interface.path, interface.kind.value)
-                yield found(
-                    graph, path, f"there is no interface type `{interface.type}`", f"did you mean `{close[0]}`?"
-                )
+                advice = meant(interface.type, close[:1])
+                yield found(graph, path, f"there is no interface type `{interface.type}`", advice)
 
 
 def _alike(known: str, written: str) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule, write
 from cellc.contract.file_names import opens_a_device
 from cellc.contract.vocabulary import InterfaceKind
 
@@ -45,7 +45,9 @@ def illegal_ros_name(graph: CellGraph) -> Findings:
     named += [(("recording", "topics", index), name, InterfaceKind.TOPIC) for index, name in recorded]
     for path, name, kind in named:
         if _NAME.fullmatch(name) is None:
-            yield found(graph, path, f"`{name}` is not a legal ROS name", f"write `{_legal(name)}`, as the nodes do")
+            yield found(
+                graph, path, f"`{name}` is not a legal ROS name", write(_legal(name), name, ", as the nodes do")
+            )
         elif len(name) > _LONGEST[kind]:
             message = f"`{name[:40]}…` must have at most {_LONGEST[kind]} characters, got {len(name)}"
             yield found(graph, path, message, "shorten the name")

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import combinations
 
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.graph.claims import ControlState, adapter_of_group, can_switch
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, did_you_mean, found, rule
 
 
 @rule(Severity.ERROR, assumes=("shared-prefix",))
@@ -173,6 +173,13 @@ def unprovided_command_interface(graph: CellGraph) -> Findings:
             more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
             message = f"`{controller.name}` claims `{missing[0]}`{more}, which no hardware provides"
             joint = missing[0].rpartition("/")[0]
-            interfaces = [name for name in provided if name.startswith(f"{joint}/")]
             path = (*controller.path, "command_interfaces")
-            yield found(graph, path, message, did_you_mean(missing[0], interfaces, f"command interfaces of `{joint}`"))
+            yield found(graph, path, message, _provided(graph, path, missing[0], joint, provided))
+
+
+def _provided(graph: CellGraph, path: YamlPath, claim: str, joint: str, provided: Iterable[str]) -> str:
+    """Write what there is for a joint: in the place of what is written, or for a choice of another controller."""
+    kinds = sorted(name.rpartition("/")[2] for name in provided if name.startswith(f"{joint}/"))
+    if graph.cell.states(*path) or not kinds:
+        return did_you_mean(claim.rpartition("/")[2], kinds, f"command interfaces of `{joint}`")
+    return f"use a controller that claims {' or '.join(f'`{joint}/{kind}`' for kind in kinds)}"

@@ -8,7 +8,7 @@ from difflib import SequenceMatcher
 
 from cellc.compiler.cell.interface import NodeSource
 from cellc.compiler.graph.responsibilities import Responsibility
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, found, meant, rule
 from cellc.contract.vocabulary import UNKNOWN
 
 
@@ -57,7 +57,7 @@ def misspelled_owner(graph: CellGraph) -> Findings:
         )
         if near is not None:
             message = f"owner `{owner}` is named once, and `{near}` {times[near]} times"
-            yield found(graph, path, message, f"did you mean `{near}`?")
+            yield found(graph, path, message, meant(owner, [near]))
 
 
 def _owners(graph: CellGraph) -> Iterator[tuple[str, YamlPath]]:

@@ -13,8 +13,9 @@ from cellc.compiler.graph.releases import (
     unlisted,
 )
 from cellc.compiler.graph.versions import Pin, cell_pins, device_pins
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, did_you_mean, found, rule
 from cellc.contract.pins import is_commit, last_word, version_number, version_numbers
+from cellc.contract.vocabulary import UNKNOWN
 
 
 @rule(Severity.ERROR)
@@ -106,4 +107,6 @@ def version_without_number(graph: CellGraph) -> Findings:
         versioned = version_number(pin.text) or is_commit(last_word(pin.text))
         if pin.known and pin.part in _NUMBERED and not versioned:
             message = f"`{pin.part}` of `{pin.holder}` is `{pin.text}`, without a version"
-            yield found(graph, pin.path, message, f"write `{pin.text.split()[0]}` and its version")
+            advice = did_you_mean(pin.text, (UNKNOWN,), "")
+            other = f"write `{pin.text.split()[0]}` and its version"
+            yield found(graph, pin.path, message, advice if advice.is_near else other)

@@ -1,0 +1,17 @@
+"""Another name for everything that has one, in every cell: the same findings, and the review calls it a rename."""
+
+from __future__ import annotations
+
+import pytest
+
+from cellc.compiler.source import read
+from tests.cells import EVERY_CELL, spec_of, there
+from tests.lsp.renames import faults_of_a_rename, names
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_every_name_of_a_cell_can_become_another_one(cell: str) -> None:
+    document = there(read(spec_of(cell)).value)
+    paths = list(names(document))
+    assert len(paths) > 8
+    assert [fault for path in paths for fault in faults_of_a_rename(document, path)] == []
