@@ -45,6 +45,16 @@ class Qos:
     lease_duration_s: Annotated[Seconds | None, Field(default=None, description="Bound of the assertion.")]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Processing:
+    """What a node executes for each sample of a topic."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = _READ
+
+    line: Annotated[str, Field(description="What executes one after the other has one name; empty for none.")]
+    takes_s: Annotated[Seconds, Field(description="Longest time that it executes.")]
+
+
 @dataclass(frozen=True, kw_only=True)
 class ContractEndpoint:
     """One end of an interface."""
@@ -63,6 +73,11 @@ class ContractEndpoint:
         Graded(ReviewArea.INTERFACES, ordered=False),
     ] = TARGETS
     qos: Annotated[Qos, Field(description="Its profile."), Graded(ReviewArea.QOS, "quality of service")]
+    processing: Annotated[
+        Processing | None,
+        Field(description="What it executes for each sample; null where that is not stated."),
+        Graded(ReviewArea.TIME, "execution for each sample"),
+    ] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

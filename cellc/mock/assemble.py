@@ -24,6 +24,7 @@ from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.folder import GeneratedFolder
 from cellc.mock.loads import Loads
+from cellc.mock.nodes.executors import Executors
 from cellc.mock.nodes.motion_planner import MotionPlanner, PlanMemory
 from cellc.mock.nodes.observations import ObservationInbox, pose_interface
 from cellc.mock.nodes.perception import (
@@ -188,9 +189,10 @@ def assemble(
 
 def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality) -> None:
     tf = TfBroadcast(plant.contract.interfaces.get(TF), plant.task.name, plant.network, plant.simulation)
+    executors = Executors(plant.simulation)
     for name, frame in plant.contract.frames.items():
         if frame.kind == "dynamic" and frame.simulated_parent is not None:
-            _add_object(plant, name, frame, images, tf, reality.objects.get(name))
+            _add_object(plant, executors, name, frame, images, tf, reality.objects.get(name))
         elif frame.kind == "fixed" and frame.grasp is not None:
             plant.world.place(name, name, identity(), 0)
 
@@ -292,6 +294,7 @@ def _add_cameras(plant: Plant) -> dict[str, Topic[Image]]:
 
 def _add_object(
     plant: Plant,
+    executors: Executors,
     name: str,
     frame: ContractFrame,
     images: Mapping[str, Topic[Image]],
@@ -316,7 +319,7 @@ def _add_object(
     inbox = ObservationInbox(interface, plant.clocks.of(plant.task.name), plant.simulation)
     plant.task.observations[name] = inbox
     if topic is not None and interface is not None and interface.sinks:
-        inbox.subscribe(topic, interface.sinks[0].node)
+        inbox.subscribe(topic, interface.sinks[0].node, executors)
 
     def publish(sample: ObjectPose) -> None:
         if topic is None:
@@ -331,7 +334,7 @@ def _add_object(
             clock = plant.clocks.of(frame.authority)
             sender = tf.sender(frame.authority, name, transform)
             plant.perceptions[name] = Perception(
-                name, frame, subscription, max_age_s, publish, sender, plant.world, clock, plant.simulation
+                name, frame, subscription, max_age_s, publish, sender, plant.world, clock, executors, plant.simulation
             )
             break
 

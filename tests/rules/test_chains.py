@@ -26,6 +26,8 @@ _JUDGED = {
     "AdapterSpec.command_timeout": {"watchdog-below-period"},
     "AdapterSpec.goal_time": {"timeout-below-inner"},
     "AdapterSpec.stop_time": {"cancel-bound-not-kept"},
+    "CallbackSpec.period": {"callbacks-exceed-thread"},
+    "CallbackSpec.takes": {"callbacks-exceed-thread", "age-budget-exceeded"},
     "ClockSpec.max_offset": {"host-offset-beyond-age"},
     "ControllerSpec.goal_time": {"timeout-below-inner"},
     "ControllerSpec.update_rate": {"controller-faster-than-manager", "uneven-update-rate", "period-below-cycle"},

@@ -58,13 +58,27 @@ class ImpliedEndpoints:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Callback:
+    """What a node executes for an interface, or for a timer, which has a period.
+
+    ``group`` is empty for the default one of the node, which is mutually exclusive.
+    """
+
+    takes_s: float | None
+    group: str = ""
+    reentrant: bool = False
+    waits_for: tuple[str, ...] = ()
+    period_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Node(Entity):
     """A node; ``name`` is its bare name, ``namespace`` empty or with a leading slash.
 
     ``clock`` is ``wall``, ``sim`` or None for the target's; ``real_only`` nodes are not started on a mock. ``host``
     is the computer that runs it, empty where the cell names none. ``remaps``
     are topics as the node's program names them → the names that they have in the cell. ``inside`` are further nodes of
-    its process.
+    its process. ``callbacks`` are what it executes, as far as the spec says.
     """
 
     source: NodeSource
@@ -79,6 +93,9 @@ class Node(Entity):
     respawn: bool = False
     real_only: bool = False
     device: str | None = None
+    executor: str | None = None
+    threads: int | None = None
+    callbacks: Mapping[str, Callback] = field(default_factory=dict)
     parameters: Mapping[str, ParameterValue]
     remaps: Mapping[str, str] = field(default_factory=dict)
     endpoints: Annotated[NodeEndpoints, ELSEWHERE] = field(default_factory=NodeEndpoints)
@@ -93,6 +110,17 @@ class Node(Entity):
     def full_name(self) -> str:
         """Fully qualified name, with a leading slash."""
         return f"{self.namespace}/{self.name}"
+
+    @property
+    def is_one_thread(self) -> bool:
+        """Whether one thread executes all of its callbacks."""
+        return self.executor in ("single_threaded", "events") or (self.executor is not None and self.threads == 1)
+
+    def line_of(self, callback: Callback) -> str:
+        """Return what callbacks share that never execute at the same time; empty for one that waits for none."""
+        if self.is_one_thread:
+            return self.full_name
+        return "" if callback.reentrant else f"{self.full_name} {callback.group}".rstrip()
 
 
 def node_labels(nodes: Sequence[Node]) -> tuple[str, ...]:

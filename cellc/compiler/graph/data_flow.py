@@ -14,6 +14,8 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.interface import Endpoint, Interface, Node, NodeSource
+from cellc.compiler.graph.executors import response, stating
+from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos
 from cellc.contract.frozen import dataclass
 from cellc.contract.qos import Incompatibility, incompatibilities
@@ -153,17 +155,22 @@ def _frame_edges(cell: Cell) -> tuple[tuple[str, str], ...]:
 
 @dataclass(frozen=True, slots=True)
 class AgeShare:
-    """What one topic adds to the age of an observation, in s; a fresh sample is up to one period old."""
+    """What one topic adds to the age of an observation, in s; a fresh sample is up to one period old.
+
+    ``path`` is where the spec speaks of it. A node that executes callbacks adds a share, too, ``response_s`` alone.
+    """
 
     topic: str
-    period_s: float
-    transport_s: float
-    exposure_s: float
+    path: YamlPath
+    period_s: float = 0.0
+    transport_s: float = 0.0
+    exposure_s: float = 0.0
+    response_s: float | None = None
 
     @property
     def total_s(self) -> float:
         """The whole share in s."""
-        return self.period_s + self.transport_s + self.exposure_s
+        return self.period_s + self.transport_s + self.exposure_s + (self.response_s or 0.0)
 
     def __str__(self) -> str:
         return f"`{self.topic}` {self.total_s * 1e3:.4g} ms"
@@ -174,39 +181,65 @@ def age_chains(cell: Cell) -> Mapping[str, tuple[AgeShare, ...]]:
 
     A node forwards the stamp of its input where its output is in the input's frame, as a detector does that publishes
     poses in the camera frame. Of several inputs the freshest counts: data too old by that one is too old by all.
-    Topics that only feed each other in a circle observe nothing; each has its own share alone.
+    Topics that only feed each other in a circle observe nothing; each has its own share alone. A node between two
+    topics, or at the end, adds how long it needs for a sample, as far as its executor and callbacks are stated.
     """
     topics = {topic.name: topic for topic in cell.interfaces if topic.kind is InterfaceKind.TOPIC and topic.rate_hz}
     shares = {name: age_share(cell, topic) for name, topic in topics.items()}
     passed_on = _passed_on(cell, topics)
+    executed = _executed(cell, topics)
     observing = {name for names in passed_on.values() for name in names}
-    queue = [(share.total_s, name, "") for name, share in shares.items() if name not in observing]
+    queue = [(share.total_s, name, "", "") for name, share in shares.items() if name not in observing]
     heapify(queue)
     chains: dict[str, tuple[AgeShare, ...]] = {}
     while queue:
-        age_s, name, before = heappop(queue)
+        age_s, name, before, by = heappop(queue)
         if name in chains:
             continue
-        chains[name] = (*chains.get(before, ()), shares[name])
-        for reader in passed_on[name]:
-            if reader not in chains:
-                heappush(queue, (age_s + shares[reader].total_s, reader, name))
-    return {name: chains.get(name, (share,)) for name, share in shares.items()}
+        chains[name] = (*chains.get(before, ()), *executed.get((before, by), ()), shares[name])
+        for output, node in passed_on[name].items():
+            if output not in chains:
+                needed_s = shares[output].total_s + sum(share.total_s for share in executed.get((name, node), ()))
+                heappush(queue, (age_s + needed_s, output, name, node))
+    return {name: (*chains.get(name, (share,)), *_last(executed, topics[name])) for name, share in shares.items()}
 
 
-def _passed_on(cell: Cell, topics: Mapping[str, Interface]) -> Mapping[str, list[str]]:
-    """Return, for each topic, the topics to which its readers pass its stamp on."""
+def _executed(cell: Cell, topics: Mapping[str, Interface]) -> Mapping[tuple[str, str], tuple[AgeShare, ...]]:
+    """Return what nodes add to the age of a sample of a topic, by both, where the bound is known."""
+    nodes = {node.full_name: node for node in stating(cell)}
+    executed: dict[tuple[str, str], tuple[AgeShare, ...]] = {}
+    for topic in topics.values() if nodes else ():
+        for sink in topic.sinks:
+            node = nodes.get(sink.full_name)
+            bound_s = None if node is None or topic.derived else response(cell, node, topic.name).bound_s
+            if node is not None and bound_s is not None:
+                path = (*node.path, "callbacks")
+                executed[topic.name, sink.node] = (AgeShare(sink.node, path, response_s=bound_s),)
+    return executed
+
+
+def _last(executed: Mapping[tuple[str, str], tuple[AgeShare, ...]], topic: Interface) -> tuple[AgeShare, ...]:
+    """Return the share of the reader that needs the longest for a sample."""
+    ends = (executed.get((topic.name, sink.node), ()) for sink in topic.sinks) if executed else iter(())
+    return max(ends, key=lambda shares: sum(share.total_s for share in shares), default=())
+
+
+def _passed_on(cell: Cell, topics: Mapping[str, Interface]) -> Mapping[str, Mapping[str, str]]:
+    """Return, for each topic, the topics to which its readers pass its stamp on, with the node that does."""
     device_frames = {device.name: frozenset(device.body.frames.values()) for device in cell.devices}
     published: dict[str, list[Interface]] = {}
     for topic in topics.values():
         for source in topic.sources:
             published.setdefault(source.node, []).append(topic)
-    passed_on: dict[str, list[str]] = {}
+    passed_on: dict[str, dict[str, str]] = {}
     for name, topic in topics.items():
         frames = {topic.frame}.union(*(device_frames.get(source.node, ()) for source in topic.sources))
-        outputs = (output for sink in topic.sinks for output in published.get(sink.node, ()))
-        readers = (output.name for output in outputs if output.frame is not None and output.frame in frames)
-        passed_on[name] = [reader for reader in dict.fromkeys(readers) if reader != name]
+        passed_on[name] = {
+            output.name: sink.node
+            for sink in topic.sinks
+            for output in published.get(sink.node, ())
+            if output.frame is not None and output.frame in frames and output.name != name
+        }
     return passed_on
 
 
@@ -214,7 +247,7 @@ def age_share(cell: Cell, topic: Interface) -> AgeShare:
     """Return how old a sample of one topic may be by its own period, transport and exposure."""
     period_s = 1.0 / topic.rate_hz if topic.rate_hz else 0.0
     exposures = (cell.exposure_of(source.node) for source in topic.sources)
-    return AgeShare(topic.name, period_s, topic.transport_s or 0.0, max(exposures, default=0.0))
+    return AgeShare(topic.name, topic.path, period_s, topic.transport_s or 0.0, max(exposures, default=0.0))
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.interfaces import QosSpec
 from cellc.compiler.spec.quantity import Quantity
 from cellc.contract.diagnostics import Span, YamlPath
-from cellc.contract.entities import TARGETS, Durability, Qos, Reliability, Target
+from cellc.contract.entities import TARGETS, Durability, Processing, Qos, Reliability, Target
 from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 
@@ -105,6 +105,7 @@ class EndName:
         nodes: full names of the nodes that offer single interfaces, for a device whose driver has several.
         offers: what the catalog says of its ends.
         publishes: topics that its program publishes whether the spec says so or not.
+        processing: what it executes for each sample, by topic.
     """
 
     node: str
@@ -114,6 +115,7 @@ class EndName:
     nodes: Mapping[str, str] = field(default_factory=dict)
     offers: Offers = field(default_factory=dict)
     publishes: tuple[str, ...] = ()
+    processing: Mapping[str, Processing] = field(default_factory=dict)
 
     def end(
         self, interface: str, path: YamlPath, span: Span, written: QosSpec = _UNWRITTEN, *, serves: bool
@@ -133,6 +135,7 @@ class EndName:
             path=path,
             span=span,
             targets=self.targets,
+            processing=None if serves else self.processing.get(interface),
         )
 
 
@@ -195,7 +198,12 @@ def name_endpoints(
 
 def _of_node(node: Node, name: str, offers: Offers) -> EndName:
     targets = ("real",) if node.real_only else TARGETS
-    return EndName(name, node.full_name, node.owner, targets, offers=offers)
+    processing = {
+        topic: Processing(line=node.line_of(callback), takes_s=callback.takes_s)
+        for topic, callback in node.callbacks.items()
+        if callback.takes_s is not None
+    }
+    return EndName(name, node.full_name, node.owner, targets, offers=offers, processing=processing)
 
 
 def _of_program(end: EndName, ends: Offers) -> EndName:

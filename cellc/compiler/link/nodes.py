@@ -8,16 +8,18 @@ from dataclasses import replace
 
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.interface import Node, NodeSource, ParameterValue
+from cellc.compiler.cell.interface import Callback, Node, NodeSource, ParameterValue
 from cellc.compiler.link.devices import BoundDevice
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.compiler.link.hardware import camera_parameters, driver_remaps, run_nodes
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.names import JOINT_STATES, home_host, unknown_name
 from cellc.compiler.link.programs import endpoints
+from cellc.compiler.link.quantities import si
 from cellc.compiler.link.robot import node_parameters
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.compiler.spec.interfaces import CallbackSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span, YamlPath
 from cellc.contract.vocabulary import UNKNOWN
 
@@ -54,10 +56,23 @@ def link_nodes(spec: CellSpec, document: SourceDocument, devices: tuple[BoundDev
                 language=node.language,
                 clock=node.clock,
                 respawn=node.respawn,
+                executor=node.executor,
+                threads=node.threads,
+                callbacks={label: _callback(row) for label, row in node.callbacks.items()},
                 parameters=dict(node.parameters),
             )
         )
     return Outcome((*nodes, *_adapter_nodes(spec, devices), *_driver_nodes(spec, devices)), tuple(problems))
+
+
+def _callback(written: CallbackSpec) -> Callback:
+    return Callback(
+        takes_s=si(written.takes),
+        group=written.group or "",
+        reentrant=written.reentrant,
+        waits_for=written.waits_for,
+        period_s=si(written.period),
+    )
 
 
 def _runs(spec: CellSpec) -> Iterator[tuple[str, tuple[str, ...]]]:

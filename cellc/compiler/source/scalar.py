@@ -25,6 +25,8 @@ _OCTAL = re.compile(r"0o([0-7]+)")
 _HEXADECIMAL = re.compile(r"0x([0-9a-fA-F]+)")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 
+_BEGINS_NUMBERS = frozenset("+-.0123456789")
+
 # ROS parameters, JSON readers and C++ take 64 bits; a longer literal is a name that lost its quotes.
 _SMALLEST_INTEGER = -(2**63)
 _LARGEST_INTEGER = 2**63 - 1
@@ -43,6 +45,8 @@ def resolve(text: str) -> PlainScalar:
     """
     if text in _WORDS:
         return _WORDS[text]
+    if text[0] not in _BEGINS_NUMBERS:
+        return text
     if _DECIMAL.fullmatch(text):
         return _integer(text, 10)
     if match := _OCTAL.fullmatch(text):

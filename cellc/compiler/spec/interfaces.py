@@ -13,13 +13,27 @@ from cellc.compiler.spec.base import (
     ParameterValue,
     shape_of,
 )
-from cellc.compiler.spec.quantity import Duration, Frequency, Ratio, TimeShift
+from cellc.compiler.spec.quantity import Duration, Frequency, PositiveDuration, Ratio, TimeShift
 from cellc.contract.entities import Durability, Reliability
 from cellc.contract.stated import Name, StatedModel, Text
 from cellc.contract.vocabulary import UNKNOWN
 
 OnStale = Literal["reject_goal", "stop_and_hold", "ignore_sample", "continue"]
 OnTimeout = Literal["cancel_and_hold", "error", "continue"]
+
+
+class CallbackSpec(StatedModel):
+    """What a node executes for an interface, or for a timer of its own."""
+
+    takes: Duration | None = Field(None, description="Longest time that it executes.", examples=["30 ms"])
+    group: Name | None = Field(
+        None, description="Callback group; the default one of the node if absent.", examples=["images"]
+    )
+    reentrant: bool = Field(False, description="Its group is reentrant, not mutually exclusive.", examples=[True])
+    waits_for: tuple[Text, ...] = Field(
+        (), description="Services and actions that it calls, and waits for inside.", examples=[["/locate"]]
+    )
+    period: PositiveDuration | None = Field(None, description="Period of a timer.", examples=["100 ms"])
 
 
 class NodeSpec(StatedModel):
@@ -37,6 +51,15 @@ class NodeSpec(StatedModel):
         None, description="Time it runs on; that of the target if absent.", examples=["wall"]
     )
     respawn: bool = Field(False, description="Start it again when it ends; never for a driver.", examples=[False])
+    executor: Literal["single_threaded", "multi_threaded", "events"] | None = Field(
+        None, description="Executor that spins it.", examples=["single_threaded"]
+    )
+    threads: int | None = Field(None, description="Threads of a multi-threaded executor.", examples=[4], ge=1, le=MOST)
+    callbacks: dict[Text, CallbackSpec] = Field(
+        default_factory=dict,
+        description="What it executes, by the interface that it serves or hears, or by the name of a timer.",
+        examples=[{"/camera/color/image_raw": {"takes": "30 ms"}}],
+    )
     parameters: dict[str, ParameterValue] = Field(
         default_factory=dict, description="Parameters of the node.", examples=[{"min_score": 0.8}]
     )

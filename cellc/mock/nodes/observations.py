@@ -11,6 +11,7 @@ from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.process import Signal
 from cellc.mock.engine.simulation import Simulation
+from cellc.mock.nodes.executors import Executors
 from cellc.mock.nodes.perception import POSE_TYPE, ObjectPose
 
 DEFAULT_MAX_AGE_S = 0.2
@@ -66,9 +67,9 @@ class ObservationInbox:
         """Call ``listener`` with every pose that reaches the task."""
         self._listeners.append(listener)
 
-    def subscribe(self, topic: Topic[ObjectPose], node: str) -> None:
-        """Subscribe as a node of the contract."""
-        self._subscription = topic.subscribe(node, self._receive)
+    def subscribe(self, topic: Topic[ObjectPose], node: str, executors: Executors) -> None:
+        """Subscribe as a node of the contract, whose executor takes what has arrived."""
+        self._subscription = topic.subscribe(node, lambda: self._arrive(executors))
 
     def age_s(self, stamp_ns: int) -> float:
         """Return the age of a stamp in seconds, negative for one from the future."""
@@ -114,6 +115,13 @@ class ObservationInbox:
         self.arrived.fire(self._simulation.now_ns)
         for listener in self._listeners:
             listener(pose)
+
+    def _arrive(self, executors: Executors) -> None:
+        processing = None if self._subscription is None else self._subscription.endpoint.processing
+        if processing is None:
+            self._receive()
+        else:
+            executors.execute(processing, self._receive)
 
     def _receive(self) -> None:
         received = None if self._subscription is None else self._subscription.take(self._simulation.now_ns)

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from cellc.contract.contract import ContractFrame
 from cellc.contract.devices import ContractCamera
-from cellc.contract.entities import ContractInterface
+from cellc.contract.entities import ContractInterface, Processing
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.mock.bus.edge import Subscription
@@ -15,6 +15,7 @@ from cellc.mock.bus.network import Network
 from cellc.mock.bus.topic import Topic
 from cellc.mock.clocks import Clock
 from cellc.mock.engine.simulation import Simulation
+from cellc.mock.nodes.executors import Executors
 from cellc.mock.tf.sources import DeferredPose, SampledSource
 from cellc.mock.world.world import World
 
@@ -26,7 +27,7 @@ POSE_TYPE = "geometry_msgs/msg/PoseStamped"
 DEFAULT_RATE_HZ = 10.0
 """Of a dynamic frame whose rate is not stated."""
 PROCESSING_S = 0.02
-"""Simulated time from taking an image to knowing the pose in it; no field of the contract states one."""
+"""Simulated time from taking an image to knowing the pose in it, where the contract states no callback."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,6 +199,7 @@ class Perception:
         transform: TransformSink,
         world: World,
         clock: Clock,
+        executors: Executors,
         simulation: Simulation,
     ) -> None:
         """Bind the node that publishes frame ``name``, as a transform and through ``publish``.
@@ -218,7 +220,9 @@ class Perception:
         self._transform = transform
         self._world = world
         self._clock = clock
+        self._executors = executors
         self._simulation = simulation
+        self._processing = images.endpoint.processing or Processing(line="", takes_s=PROCESSING_S)
         self._listeners: list[PoseListener] = []
 
     def listen(self, listener: PoseListener) -> None:
@@ -253,7 +257,7 @@ class Perception:
             self.rejected += 1
             self.oldest_ns = max(self.oldest_ns, abs(age_ns))
             return
-        self._simulation.at_background(now_ns + round(PROCESSING_S * 1e9), lambda: self._publish(image))
+        self._executors.execute(self._processing, lambda: self._publish(image))
 
     def _publish(self, image: Image) -> None:
         """Publish where the object was, seen from the camera, when the image was taken."""

@@ -16,6 +16,7 @@ from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import stage_files
 from cellc.compiler.deploy.processes import is_adapter, motion_clients
+from cellc.compiler.emit.audit.ages import ages_section
 from cellc.compiler.emit.audit.caps import caps_section
 from cellc.compiler.emit.audit.moments import moments_section, stops_section
 from cellc.compiler.emit.audit.tables import (
@@ -69,6 +70,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "Expected topics": interfaces_section(cell, InterfaceKind.TOPIC),
         "Expected services": interfaces_section(cell, InterfaceKind.SERVICE),
         "Expected actions": interfaces_section(cell, InterfaceKind.ACTION),
+        **({"Ages": ages_section(cell)} if any(topic.max_age_s for topic in cell.interfaces) else {}),
         "Other driver interfaces": drivers_section(cell),
         "Expected TF publishers": tf_section(cell),
         "Attempt record": record_section(cell),

@@ -22,7 +22,9 @@ def age_budget_exceeded(graph: CellGraph) -> Findings:
         age = interface.max_age_s * 1e3
         message = f"`max_age` of `{interface.name}` must be at least {needed * 1e3:.4g} ms ({way}), got {age:g} ms"
         related = tuple(
-            Related("part of the chain", graph.cell.locate("interfaces", share.topic)) for share in shares[:-1]
+            Related("part of the chain", graph.cell.locate(*share.path))
+            for share in shares
+            if share.path != interface.path
         )
         advice = f"allow at least {math.ceil(needed * 1e3)} ms, or raise a rate of the chain"
         yield found(graph, (*interface.path, "max_age"), message, advice, related)

@@ -115,7 +115,7 @@ def _passed_on(graph: CellGraph) -> Mapping[str, list[tuple[Interface, Interface
     topics = {topic.name: topic for topic in graph.cell.interfaces}
     reached: dict[str, list[tuple[Interface, Interface]]] = {}
     for name, shares in age_chains(graph.cell).items():
-        for share, through in pairwise(shares):
+        for share, through in pairwise(share for share in shares if share.response_s is None):
             reached.setdefault(share.topic, []).append((topics[through.topic], topics[name]))
     return reached
 
