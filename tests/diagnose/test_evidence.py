@@ -6,6 +6,7 @@ import pytest
 
 from cellc.tools.diagnose.diagnose import Answer, diagnose
 from cellc.tools.diagnose.evidence import stated
+from cellc.tools.diagnose.sections import sections
 from cellc.tools.diagnose.symptoms import evidence, knowledge, questions
 from tests.cells import ROOT, linked
 
@@ -27,6 +28,11 @@ STATEMENTS = {
     "the cable, port or computer was exchanged and it stays": ("tried another cable", "a new cable fixed it"),
     "the controller is active": ("the controller is active", "the controller is inactive"),
     "the value is off by the factor of a unit": ("joints are 57 times too large", "joints are too large"),
+    "one program works and another does not": ("it works fine, but when using this node it fails", "it fails"),
+    "the robot moves with the planner": ("with MoveIt it moves", "it does not move with MoveIt"),
+    "it began with an update or another version": ("after the update it stutters", "the update rate is 500 Hz"),
+    "it happens sometimes or after a while": ("sometimes it stops", "it never moves"),
+    "it runs in a container": ("the driver runs in docker", "without docker it is slow"),
 }
 
 
@@ -44,6 +50,8 @@ def test_statement_is_read_and_its_contrary_is_not(name: str) -> None:
 def test_what_a_statement_speaks_of_is_there() -> None:
     symptoms = [symptom for layer in knowledge() for symptom in layer.symptoms]
     names = {symptom.name for symptom in symptoms}
+    compared = {stated for each in sections().contrasts for stated in each.stated}
+    assert compared <= {row.stated for row in evidence().evidence}
     causes = [each.cause for symptom in symptoms for each in symptom.hypotheses]
     seen = [
         " ".join((observation.run or observation.look or "", observation.refuted))
@@ -54,6 +62,7 @@ def test_what_a_statement_speaks_of_is_there() -> None:
     asked = str(questions()) + " ".join(symptom.ask or "" for symptom in symptoms)
     for row in evidence().evidence:
         assert {*row.strengthens, *row.weakens} <= names, row.stated
+        assert row.answers or row.rules_out or row.likelier or row.clears or row.stated in compared, row.stated
         for piece in (*row.rules_out, *row.likelier):
             assert any(piece in cause for cause in causes), (row.stated, piece)
         for piece in row.leaves_out:

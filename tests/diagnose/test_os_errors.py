@@ -25,7 +25,7 @@ SYMPTOMS = {symptom.name for layer in knowledge() for symptom in layer.symptoms}
         ("Failed to open: /dev/EtherCAT0: Permission denied", "bus", "a field bus loses frames"),
         ("file not found: [Errno 2] No such file or directory: 'xacro'", "", "a file, package or"),
         ("libx.so: No such file or directory", "library", "a shared library is missing"),
-        ("connect to 192.168.1.5: os error 111", "", "the host cannot reach the device"),
+        ("connect to 192.168.1.5: os error 111", "network", "the host cannot reach the device"),
         ("write: No buffer space available", "", "a field bus loses frames"),
         ("sendto socket: No buffer space available", "network", "big messages are lost"),
     ],

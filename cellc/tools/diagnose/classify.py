@@ -7,15 +7,17 @@ whose object is known, then what is like the words, at last lines that any failu
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import islice
 
 from cellc.tools.diagnose.evidence import Stated, stated
 from cellc.tools.diagnose.log_lines import Named, fixed_begin, found_in, graver, length, plain, spoken
 from cellc.tools.diagnose.os_errors import os_errors
+from cellc.tools.diagnose.sections import Placed, placed
 from cellc.tools.diagnose.symptoms import LayerKnowledge, Symptom, knowledge, questions, synonyms
 from cellc.tools.diagnose.words import Likeness, Words
 
@@ -28,16 +30,23 @@ _AHEAD = 1.8
 """How many times the points of the best of another layer make a layer likely."""
 _NEAR = 0.4
 """Part of the points of the best that a further proposal has."""
+_SHOWN, _CALLED, _LITTLE = 4000.0, 2500.0, 400.0
+"""Points of a line that a program writes, of an error on a known object, and of what any failure leads to."""
+_IN_PLACE, _OUT_OF_PLACE = 1.5, 0.6
+"""By what points are multiplied where a log or a device names the part of the cell."""
+_COVERED, _ALIKE = 0.33, 0.5
+"""Part of a text's weight that the heaviest whole phrase of the best has at least, or its points; less is weak."""
 
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """A symptom that fits, what the line names, (kind, name), and the text of a source that it has."""
+    """A symptom that fits, what the line names, (kind, name), the text of a source in it, and how well it fits."""
 
     layer: LayerKnowledge
     symptom: Symptom
     named: Named = ()
     template: str = ""
+    points: float = field(default=0.0, compare=False)
 
     @property
     def names_cause(self) -> bool:
@@ -73,11 +82,15 @@ class Classified:
         matches: up to three symptoms, the best first.
         question: what decides between them; None where the first one's layer is certain, or nothing fits.
         fits: False where the matches are merely the nearest.
+        placed: the part of the cell; None where a line names the cause, or nothing tells it.
+        weak: no line shows the matches, and little of the text is like them.
     """
 
     matches: tuple[Match, ...]
     question: Question | None = None
     fits: bool = True
+    placed: Placed | None = None
+    weak: bool = False
 
 
 def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[str] | None = None) -> Classified:
@@ -97,9 +110,15 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     causes = [match for match in logged if match.names_cause and found_in(match.template, grave) is not None]
     if len({match.layer.layer for match in causes}) == 1:
         return Classified(tuple(causes[:_AT_MOST]))
-    possible = [match for match in known if _is_of(match, drivers)]
-    known_facts = stated(text)
-    like = _weighed(_words_of(possible).likenesses(_besides(logged, spoken(text))), possible, known_facts)
+    return _proposal(text, known, logged, causes, [match for match in known if _is_of(match, drivers)])
+
+
+def _proposal(
+    text: str, known: Sequence[Match], logged: Sequence[Match], causes: Sequence[Match], possible: Sequence[Match]
+) -> Classified:
+    """Return what is likely: lines that show a symptom, then likeness by words, then what any failure leads to."""
+    facts, words = stated(text), _words_of(possible)
+    like = _weighed(words.likenesses(_besides(logged, spoken(text))), possible, facts, placed(text))
     calls, bare = _failed_calls(known, text)
     said = [*causes, *(match for match in logged if match not in causes and not match.says_little), *calls]
     least = _LEAST_BESIDES if said else _LEAST_POINTS
@@ -107,10 +126,12 @@ def classify(text: str, layers: Sequence[LayerKnowledge], drivers: Collection[st
     near = list(_near(like, possible, _LEAST_BESIDES if said else 0))
     little = [*bare, *(match for match in logged if match.says_little)]
     best = _proposed([*said, *near, *little] if is_like else [*said, *little, *near])
+    place = placed(text, [match.layer.layer for match in best])
     if not is_like and not said and not little:
-        return Classified(best, fits=False)
+        return Classified(best, fits=False, placed=place)
     is_ahead = not logged and not calls and _is_ahead(like, possible) if like else False
-    return Classified(best, _question(best, known_facts, is_ahead=is_ahead))
+    weak = not logged and not calls and not _is_strong(like, words.weight(spoken(text)), place)
+    return Classified(best, _question(best, facts, place, is_ahead=is_ahead), placed=place, weak=weak)
 
 
 def logged(text: str) -> tuple[Match, ...]:
@@ -142,7 +163,8 @@ def _failed_calls(known: Sequence[Match], text: str) -> tuple[list[Match], list[
         if meaning.symptom in by_name:
             match = by_name[meaning.symptom]
             named = (("error", meaning.error), *((("object", meaning.kind),) if meaning.kind else ()))
-            (calls if meaning.kind else bare).append(Match(match.layer, match.symptom, named))
+            points = _CALLED if meaning.kind else _LITTLE
+            (calls if meaning.kind else bare).append(Match(match.layer, match.symptom, named, points=points))
     return calls, bare
 
 
@@ -163,10 +185,18 @@ def _words_of(known: Sequence[Match]) -> Words:
     return Words(table.words, [match.symptom.said for match in known], heard, table.together, table.ignored)
 
 
-def _weighed(like: Sequence[Likeness], possible: Sequence[Match], facts: Stated) -> list[Likeness]:
-    """Return the likenesses, the likest first, with what the text states counted in."""
-    factors = [facts.factor(possible[each.number].symptom.name) for each in like]
-    weighed = [replace(each, points=each.points * factor) for each, factor in zip(like, factors, strict=True)]
+def _weighed(
+    like: Sequence[Likeness], possible: Sequence[Match], facts: Stated, place: Placed | None
+) -> list[Likeness]:
+    """Return the likenesses, the likest first, with what the text states and names counted in."""
+
+    def factor(match: Match) -> float:
+        of_place = 1.0
+        if place is not None and place.is_named:
+            of_place = _IN_PLACE if match.layer.layer in place.section.layers else _OUT_OF_PLACE
+        return of_place * facts.factor(match.symptom.name, match.layer.layer)
+
+    weighed = [replace(each, points=each.points * factor(possible[each.number])) for each in like]
     return sorted(weighed, key=lambda each: (-each.points, each.number))
 
 
@@ -175,8 +205,12 @@ def _near(like: Sequence[Likeness], possible: Sequence[Match], least: float) -> 
     like = [each for each in like if each.points >= least]
     if not like:
         return
-    yield from (possible[each.number] for each in like if each.points >= _NEAR * like[0].points)
-    others = (possible[each.number] for each in like if possible[each.number].layer != possible[like[0].number].layer)
+
+    def match(each: Likeness) -> Match:
+        return replace(possible[each.number], points=each.points)
+
+    yield from (match(each) for each in like if each.points >= _NEAR * like[0].points)
+    others = (match(each) for each in like if possible[each.number].layer != possible[like[0].number].layer)
     yield from islice(others, 1)
 
 
@@ -200,27 +234,65 @@ def _is_ahead(like: Sequence[Likeness], possible: Sequence[Match]) -> bool:
     return like[0].points >= _AHEAD * other
 
 
-def _question(matches: Sequence[Match], facts: Stated, *, is_ahead: bool) -> Question:
-    """Return what separates the first proposal from the others best: its own question, or that of the two layers.
+def _is_strong(like: Sequence[Likeness], weight: int, place: Placed | None) -> bool:
+    """Tell that much of a text is like the best; where a log names the part of the cell, that takes a whole phrase."""
+    if not like:
+        return False
+    is_named = place is not None and place.is_named
+    return like[0].whole >= _COVERED * weight or (not is_named and like[0].points >= _ALIKE * weight)
 
-    A question that the text answers is left for the next one.
+
+def _question(matches: Sequence[Match], facts: Stated, place: Placed | None, *, is_ahead: bool) -> Question:
+    """Return the question whose answer tells most, by how strongly each proposal fits.
+
+    A question that the text answers is left for the next one. Where one layer is far ahead, it is confirmed.
     """
+    asked = list(_askable(matches, place))
+    opened = [each for each in asked if not facts.answers(each.ask)] or asked
+    total = sum(match.points for match in matches) or 1.0
+
+    def gain(each: _Askable) -> float:
+        return each.worth * _gain(sum(match.points for match in each.yes) / total)
+
+    of_first = (each for each in opened if {match.layer.layer for match in each.yes} == {matches[0].layer.layer})
+    best = next(of_first, opened[0]) if is_ahead else max(opened, key=gain)
+    return Question(best.ask, best.yes, tuple(match for match in matches if match not in best.yes), is_ahead)
+
+
+@dataclass(frozen=True, slots=True)
+class _Askable:
+    """A question, the proposals that yes speaks for, and how much better than others it is to be answered."""
+
+    ask: str
+    yes: tuple[Match, ...]
+    worth: float
+
+
+def _askable(matches: Sequence[Match], place: Placed | None) -> Iterator[_Askable]:
+    """Yield questions: of the first proposal, of the part of the cell, between layers, of a layer, of the others."""
     first, *rest = matches
-    if first.symptom.ask is not None and not facts.answers(first.symptom.ask):
-        return Question(first.symptom.ask, (first,), tuple(rest), is_ahead)
-    other = next((match.layer.layer for match in rest if match.layer.layer != first.layer.layer), None)
-    layers = {first.layer.layer} if is_ahead or other is None else {first.layer.layer, other}
-    of_both = (each for each in questions().between if set(each.layers) == layers and not facts.answers(each.ask))
-    between = next(of_both, None)
-    if between is not None:
-        ask, layer = between.ask, between.layers[0]
-    else:
-        of_any = [each for each in questions().deciding if each.layer in {match.layer.layer for match in matches}]
-        open_yet = [each for each in of_any if not facts.answers(each.ask)]
-        asked = next((each for each in open_yet if each.layer in layers), (open_yet or of_any)[0])
-        ask, layer = asked.ask, asked.layer
-    yes = tuple(match for match in matches if match.layer.layer == layer)
-    return Question(ask, yes, tuple(match for match in matches if match not in yes), is_ahead)
+    layers = {match.layer.layer for match in matches}
+
+    def of(*among: str) -> tuple[Match, ...]:
+        return tuple(match for match in matches if match.layer.layer in among)
+
+    if first.symptom.ask is not None:
+        yield _Askable(first.symptom.ask, (first,), 1.3)
+    elif place is not None and first.layer.layer in place.section.layers[:1]:
+        inside = of(*place.section.layers[:1])
+        outside = tuple(match for match in matches if match not in inside)
+        yield _Askable(place.section.ask, outside, 1.2 if place.is_named else 0.9)
+    for between in questions().between:
+        if set(between.layers) <= layers:
+            yield _Askable(between.ask, of(between.layers[0]), 1.1 if first.layer.layer in between.layers else 0.9)
+    near = sorted(questions().deciding, key=lambda each: each.layer != first.layer.layer)
+    yield from (_Askable(each.ask, of(each.layer), 1.0) for each in near if each.layer in layers)
+    yield from (_Askable(each.symptom.ask, (each,), 0.95) for each in rest if each.symptom.ask is not None)
+
+
+def _gain(part: float) -> float:
+    """Return how much an answer tells that speaks for a part of what is likely: the entropy of yes and no."""
+    return 0.0 if part <= 0 or part >= 1 else -part * math.log2(part) - (1 - part) * math.log2(1 - part)
 
 
 def _logged(known: Sequence[Match], pasted: str, *, is_typed: bool = False) -> list[Match]:
@@ -237,5 +309,6 @@ def _logged(known: Sequence[Match], pasted: str, *, is_typed: bool = False) -> l
         if names:
             named = () if is_typed else tuple(dict.fromkeys(pair for pairs in names for pair in pairs))
             template = max((line for line, found in lines if found is not None), key=length)
-            matches.append((length(template), Match(match.layer, match.symptom, named, template)))
+            points = _LITTLE if template in match.symptom.says_little else _SHOWN
+            matches.append((length(template), Match(match.layer, match.symptom, named, template, points)))
     return [match for _, match in sorted(matches, key=lambda entry: -entry[0])]

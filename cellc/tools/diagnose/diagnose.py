@@ -6,8 +6,8 @@ Nothing that is said here acts: each hypothesis comes with the observations that
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
 from string import Formatter
 from typing import TYPE_CHECKING
 
@@ -15,8 +15,9 @@ from cellc.compiler.formats.escape import shell_word
 from cellc.tools.diagnose.classify import Match, classify
 from cellc.tools.diagnose.evidence import Stated, stated
 from cellc.tools.diagnose.fields import FIELDS, NOT_STATED, Scope, Subject, placeholders
-from cellc.tools.diagnose.naming import loggers, names_of
-from cellc.tools.diagnose.symptoms import Hypothesis, Observation, knowledge, questions
+from cellc.tools.diagnose.naming import NO_NODE, loggers, names_of
+from cellc.tools.diagnose.sections import Bisection, Contrast, Placed, Section, blind_to, contrasts, placed
+from cellc.tools.diagnose.symptoms import Action, Hypothesis, Observation, knowledge, questions
 
 if TYPE_CHECKING:
     from cellc.compiler.cell.cell import Cell
@@ -24,11 +25,36 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One observation: a command that only reads, or something to look at; and what would rule the cause out."""
+    """One observation: a command that only reads, or something to look at; and what would rule the cause out.
+
+    Attributes:
+        refuted: empty for a command that merely tells a name.
+        blind: why that outcome makes the cause less likely and does not rule it out; empty where it does.
+    """
 
     action: str
     is_command: bool
     refuted: str
+    blind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Halving:
+    """One observation that halves what is left, and what either outcome says."""
+
+    action: str
+    is_command: bool
+    good: str
+    bad: str
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """A part of the cell, or a comparison, with its observations in the order in which they are made."""
+
+    name: str
+    steps: tuple[Halving, ...]
+    source: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +98,8 @@ class Answer:
         likely: the layer of the first suspicion is far ahead of all others, though not certain.
         fits: False where the suspicions are merely the nearest.
         stated: what the text says beside the symptom and was counted with.
+        routes: what is compared, then how the part of the cell is narrowed down; empty where a line names the cause.
+        weak: no symptom fits well: the routes come first, and the question is that of the part.
     """
 
     suspicions: tuple[Suspicion, ...]
@@ -81,10 +109,13 @@ class Answer:
     likely: bool = False
     fits: bool = True
     stated: tuple[str, ...] = ()
+    routes: tuple[Route, ...] = ()
+    weak: bool = False
 
 
 _ELSE = "no other layer has any of these words; add what was done before, or a line of the log"
 _SHOWN_SUBJECTS = 3
+_COMPARED = 1
 _OF_NETWORK = re.compile(r"\bping\b|\bip route\b|\bsubnet\b|\bnetwork\b")
 # What a line may name → the scope in which the cell would have it.
 _SCOPE_OF_NAMED: dict[str, Scope] = {"controller": "controller", "topic": "topic", "frame": "frame", "target": "frame"}
@@ -100,15 +131,49 @@ def diagnose(text: str, cell: Cell | None) -> Answer:
     classified = classify(text, knowledge(), _drivers(cell))
     suspicions = tuple(suspicion_of(match, text, cell) for match in classified.matches)
     question, said = classified.question, stated(text).names
-    if question is not None:
-        no = _meant(question.no) or (_ELSE,)
-        return Answer(suspicions, question.ask, _meant(question.yes), no, question.confirms, stated=said)
-    if classified.fits:
+    if question is None and classified.fits:
         return Answer(suspicions, stated=said)
+    routes = _routes(text, classified.placed, cell)
+    if question is not None:
+        yes, no = (_meant(each) or (_ELSE,) for each in (question.yes, question.no))
+        answer = Answer(suspicions, question.ask, yes, no, question.confirms, stated=said, routes=routes)
+        return _by_part(answer, classified.placed) if classified.weak else answer
     asked = questions().narrowing
     titles = {layer.layer: layer.title for layer in knowledge()}
     yes, no = (tuple(titles[layer] for layer in layers) for layers in (asked.yes, asked.no))
-    return Answer(suspicions, asked.ask, yes, no, fits=False, stated=said)
+    return Answer(suspicions, asked.ask, yes, no, fits=False, stated=said, routes=routes)
+
+
+def _by_part(answer: Answer, place: Placed | None) -> Answer:
+    """Return an answer that asks for the part of the cell, as no symptom fits well."""
+    if place is None:
+        return answer
+    first = answer.routes[-1].steps[0]
+    return replace(answer, ask=place.section.ask, yes=(first.good,), no=(first.bad,), likely=False, weak=True)
+
+
+def routes_in(text: str, cell: Cell | None) -> tuple[Route, ...]:
+    """Return how the part of the cell that a log names is narrowed down; nothing where it names none."""
+    place = placed(text)
+    return _routes(text, place, cell) if place is not None and place.is_named else ()
+
+
+def _routes(text: str, place: Placed | None, cell: Cell | None) -> tuple[Route, ...]:
+    """Return what is compared where a text states that something works, and how the part of a cell is narrowed down."""
+    compared = contrasts(stated(text).names)[:_COMPARED]
+    chosen: list[Contrast | Section] = [*compared, *([] if place is None else [place.section])]
+    return tuple(Route(each.name, tuple(_halvings(each.steps, text, cell)), each.source) for each in chosen)
+
+
+def _halvings(steps: Sequence[Bisection], text: str, cell: Cell | None) -> Iterator[Halving]:
+    for step in steps:
+        subject = next((each for each in _chosen(cell, step.of, text) if _is_fit(step, each)), placeholders(step.of))
+        if step.of == "node" and not names_of(text, "node").keys() & {"node"}:
+            subject = {"node": NO_NODE}
+        if step.look is not None:
+            subject = {field: "it" if value == f"<{field}>" else value for field, value in subject.items()}
+        good, bad = (each.format_map(subject) for each in step.read)
+        yield Halving(_filled(step, subject, cell is not None), step.run is not None, good, bad)
 
 
 def _meant(matches: Sequence[Match]) -> tuple[str, ...]:
@@ -163,7 +228,10 @@ def _cause(hypothesis: Hypothesis, text: str, cell: Cell | None, facts: Stated) 
         if facts.has_seen(" ".join((observation.run or observation.look or "", observation.refuted))):
             continue
         chosen = [each for each in _chosen(cell, observation.of, text) if _is_fit(observation, each)]
-        steps += [_step(observation, subject, cell is not None) for subject in chosen[:_SHOWN_SUBJECTS]]
+        if observation.of == "node" and any(each["node"] == NO_NODE for each in chosen):
+            steps.append(Step("ros2 node list --no-daemon", True, ""))
+        shown = [_step(observation, subject, cell is not None) for subject in chosen[:_SHOWN_SUBJECTS]]
+        steps += [replace(step, blind=blind_to(step.action, hypothesis.cause)) for step in shown]
         omitted = max(omitted, len(chosen) - _SHOWN_SUBJECTS)
     return Cause(hypothesis.cause, tuple(dict.fromkeys(steps)), omitted)
 
@@ -190,9 +258,9 @@ def _chosen(cell: Cell | None, scope: Scope, text: str) -> tuple[Subject, ...]:
     return named or found
 
 
-def _is_fit(observation: Observation, subject: Subject) -> bool:
+def _is_fit(observation: Action, subject: Subject) -> bool:
     """Tell that a subject has every value that an observation speaks of, and an address of the right kind."""
-    text = " ".join((observation.run or observation.look or "", observation.refuted))
+    text = " ".join((observation.action, *observation.read))
     used = {name for _, name, _, _ in Formatter().parse(text) if name}
     if any(subject[name] == NOT_STATED for name in used):
         return False
@@ -203,8 +271,11 @@ def _is_fit(observation: Observation, subject: Subject) -> bool:
 
 
 def _step(observation: Observation, subject: Subject, of_cell: bool) -> Step:
-    action = observation.run or observation.look or ""
+    action = _filled(observation, subject, of_cell)
+    return Step(action, observation.run is not None, observation.refuted.format_map(subject))
+
+
+def _filled(action: Action, subject: Subject, of_cell: bool) -> str:
     # A command is there to be copied: what a name of the spec holds is one word of it.
     words = {name: shell_word(value) if value else "" for name, value in subject.items()}
-    action = action.format_map(words if observation.run and of_cell else subject)
-    return Step(action, observation.run is not None, observation.refuted.format_map(subject))
+    return action.action.format_map(words if action.run and of_cell else subject)

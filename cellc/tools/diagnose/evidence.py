@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 
-from cellc.tools.diagnose.symptoms import Evidence, evidence
+from cellc.tools.diagnose.symptoms import Evidence, Topic, evidence
 
 _STRONGER, _WEAKER = 1.5, 0.5
 """By what the points of a symptom are multiplied that a statement speaks for, or against."""
@@ -44,9 +44,9 @@ class Stated:
         """Tell that a cause is likelier than others of its symptom."""
         return _has_any(cause, (text for row in self.rows for text in row.likelier))
 
-    def factor(self, symptom: str) -> float:
+    def factor(self, symptom: str, layer: Topic) -> float:
         """Return by what the points of a symptom are multiplied."""
-        factor = 1.0
+        factor = _WEAKER if any(layer in row.clears for row in self.rows) else 1.0
         for row in self.rows:
             factor *= _STRONGER if symptom in row.strengthens else _WEAKER if symptom in row.weakens else 1.0
         return factor

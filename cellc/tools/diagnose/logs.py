@@ -6,6 +6,7 @@ No more is read than the limit `log-bytes`, a line is cut at 64 KiB, and what is
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -30,6 +31,11 @@ _MOST_ODD = 5
 _MOST_TOLD = 8
 _MOST_SHORT = 8192
 """Letters of a log that can be answered as a whole, as if it had been pasted."""
+_FAILS = re.compile(
+    r"\b(error|fail\w*|fault|cannot|can't|can not|could not|couldn't|unable|refused|denied|rejected|invalid|timeout"
+    r"|timed? out|not (found|available|started|possible|responding)|disconnect\w*|lost|abort\w*|died)\b",
+    re.IGNORECASE,
+)
 _QUARTER_NS = 15 * 60 * 1_000_000_000
 """Zones are whole quarters of an hour away from UTC."""
 
@@ -113,11 +119,12 @@ class Searched:
     def answered(self) -> str:
         """What is answered as if it had been pasted: all of a short log, the first lines of gravity of a long one.
 
-        A short log whose lines are all of no gravity is of a start without trouble: it is empty.
+        A short log whose lines are all of no gravity is of a start without trouble: it is empty. One that states no
+        gravity speaks by a known line, or by a word of failure.
         """
         lines = [line for line in self.short.splitlines() if line.strip()]
-        grave = any(entry_of(line).gravity is not Gravity.MINOR for line in lines)
-        speaks = self.pasted or (grave and logged(self.short))
+        grave = [line for line in lines if entry_of(line).gravity is not Gravity.MINOR]
+        speaks = self.pasted or (grave and (logged(self.short) or any(map(_FAILS.search, grave))))
         return self.short if speaks and self.short else self.pasted
 
     @property

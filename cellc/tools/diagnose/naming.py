@@ -15,6 +15,8 @@ _GRAVE = re.compile(r"\[ ?(?:ERROR|FATAL)\]")
 _IP = re.compile(r"(?<![\w.:])(\d{1,3}(?:\.\d{1,3}){3})(?![\w.])")
 _PORT = re.compile(r"/dev/(?:tty|serial/|usb)[\w./-]*\w")
 _MANAGER = "controller_manager"
+NO_NODE = "NODE"
+"""Is written for the node behind a logger that the cell does not have."""
 
 
 def names_of(text: str, scope: Scope) -> dict[str, str]:
@@ -31,11 +33,15 @@ def names_of(text: str, scope: Scope) -> dict[str, str]:
         return (
             {} if of_manager is None else {"manager": of_manager, "namespace": of_manager.removesuffix(f"/{_MANAGER}")}
         )
-    return {"node": full[0]} if scope == "node" and full else {}
+    return {"node": NO_NODE} if scope == "node" and full else {}
 
 
 def loggers(text: str) -> tuple[str, ...]:
-    """Return the full names of the nodes that wrote the lines of a text, those of errors first."""
+    """Return what may be the full names of the nodes that wrote the lines of a text, those of errors first.
+
+    A logger has the name of its node, with a point for each slash, or a name below it. Which of the two, and whether it
+    is of a node at all, the graph alone knows: each beginning is a name that the cell may have.
+    """
     lines = sorted(text.splitlines(), key=lambda line: _GRAVE.search(line) is None)
-    found = (match[1] for line in lines for match in _LOGGER.finditer(line))
-    return tuple(dict.fromkeys("/" + name.replace(".", "/") for name in found))
+    found = (match[1].split(".") for line in lines for match in _LOGGER.finditer(line))
+    return tuple(dict.fromkeys("/" + "/".join(name[:end]) for name in found for end in range(len(name), 0, -1)))

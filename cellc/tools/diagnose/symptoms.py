@@ -39,7 +39,8 @@ _READING = re.compile(
     r"|bag info|interface show|run tf2_ros tf2_(echo|monitor)|run image_transport list_transports)\b[^;&|<>`$]*"
     r"|printenv [A-Z_]+|ip -brief (address|link)|ip (-details )?-statistics link show"
     r"|ip route get [\w{}.]+|ping -c 5 [\w{}.]+"
-    r"|chronyc (tracking|sources)|uname -v|ulimit -r|id -nG|lsusb -t|ls -l /dev/(shm|serial/by-id)|df -h( /dev/shm)?"
+    r"|chronyc (tracking|sources)|uname -v|locale|ulimit -r|id -nG|lsusb -t"
+    r"|ls -l /dev/(shm|serial/by-id)|df -h( /dev/shm)?"
     r"|sysctl net\.core\.rmem_max net\.core\.rmem_default|ss -lntup|top -b -n 1|ps -ef|nvidia-smi|glxinfo -B"
 )
 
@@ -47,13 +48,12 @@ _READING = re.compile(
 _ModelT = TypeVar("_ModelT", bound=CatalogModel)
 
 
-class Observation(CatalogModel):
-    """One thing to look at, by a command that reads or by eye, and what would rule the hypothesis out."""
+class Action(CatalogModel):
+    """One thing to look at, by a command that reads or by eye."""
 
     of: Scope
     run: Text | None = None
     look: Text | None = None
-    refuted: Text
 
     @field_validator("run")
     @classmethod
@@ -63,14 +63,35 @@ class Observation(CatalogModel):
         return run
 
     @model_validator(mode="after")
-    def _names_its_subject(self) -> Observation:
+    def _names_its_subject(self) -> Action:
         if (self.run is None) == (self.look is None):
             raise ValueError("an observation either runs a command or looks at something")
-        for text in (self.run or "", self.look or "", self.refuted):
+        for text in (self.action, *self.read):
             unknown = {name for _, name, _, _ in Formatter().parse(text) if name is not None} - set(FIELDS[self.of])
             if unknown:
                 raise ValueError(f"`{self.of}` has no {', '.join(sorted(unknown))}")
         return self
+
+    @property
+    def action(self) -> str:
+        """The command, or what is looked at."""
+        return self.run or self.look or ""
+
+    @property
+    def read(self) -> tuple[str, ...]:
+        """What outcomes say."""
+        return ()
+
+
+class Observation(Action):
+    """An action, and what would rule the hypothesis out."""
+
+    refuted: Text
+
+    @property
+    def read(self) -> tuple[str, ...]:
+        """What outcomes say."""
+        return (self.refuted,)
 
 
 class Hypothesis(CatalogModel):
@@ -202,6 +223,7 @@ class Evidence(CatalogModel):
         rules_out: pieces of causes that are excluded.
         likelier: pieces of causes that come first in their symptom.
         strengthens, weakens: names of symptoms.
+        clears: layers of which something works, so that their symptoms are less likely.
     """
 
     stated: Text
@@ -213,6 +235,7 @@ class Evidence(CatalogModel):
     likelier: tuple[Text, ...] = ()
     strengthens: tuple[Text, ...] = ()
     weakens: tuple[Text, ...] = ()
+    clears: tuple[Topic, ...] = ()
 
 
 class EvidenceTable(CatalogModel):
@@ -249,7 +272,7 @@ def knowledge() -> tuple[LayerKnowledge, ...]:
     Raises:
         ValueError: a file of the package is not what its model says; tests hold that none is.
     """
-    return tuple(_read(f"symptoms/{name}.yaml", LayerKnowledge) for name in LAYERS)
+    return tuple(read_table(f"symptoms/{name}.yaml", LayerKnowledge) for name in LAYERS)
 
 
 @cache
@@ -259,7 +282,7 @@ def synonyms() -> Synonyms:
     Raises:
         ValueError: as ``knowledge``.
     """
-    return _read("symptoms/words.yaml", Synonyms)
+    return read_table("symptoms/words.yaml", Synonyms)
 
 
 @cache
@@ -269,7 +292,7 @@ def questions() -> Questions:
     Raises:
         ValueError: as ``knowledge``.
     """
-    return _read("symptoms/questions.yaml", Questions)
+    return read_table("symptoms/questions.yaml", Questions)
 
 
 @cache
@@ -279,7 +302,7 @@ def evidence() -> EvidenceTable:
     Raises:
         ValueError: as ``knowledge``.
     """
-    return _read("symptoms/evidence.yaml", EvidenceTable)
+    return read_table("symptoms/evidence.yaml", EvidenceTable)
 
 
 @cache
@@ -289,10 +312,15 @@ def system_errors() -> SystemErrors:
     Raises:
         ValueError: as ``knowledge``.
     """
-    return _read("symptoms/errors.yaml", SystemErrors)
+    return read_table("symptoms/errors.yaml", SystemErrors)
 
 
-def _read(file: str, model: type[_ModelT]) -> _ModelT:
+def read_table(file: str, model: type[_ModelT]) -> _ModelT:
+    """Return a file of the catalog.
+
+    Raises:
+        ValueError: it is not what its model says.
+    """
     compiled = compiled_table(file)
     if compiled is not None:
         return model.model_validate_json(compiled)

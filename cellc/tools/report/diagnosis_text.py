@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from cellc.contract.printing import Line, Style, Styled
 
 if TYPE_CHECKING:
-    from cellc.tools.diagnose.diagnose import Answer, Cause, Suspicion
+    from cellc.tools.diagnose.diagnose import Answer, Cause, Route, Suspicion
     from cellc.tools.diagnose.symptoms import LayerKnowledge
 
 
@@ -16,17 +17,50 @@ def render_answer(answer: Answer) -> Iterator[Line]:
     """Yield what a text may mean; where no layer is certain, first the question that decides."""
     if not answer.fits:
         yield from _nearest(answer)
+        yield from render_routes(answer.routes)
+    elif answer.weak:
+        yield (
+            Styled(f"not sure, no known symptom fits well; the part is likely: {answer.routes[-1].name}", Style.BOLD),
+        )
+        yield f"one question decides: {answer.ask}"
+        yield from _counted(answer)
+        yield from render_routes(answer.routes)
+        yield from ("", (Styled("less likely, by their words alone:", Style.BOLD),))
+        for suspicion in answer.suspicions:
+            yield f"  {suspicion.layer}: {suspicion.symptom}"
+            yield from (f"    {number}. {cause.text}?" for number, cause in enumerate(suspicion.causes, 1))
+            yield f"    do not: {suspicion.never}"
+        yield "  `cellc diagnose` with one of these names instead of the text shows what rules each cause out"
     elif answer.ask:
         layers = list(dict.fromkeys(suspicion.layer for suspicion in answer.suspicions))
         guess = f"likely, not sure: {layers[0]}" if answer.likely else f"not sure: {', or '.join(layers)}?"
         yield (Styled(guess, Style.BOLD),)
         yield from _question("one question decides", answer, "; or ")
-        if answer.stated:
-            yield f"counted with, as the text says it: {'; '.join(answer.stated)}"
-        yield ""
-        yield from render_suspicions(answer.suspicions)
+        yield from _counted(answer)
+        first, *others = answer.suspicions
+        yield from ("", *_suspicion(first))
+        for suspicion in others:
+            yield from ("", *_further(suspicion))
+        yield from render_routes(answer.routes, "if none of these: ")
     else:
         yield from render_suspicions(answer.suspicions)
+
+
+def _counted(answer: Answer) -> Iterator[Line]:
+    if answer.stated:
+        yield f"counted with, as the text says it: {'; '.join(answer.stated)}"
+
+
+def render_routes(routes: Sequence[Route], intro: str = "") -> Iterator[Line]:
+    """Yield what is looked at, in the order in which it halves what is left."""
+    for route in routes:
+        yield from ("", (Styled(f"{intro}{route.name}, in this order", Style.BOLD),))
+        for number, step in enumerate(route.steps, 1):
+            mark = "$" if step.is_command else "look at"
+            yield f"  {number}. ", Styled(mark, Style.BLUE), f" {step.action}"
+            yield "     ", Styled("either", Style.GREEN), f" {step.good}"
+            yield "     ", Styled("or", Style.GREEN), f" {step.bad}"
+        yield f"  source: {route.source}"
 
 
 def _question(intro: str, answer: Answer, between: str) -> Iterator[Line]:
@@ -66,6 +100,14 @@ def render_symptoms(layers: Sequence[LayerKnowledge]) -> list[Line]:
     ]
 
 
+def _further(suspicion: Suspicion) -> Iterator[Line]:
+    """Yield a suspicion that is not the first one, with the first observation of each cause."""
+    yield (Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD),)
+    for number, cause in enumerate(suspicion.causes, 1):
+        yield from _cause(number, replace(cause, steps=cause.steps[:1], omitted=0))
+    yield f"  do not: {suspicion.never}"
+
+
 def _suspicion(suspicion: Suspicion) -> Iterator[Line]:
     yield (Styled(f"{suspicion.layer}: {suspicion.symptom}", Style.BOLD),)
     if suspicion.evidence:
@@ -84,6 +126,11 @@ def _cause(number: int, cause: Cause) -> Iterator[Line]:
     for step in cause.steps:
         mark = "$" if step.is_command else "look at"
         yield "     ", Styled(mark, Style.BLUE), f" {step.action}"
-        yield "       ", Styled("ruled out if", Style.GREEN), f" {step.refuted}"
+        if not step.refuted:
+            yield "       it shows the node behind the line, NODE below: a logger is no name of a node"
+            continue
+        yield "       ", Styled("less likely if" if step.blind else "ruled out if", Style.GREEN), f" {step.refuted}"
+        if step.blind:
+            yield f"       not more than that: {step.blind}"
     if cause.omitted:
         yield f"     likewise for {cause.omitted} more; name one in the symptom to see it alone"
