@@ -74,7 +74,13 @@ def in_the_chain(graph: CellGraph, goal_name: str) -> tuple[Related, ...]:
     group = next((group for group in graph.cell.groups if goal is not None and group.name == goal.group), None)
     if goal is None or group is None:
         return ()
-    places = [*_written(graph, goal.frame), *_written(graph, group.tip_frame)]
+    placed = placed_by(graph, goal.frame, group.tip_frame)
+    return (*placed, Related("the goal is here", graph.cell.locate(*goal.path)))
+
+
+def placed_by(graph: CellGraph, *frames: str) -> tuple[Related, ...]:
+    """Return what frames hang on and somebody wrote, each once."""
+    places = [place for frame in frames for place in _written(graph, frame)]
     return tuple(Related(f"`{frame.name}` is placed here", _placed(graph, frame)) for frame in dict.fromkeys(places))
 
 

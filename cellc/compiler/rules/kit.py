@@ -23,6 +23,7 @@ __all__ = [
     "Severity",
     "YamlPath",
     "did_you_mean",
+    "enters",
     "found",
     "meant",
     "rule",
@@ -113,6 +114,11 @@ def rules(
 
 def _family(check: Callable[..., Findings]) -> str:
     return FAMILIES[check.__module__.split(".")[-2]]
+
+
+def enters(graph: CellGraph, text: str, *paths: YamlPath) -> tuple[Related, ...]:
+    """Name the places that a figure of a message comes from, as far as the spec states them."""
+    return tuple(Related(text, graph.cell.locate(*path)) for path in paths if graph.cell.states(*path))
 
 
 def found(

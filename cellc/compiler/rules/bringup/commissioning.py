@@ -8,7 +8,8 @@ from itertools import pairwise
 
 from cellc.compiler.cell.site import Commissioning, FirstMotion
 from cellc.compiler.graph.commissioning import Stage, chain_of, stages, tip_bounds, tip_in_base
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+from cellc.compiler.rules.geometry import placed_by
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, enters, found, rule
 
 _CAPS: YamlPath = ("bringup", "commissioning")
 _ASSESSED: YamlPath = ("safety", "risk_assessment")
@@ -52,6 +53,7 @@ def hasty_stages(graph: CellGraph) -> Findings:
             graph,
             path,
             f"{message}, got {caps.velocity * caps.stages[0]:.0%}, at which a tip may reach {fastest:.2g} m/s",
+            related=(*enters(graph, "full speed is this", (*_CAPS, "velocity")), *_of_tips(graph)),
         )
     for before, after in pairwise(caps.stages):
         if after > before * _STEP * _ROUNDING:
@@ -112,7 +114,10 @@ def caps_above_risk_assessment(graph: CellGraph) -> Findings:
             what = "any" if math.isinf(cap) else f"up to {cap:.3g} {unit} of"
             figure = graph.cell.text(*_ASSESSED, name)
             message = f"the caps must allow at most the assessed {figure} of `{name}`, but leave {of} {what} {name}"
-            related = (Related(f"{assessed.document} allows this", graph.cell.locate(*_ASSESSED, name)),)
+            related: tuple[Related, ...] = (
+                Related(f"{assessed.document} allows this", graph.cell.locate(*_ASSESSED, name)),
+            )
+            related += _of_tips(graph) if name == "velocity" else ()
             yield found(graph, (*_CAPS, name), message, related=related)
 
 
@@ -135,7 +140,9 @@ def first_motion_above_stage(graph: CellGraph) -> Findings:
                 message = (
                     f"the first motion must be at most {most:.3g} {unit}, which the first stage allows `{slowest}`"
                 )
-                yield found(graph, (*motion.path, "velocity"), f"{message}, got {got}")
+                related = enters(graph, "the first stage is this share", (*_CAPS, "velocity"))
+                related += _limits(graph)
+                yield found(graph, (*motion.path, "velocity"), f"{message}, got {got}", related=related)
 
 
 def _left(graph: CellGraph, motion: FirstMotion, stage: Stage) -> Iterator[tuple[str, float]]:
@@ -181,3 +188,12 @@ def _plans(graph: CellGraph) -> bool:
 
 def _forces(graph: CellGraph) -> list[float]:
     return [device.gripper.max_force for device in graph.cell.devices if device.gripper is not None]
+
+
+def _limits(graph: CellGraph) -> tuple[Related, ...]:
+    return enters(graph, "so fast joints are", *((*device.path, "limits") for device in graph.cell.devices))
+
+
+def _of_tips(graph: CellGraph) -> tuple[Related, ...]:
+    """Return what the speed of a tip follows from: limits of joints, and where the tip is."""
+    return (*_limits(graph), *placed_by(graph, *(group.tip_frame for group in graph.cell.groups)))

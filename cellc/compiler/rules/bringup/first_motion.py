@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, did_you_mean, enters, found, rule
 
 
 @rule(Severity.ERROR)
@@ -17,7 +17,8 @@ def first_motion_cannot_end(graph: CellGraph) -> Findings:
                 graph.cell.text(*motion.path, key) for key in ("max_delta", "velocity", "timeout")
             )
             message = f"{max_delta} at {velocity} takes {needed:.3g} s, but the timeout is {timeout}"
-            yield found(graph, (*motion.path, "timeout"), message, f"allow at least {needed:.3g} s")
+            related = enters(graph, "it enters here", *((*motion.path, key) for key in ("max_delta", "velocity")))
+            yield found(graph, (*motion.path, "timeout"), message, f"allow at least {needed:.3g} s", related)
 
 
 @rule(Severity.ERROR)

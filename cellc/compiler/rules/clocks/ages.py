@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from cellc.compiler.graph.data_flow import age_chains, age_share, is_state_on_change
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.graph.data_flow import AgeShare, age_chains, age_share, is_state_on_change
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.vocabulary import InterfaceKind
 
 
@@ -26,6 +26,8 @@ def age_budget_exceeded(graph: CellGraph) -> Findings:
             for share in shares
             if share.path != interface.path
         )
+        related += enters(graph, "a fresh sample is a period old", (*interface.path, "rate"))
+        related += _exposures(graph, shares)
         advice = f"allow at least {math.ceil(needed * 1e3)} ms, or raise a rate of the chain"
         yield found(graph, (*interface.path, "max_age"), message, advice, related)
 
@@ -92,3 +94,11 @@ def unstated_stale_behavior(graph: CellGraph) -> Findings:
         if not interface.derived and interface.max_age_s is not None and interface.on_stale is None:
             message = f"`{interface.name}` has a `max_age` of {interface.max_age_s:g} s but no `on_stale`"
             yield found(graph, interface.path, message)
+
+
+def _exposures(graph: CellGraph, shares: tuple[AgeShare, ...]) -> tuple[Related, ...]:
+    """Return the exposures that the shares of a chain count."""
+    topics = {share.topic for share in shares if share.exposure_s}
+    sources = {end.node for topic in graph.cell.interfaces if topic.name in topics for end in topic.sources}
+    cameras = (device for device in graph.cell.devices if device.name in sources)
+    return enters(graph, "an exposure", *((*device.path, "stamp", "exposure") for device in cameras))

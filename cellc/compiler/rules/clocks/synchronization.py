@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from cellc.compiler.cell.interface import Interface
 from cellc.compiler.cell.site import Host
 from cellc.compiler.graph.network import running_hosts
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.frozen import dataclass
 from cellc.contract.vocabulary import UNKNOWN
 
@@ -60,7 +60,10 @@ def host_offset_beyond_age(graph: CellGraph) -> Findings:
         age = f"{crossing.max_age_s * 1e3:g} ms, the `max_age` of `{crossing.interface.name}`"
         message = f"the clocks of `{crossing.worse.name}` and `{crossing.better.name}` must differ by less than {age},"
         message += f" got {crossing.offset_s * 1e3:g} ms"
-        related = (Related("the age is limited here", graph.cell.locate(*crossing.interface.path, "max_age")),)
+        related: tuple[Related, ...] = (
+            Related("the age is limited here", graph.cell.locate(*crossing.interface.path, "max_age")),
+        )
+        related += enters(graph, "the other clock", (*crossing.better.path, "clock", "max_offset"))
         yield found(graph, (*crossing.worse.path, "clock", "max_offset"), message, related=related)
 
 

@@ -9,7 +9,7 @@ from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.link.names import JOINT_STATES
 from cellc.compiler.rules.advice import add_controllers
 from cellc.compiler.rules.described import in_its_file
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.vocabulary import Need
 
 
@@ -24,7 +24,8 @@ def controller_faster_than_manager(graph: CellGraph) -> Findings:
                     f"the rate of its manager, got {controller.update_rate_hz:g} Hz"
                 )
                 path = (*controller.path, "update_rate")
-                yield found(graph, path, message, f"write at most {manager.update_rate_hz:g} Hz")
+                related = enters(graph, "the rate of its manager", (*manager.path, "update_rate"))
+                yield found(graph, path, message, f"write at most {manager.update_rate_hz:g} Hz", related)
 
 
 @rule(Severity.ERROR)
@@ -123,7 +124,8 @@ def uneven_update_rate(graph: CellGraph) -> Findings:
                 message = (
                     f"`update_rate` of `{controller.name}` must divide {manager.update_rate_hz:g} Hz, got {rate:g} Hz"
                 )
-                yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz")
+                related = enters(graph, "the rate of its manager", (*manager.path, "update_rate"))
+                yield found(graph, (*controller.path, "update_rate"), message, f"write {even:g} Hz", related)
 
 
 _LOST = {

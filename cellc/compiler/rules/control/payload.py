@@ -9,7 +9,7 @@ from cellc.compiler.cell.device import Connection, Device
 from cellc.compiler.cell.robot import Payload, ToolFacts, ToolSerial
 from cellc.compiler.rules.carried import farthest_link
 from cellc.compiler.rules.described import in_its_file
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.transforms import Vector3
 
 _IN_THE_FLANGE_M = 0.005
@@ -121,7 +121,8 @@ def load_beyond_payload(graph: CellGraph) -> Findings:
         if payload.load.mass_kg + tool_kg > payload.mass_kg + _ROUNDING_KG:
             stated = f"{payload.load.mass_kg:g} kg beside a tool of {tool_kg:.3g} kg"
             message = f"the load of `{device.name}` must fit its payload of {payload.mass_kg:g} kg, got {stated}"
-            yield found(graph, path, message)
+            related = enters(graph, "the payload", (*device.path, "payload", "mass"))
+            yield found(graph, path, message, related=related)
 
 
 @rule(Severity.BLOCKER)

@@ -10,7 +10,7 @@ from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.graph.commissioning import chain_of
 from cellc.compiler.rules.bounds import Bound, Figure, outside
 from cellc.compiler.rules.described import described
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule, rules
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, enters, found, rule, rules
 from cellc.compiler.rules.tolerances import stated
 from cellc.contract.vocabulary import TRAJECTORIES
 
@@ -27,7 +27,10 @@ def goal_looser_than_path(graph: CellGraph) -> Findings:
         )
         for goal, way in dict.fromkeys(looser):
             message = f"`goal_tolerance` of `{controller.name}` must be at most its `path_tolerance`"
-            yield found(graph, (*controller.path, "goal_tolerance"), f"{message} of {way:g}, got {goal:g}")
+            related = enters(graph, "the one of the path", (*controller.path, "path_tolerance"))
+            yield found(
+                graph, (*controller.path, "goal_tolerance"), f"{message} of {way:g}, got {goal:g}", related=related
+            )
 
 
 @rule(Severity.ERROR)
@@ -151,7 +154,10 @@ def unmeetable_tolerance(graph: CellGraph) -> Findings:
             for key, bound, why in _unmet(speeds, controller, manager.update_rate_hz):
                 path = (*controller.path, key)
                 message = f"`{key}` of `{controller.name}` must be at least {bound:.2g} rad or m, {why},"
-                yield found(graph, path, f"{message} got {graph.cell.text(*path) or 'less'}")
+                limits = ((*device.path, "limits", "velocity") for device in graph.cell.devices)
+                bounds = ((*manager.path, "update_rate"), *limits) if key == "path_tolerance" else ()
+                related = enters(graph, "the bound follows from it", *bounds)
+                yield found(graph, path, f"{message} got {graph.cell.text(*path) or 'less'}", related=related)
 
 
 def _unmet(speeds: Mapping[str, float], controller: Controller, rate_hz: float) -> Iterator[tuple[str, float, str]]:
@@ -181,7 +187,8 @@ def _misses(graph: CellGraph) -> Iterator[Figure]:
         loosest = max(own, key=lambda name: own[name], default="")
         most = _TIMES_ALLOWED * own[loosest] if own else _MISSED_M
         because = f"ten times the tolerance of goal `{loosest}`" if own else ""
-        places = [("uncertainty", "tolerances", loosest)] if own else []
+        places: list[YamlPath] = [("uncertainty", "tolerances", loosest)] if own else []
+        places += [frame.path for frame in graph.frames.chain(group.tip_frame)[:1] if graph.cell.states(*frame.path)]
         related = tuple(Related("the tip may be so far from it", graph.cell.locate(*place)) for place in places)
         arms = chain_of(graph, group).arms
         watching = {place for joint in arms for place in graph.once(_watching).get(joint, ())}

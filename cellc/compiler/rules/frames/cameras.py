@@ -11,8 +11,8 @@ from cellc.compiler.cell.frame import FrameKind, Solid
 from cellc.compiler.feasibility import ViewAnswer, motion_answer
 from cellc.compiler.graph.neighbors import Neighbors
 from cellc.compiler.rules.described import described
-from cellc.compiler.rules.geometry import KNOWN_GOALS
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.geometry import KNOWN_GOALS, placed_by
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.transforms import Pose, Vector3
 from cellc.contract.vocabulary import InterfaceKind
 
@@ -134,7 +134,9 @@ def object_out_of_view(graph: CellGraph) -> Findings:
             where = f"in `{view.posture}`" if view.posture else "at the start"
             message = f"`{camera.name}` must see `{view.name}` {where}, where it is detected, but it lies {wrong}"
             place = (*frames[view.name].path, "simulated_pose")
-            related = (Related("what is detected", graph.cell.locate(*place)),)
+            related: tuple[Related, ...] = (Related("what is detected", graph.cell.locate(*place)),)
+            related += placed_by(graph, view.name, view.camera_frame)
+            related += enters(graph, "from here", ("motion", "poses", view.posture))
             yield found(graph, (*camera.path, "mount"), message, related=related)
 
 

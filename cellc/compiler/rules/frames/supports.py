@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import Solid
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.transforms import Vector3
 
 _UPRIGHT = 0.985
@@ -78,7 +78,8 @@ def thing_apart_from_its_link(graph: CellGraph) -> Findings:
         depth = box.depth_m((0.0, 0.0, 0.0)) if any(frame.moving for frame in graph.frames.chain(box.parent)) else None
         if depth is not None and depth < -_APART_M:
             message = f"`{box.name}` moves with `{box.parent}` and must begin within {_APART_M:g} m of it,"
-            yield found(graph, (*box.path, "parent"), f"{message} got {-depth:.3g} m")
+            related = enters(graph, "it is placed here", box.path)
+            yield found(graph, (*box.path, "parent"), f"{message} got {-depth:.3g} m", related=related)
 
 
 _BEHIND_M = 0.002

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.motion import CartesianGoal, PlanningGroup
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.transforms import Pose, Vector3
 
 _APART_M = 1e-3
@@ -69,7 +69,8 @@ def tcp_beside_the_tips(graph: CellGraph) -> Findings:
         if len(ways) == len(groups) and min(ways) > _SAME_M:
             nearest = groups[ways.index(min(ways))]
             message = f"the TCP of `{device.name}` must be at the tip of a group, got `{tcp}`, {min(ways) * 1e3:.0f} mm"
-            related = (Related("the tip of the group", graph.cell.locate(*nearest.path, "tip")),)
+            related: tuple[Related, ...] = (Related("the tip of the group", graph.cell.locate(*nearest.path, "tip")),)
+            related += enters(graph, "it is here", *(frame.path for frame in graph.frames.chain(nearest.tip_frame)))
             message += f" from `{nearest.tip_frame}` of `{nearest.name}`"
             yield found(graph, (*device.path, "tcp"), message, related=related)
 

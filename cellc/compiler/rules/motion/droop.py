@@ -8,7 +8,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.feasibility import BodyContact, DroopAnswer, motion_answer
 from cellc.compiler.graph.control_laws import control_laws
 from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain, named
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, enters, found, rule
 from cellc.compiler.rules.tolerances import stated
 from cellc.contract.control_law import ControlLaw
 from cellc.contract.frozen import dataclass
@@ -82,7 +82,8 @@ def droop_beyond_limits(graph: CellGraph) -> Findings:
         where = _where(droop) if droop.posture else "where the cell begins"
         how_far = f"`{droop.joint}` droops by {abs(droop.droop):.3g} {unit} {where}"
         message = f"{how_far}, beyond its limits, so MoveIt plans no motion that begins there"
-        yield found(graph, paths.get(droop.posture, (*device.path, "model")), message)
+        related = enters(graph, "its stiffness", (*device.path, "impedance"))
+        yield found(graph, paths.get(droop.posture, (*device.path, "model")), message, related=related)
 
 
 @rule(Severity.ERROR, assumes=_WEIGHED)
@@ -100,7 +101,8 @@ def tip_droop_beyond_tolerance(graph: CellGraph) -> Findings:
             loaded = "with a part" if worst.holding else "empty"
             message = f"the tip comes to rest {worst.distance_m * 1e3:.3g} mm from goal `{name}`, "
             message += f"{abs(worst.below_m) * 1e3:.3g} mm {side} it, {loaded}, but must be within"
-            yield found(graph, path, f"{message} {graph.cell.text(*path)}", related=in_the_chain(graph, name))
+            related = (*in_the_chain(graph, name), *_stiffnesses(graph))
+            yield found(graph, path, f"{message} {graph.cell.text(*path)}", related=related)
 
 
 @rule(
@@ -116,9 +118,8 @@ def droop_into_contact(graph: CellGraph) -> Findings:
             seen.add(tip.contacts)
             loaded = " with a part" if tip.holding else ""
             message = f"in `{tip.posture}`{loaded} the arm droops until {named(tip.contacts)},"
-            yield found(
-                graph, paths[tip.posture], f"{message} with its tip {tip.distance_m * 1e3:.3g} mm off its command"
-            )
+            message += f" with its tip {tip.distance_m * 1e3:.3g} mm off its command"
+            yield found(graph, paths[tip.posture], message, related=_stiffnesses(graph))
 
 
 @rule(Severity.BLOCKER)
@@ -166,3 +167,7 @@ def load_of_nothing(graph: CellGraph) -> Findings:
             else:
                 continue
             yield found(graph, ("uncertainty", "loads", name, key), f"`{name}` must be {why}; nothing is drawn for it")
+
+
+def _stiffnesses(graph: CellGraph) -> tuple[Related, ...]:
+    return enters(graph, "a stiffness", *((*device.path, "impedance") for device in graph.cell.devices))

@@ -10,7 +10,7 @@ from cellc.compiler.cell.frame import WORLD, FrameKind
 from cellc.compiler.cell.motion import PlanningGroup
 from cellc.compiler.feasibility import motion_answer
 from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain
-from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, did_you_mean, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Severity, YamlPath, did_you_mean, enters, found, rule
 from cellc.contract.vocabulary import InterfaceKind
 
 
@@ -107,7 +107,9 @@ def timeout_below_motion(graph: CellGraph) -> Findings:
             needed_s, start, end = longest
             message = f"the timeout of `{interface.name}` must be at least {needed_s:.2g} s, which the joints need from"
             path = (*interface.path, "timeout")
-            yield found(graph, path, f"{message} `{start}` to `{end}`, got {graph.cell.text(*path)}")
+            limits = enters(graph, "so fast", *((*device.path, "limits") for device in graph.cell.devices))
+            related = (*limits, *in_the_chain(graph, start), *in_the_chain(graph, end))
+            yield found(graph, path, f"{message} `{start}` to `{end}`, got {graph.cell.text(*path)}", related=related)
 
 
 def _moves(graph: CellGraph) -> list[tuple[float, str, str]]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from cellc.compiler.cell.device import Gripper
 from cellc.compiler.cell.frame import Frame, Grasp
 from cellc.compiler.rules.carried import parts_taken
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.diagnostics import Span
 
 
@@ -65,7 +65,8 @@ def part_beyond_stroke(graph: CellGraph) -> Findings:
             )
             message = f"the part at `{frame.name}` must be narrower than the {gripper.stroke_m * 1e3:.4g} mm that the"
             message = f"{message} fingers of `{name}` open to, got {graph.cell.text(*path)}{more}"
-            yield found(graph, path, message, related=(Related("it closes here", span),))
+            related = enters(graph, "how far off it may be", (*path[:-1], "tolerance"))
+            yield found(graph, path, message, related=(Related("it closes here", span), *related))
 
 
 @rule(Severity.ERROR)
@@ -101,7 +102,8 @@ def part_like_nothing(graph: CellGraph) -> Findings:
             closed = f"{closed_m * 1e3:.3g} mm, within which `{name}` counts as closed"
             stated = f"{graph.cell.text(*path[:-1], 'width')} less {graph.cell.text(*path)}"
             message = f"`width` less `tolerance` of `{frame.name}` must be more than {closed}, got {stated}"
-            yield found(graph, path, message, related=(Related("it closes here", span),))
+            related = enters(graph, "how wide it is", (*path[:-1], "width"))
+            yield found(graph, path, message, related=(Related("it closes here", span), *related))
 
 
 _GRAVITY, _FRICTION, _ARM = 9.81, 0.5, 9.81

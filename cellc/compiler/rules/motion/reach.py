@@ -21,7 +21,8 @@ def goal_near_joint_limit(graph: CellGraph) -> Findings:
                 f"goal `{goal.name}` must leave `{goal.limit_joint}` {_LEAST_SHARE:.0%} of its range to the limit, "
                 f"got {goal.limit_share:.1%} ({goal.limit_distance:.2g})"
             )
-            yield found(graph, (*paths[goal.name], "frame"), message)
+            related = in_the_chain(graph, goal.name)
+            yield found(graph, (*paths[goal.name], "frame"), message, related=related)
 
 
 @rule(Severity.ERROR, assumes=KNOWN_GOALS)
@@ -70,7 +71,8 @@ def near_singular_goal(graph: CellGraph) -> Findings:
             message = (
                 f"the least singular value at goal `{goal.name}` must be at least {_LEAST_AT_GOAL:g}, got {least:.2g}"
             )
-            yield found(graph, (*paths[goal.name], "frame"), message)
+            related = in_the_chain(graph, goal.name)
+            yield found(graph, (*paths[goal.name], "frame"), message, related=related)
 
 
 _LEAST_IN_POSE = 0.02
@@ -102,7 +104,7 @@ def singular_goal(graph: CellGraph) -> Findings:
     for goal in motion_answer(graph).goals:
         if goal.failure == "singular":
             message = f"goal `{goal.name}` can be reached only in a singularity: {goal.detail}"
-            yield found(graph, (*paths[goal.name], "frame"), message)
+            yield found(graph, (*paths[goal.name], "frame"), message, related=in_the_chain(graph, goal.name))
 
 
 @rule(Severity.ERROR, assumes=KNOWN_GOALS)

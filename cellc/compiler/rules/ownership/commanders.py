@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.motion import Servo
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.vocabulary import TRAJECTORIES, Behavior, Distro, InterfaceKind
 
 
@@ -124,7 +124,7 @@ def scripted_servo_loop(graph: CellGraph) -> Findings:
                 message = (
                     f"Python node `{source.node}` streams references on `{interface.name}` at {interface.rate_hz:g} Hz"
                 )
-                yield found(graph, source.path, message)
+                yield found(graph, source.path, message, related=enters(graph, "so fast", (*interface.path, "rate")))
 
 
 @rule(Severity.ERROR)

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from cellc.compiler.cell.interface import Endpoint, Interface
 from cellc.compiler.graph.data_flow import age_chains
-from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, found, rule
+from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.vocabulary import InterfaceKind
 
 
@@ -42,7 +42,8 @@ def deadline_below_period(graph: CellGraph) -> Findings:
                     f"got {deadline:g} ms"
                 )
                 path = (*end.path, "deadline")
-                yield found(graph, path, message, f"allow at least {period:.4g} ms")
+                related = enters(graph, "its period follows from it", (*topic.path, "rate"))
+                yield found(graph, path, message, f"allow at least {period:.4g} ms", related)
 
 
 @rule(Severity.ERROR)
@@ -55,7 +56,8 @@ def lifespan_below_max_age(graph: CellGraph) -> Findings:
                     f"`lifespan` of `{topic.name}` must be at least its `max_age` of {topic.max_age_s * 1e3:g} ms, "
                     f"got {end.qos.lifespan_s * 1e3:g} ms"
                 )
-                yield found(graph, (*end.path, "lifespan"), message)
+                related = enters(graph, "the age is limited here", (*topic.path, "max_age"))
+                yield found(graph, (*end.path, "lifespan"), message, related=related)
 
 
 @rule(Severity.WARNING)
@@ -101,8 +103,9 @@ def queue_older_than_max_age(graph: CellGraph) -> Findings:
                 )
                 most = int(max_age_s * topic.rate_hz * _ROUNDING)  # one at least: no age is below a period
                 advice = f"use `depth: {most}`{' or less' if most > 1 else ''}, or allow a greater age"
+                related = enters(graph, "so fast", (*topic.path, "rate"))
                 place = graph.cell.locate(*bound.path, "max_age")
-                yield found(graph, end.path, message, advice, (Related("allowed here", place),))
+                yield found(graph, end.path, message, advice, (Related("allowed here", place), *related))
 
 
 def _is_a_backlog(topic: Interface, end: Endpoint) -> bool:

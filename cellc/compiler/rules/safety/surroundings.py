@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
 from cellc.compiler.graph.commissioning import chain_of
+from cellc.compiler.rules.geometry import placed_by
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.contract.transforms import Vector3
 
@@ -84,7 +85,11 @@ def surroundings_within_reach(graph: CellGraph) -> Findings:
             if away_m is not None and away_m < reach_m:
                 where = "below its base" if not lengths else "away by the reason"
                 message = f"`{part}` must be beyond the {reach_m * 1e3:.0f} mm that `{arm.name}` reaches, got"
-                related = (Related(f"`{arm.name}` is mounted here", graph.cell.locate(*arm.path, "mount")),)
+                tips = (group.tip_frame for group in graph.cell.groups if arms.get(group.base_link) is arm)
+                related: tuple[Related, ...] = (
+                    Related(f"`{arm.name}` is mounted here", graph.cell.locate(*arm.path, "mount")),
+                )
+                related += placed_by(graph, *tips)
                 yield found(graph, path, f"{message} {away_m * 1e3:.0f} mm {where}", related=related)
                 break
 
