@@ -30,7 +30,8 @@ def diagnose(words: tuple[str, ...], logs: Path | None) -> None:
 
     No quotes are needed. Up to three symptoms are proposed, each with its causes and the read-only observation that
     rules each one out. Unless a line names the cause, the answer begins with `not sure` and the one question that
-    decides. Without SYMPTOM, list all known symptoms. With FILE, a cell spec or the folder of its cell.yaml, the
+    decides, and ends with how that part of a cell is narrowed down; where no symptom fits well, the part comes first.
+    Without SYMPTOM, list all known symptoms. With FILE, a cell spec or the folder of its cell.yaml, the
     commands use the controllers, topics and frames of that cell. Nothing is executed, and no command bypasses a
     protection. Exit code 1 if no known symptom fits; the nearest are listed, with the question that narrows most.
 

@@ -117,8 +117,8 @@ def placed(text: str, layers: Sequence[Topic] = ()) -> Placed | None:
     for section, origins, says in _patterns():
         named = min(_MOST, sum(1 for pattern in origins if pattern.search(small)))
         points = float(_OF_ORIGIN * named + _OF_WORDS * min(_MOST, sum(1 for each in says if each.search(small))))
-        points += _OF_LAYER * (section.layers[0] in layers[:1]) + _OF_LAYER / 2 * bool(
-            set(section.layers) & set(layers)
+        points += _OF_LAYER * (section.layers[0] in layers[:1]) + _OF_LAYER / 2 * any(
+            layer in section.layers for layer in layers[:1]
         )
         if points and (best is None or points > best[0]):
             best = (points, Placed(section, named > 0))

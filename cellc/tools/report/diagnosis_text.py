@@ -25,7 +25,7 @@ def render_answer(answer: Answer) -> Iterator[Line]:
         yield f"one question decides: {answer.ask}"
         yield from _counted(answer)
         yield from render_routes(answer.routes)
-        yield from ("", (Styled("less likely, by their words alone:", Style.BOLD),))
+        yield from ("", (Styled("or, by their words alone, one of these:", Style.BOLD),))
         for suspicion in answer.suspicions:
             yield f"  {suspicion.layer}: {suspicion.symptom}"
             yield from (f"    {number}. {cause.text}?" for number, cause in enumerate(suspicion.causes, 1))
@@ -53,11 +53,11 @@ def _counted(answer: Answer) -> Iterator[Line]:
 
 def render_routes(routes: Sequence[Route], intro: str = "") -> Iterator[Line]:
     """Yield what is looked at, in the order in which it halves what is left."""
-    for route in routes:
-        yield from ("", (Styled(f"{intro}{route.name}, in this order", Style.BOLD),))
-        for number, step in enumerate(route.steps, 1):
+    for number, route in enumerate(routes):
+        yield from ("", (Styled(f"{intro if number == 0 else ''}{route.name}, in this order", Style.BOLD),))
+        for place, step in enumerate(route.steps, 1):
             mark = "$" if step.is_command else "look at"
-            yield f"  {number}. ", Styled(mark, Style.BLUE), f" {step.action}"
+            yield f"  {place}. ", Styled(mark, Style.BLUE), f" {step.action}"
             yield "     ", Styled("either", Style.GREEN), f" {step.good}"
             yield "     ", Styled("or", Style.GREEN), f" {step.bad}"
         yield f"  source: {route.source}"
