@@ -13,6 +13,7 @@ from cellc.contract.quantities import (
     Coordinate,
     Magnitude,
     Period,
+    Pixels,
     PositiveMagnitude,
     PositiveSeconds,
     Rate,
@@ -56,6 +57,21 @@ class ContractGripper(ContractModel):
         return self.closed + math.copysign(math.asin(least + (most - least) * share) - self.swing, way)
 
 
+class ContractImages(ContractModel):
+    """One image stream of a camera, as its node is started and as far as the catalog knows it."""
+
+    topic: str = Field(description="Full name of the image topic.")
+    info_topic: str = Field(description="Full name of the topic with the intrinsics.")
+    frame: str = Field(description="Optical frame: x to the right, y down, z forward.")
+    width: Pixels = Field(description="Width in pixels.")
+    height: Pixels = Field(description="Height in pixels.")
+    encoding: str = Field(description="Encoding of the pixels, such as `rgb8`, or `16UC1` for depth in mm.")
+    horizontal: PositiveMagnitude = Field(description="Whole horizontal angle of view, rad.")
+    vertical: PositiveMagnitude = Field(description="Whole vertical angle of view, rad.")
+    nearest_m: Magnitude = Field(description="Least distance along the optical axis.")
+    farthest_m: PositiveMagnitude = Field(description="Greatest distance along the optical axis.")
+
+
 class ContractCamera(ContractModel):
     """The stream that perception uses."""
 
@@ -64,6 +80,7 @@ class ContractCamera(ContractModel):
     rate_hz: Rate = Field(description="Frames a second.")
     exposure_s: Annotated[Seconds, Graded(ReviewArea.TIME)] = Field(description="Exposure time.")
     clock: str = Field(description="Clock domain of the stamps.")
+    images: tuple[ContractImages, ...] = Field((), description="Its streams, where their size and view are known.")
 
 
 class ContractDriver(ContractModel):

@@ -94,5 +94,7 @@ PositiveMagnitude = Annotated[float, AfterValidator(_Range(SMALLEST, LARGEST))]
 """A speed, an acceleration or a jerk that something moves with."""
 Count = Annotated[int, AfterValidator(_Range(0, 2**31 - 1))]
 """How many; a spec may state as many."""
+Pixels = Annotated[int, AfterValidator(_Range(1, 100_000))]
+"""Edge of an image."""
 UnitQuaternion = Annotated[tuple[float, float, float, float], AfterValidator(_check_unit)]
 """A rotation x, y, z, w."""

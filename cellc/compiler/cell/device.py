@@ -158,6 +158,7 @@ class CameraStream:
     rate_hz: float
     view: FieldOfView | None = None
     image_bytes: int | None = None
+    pixels: tuple[int, int] | None = None
     encoding: str | None = None
 
 

@@ -286,8 +286,7 @@ def _exposure_s(facts: DeviceModel, written: DeviceSpec) -> float:
 
 def _camera(facts: DeviceModel, known: Placeholders, prefix: str) -> Camera | None:
     """Return the camera that the device is."""
-    camera = facts.camera
-    if camera is None:
+    if (camera := facts.camera) is None:
         return None
     return Camera(
         streams=tuple(
@@ -299,6 +298,7 @@ def _camera(facts: DeviceModel, known: Placeholders, prefix: str) -> Camera | No
                 rate_hz=stream.rate.si,
                 view=field_of_view(stream.view),
                 image_bytes=stream.image.bytes if stream.image else None,
+                pixels=(stream.image.width, stream.image.height) if stream.image else None,
                 encoding=stream.image.encoding if stream.image else None,
             )
             for stream in camera.streams.values()

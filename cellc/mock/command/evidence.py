@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import BinaryIO
@@ -12,6 +13,7 @@ from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.cell import MockCell
 from cellc.mock.evidence.bag.bag_file import Bag
 from cellc.mock.evidence.folder import EvidenceFolder, file_names
+from cellc.mock.evidence.images.photographer import Album, Photographer, Shot, photograph
 from cellc.mock.evidence.kpis import Kpi, kpis, to_kpi_json
 from cellc.mock.evidence.layout import to_layout
 from cellc.mock.evidence.listener import RunListener
@@ -34,8 +36,11 @@ LAYOUT = "layout.json"
 class EvidenceCollector:
     """Runs rehearsals of one call; used as a context, so that nothing half done is left behind."""
 
-    def __init__(self, cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> None:
+    def __init__(self, cell: MockCell, folder: Path, names: Sequence[str], seed: int, *, images: bool = False) -> None:
         """Make ready to run rehearsals by name.
+
+        Args:
+            images: draw what cameras see.
 
         Raises:
             MockError: the folder cannot take the evidence.
@@ -44,6 +49,7 @@ class EvidenceCollector:
         self._cell = cell
         self._tolerances = path_tolerances(cell.folder.parameters)
         self._seed = seed
+        self._images = images
         self._stems = file_names(names)
         files = [REPORT, LAYOUT, *(name for stem in self._stems.values() for name in _files(stem))]
         self._folder = EvidenceFolder(folder, files)
@@ -65,7 +71,7 @@ class EvidenceCollector:
         entry = self._cell.entry(name)
         bag_file, records_file, kpis_file = _files(self._stems[entry.name])
         with self._folder.open(bag_file) as file:
-            result, trace = recorded(self._cell, entry, file, self._seed)
+            result, trace = recorded(self._cell, entry, file, self._seed, images=self._images)
         figures = () if trace is None else self._figures(result, trace)
         self._folder.write(records_file, to_json_lines(result.attempts))
         self._folder.write(kpis_file, to_kpi_json(entry, result, figures))
@@ -101,9 +107,19 @@ class EvidenceCollector:
 
 
 def recorded(
-    cell: MockCell, entry: RehearsalEntry, file: BinaryIO, seed: int
+    cell: MockCell,
+    entry: RehearsalEntry,
+    file: BinaryIO,
+    seed: int,
+    *,
+    images: bool = False,
+    albums: list[Album] | None = None,
 ) -> tuple[RehearsalResult, TraceResult | None]:
     """Run a rehearsal and write its bag to a file; the trace is None where the cell never started.
+
+    Args:
+        images: draw what cameras deliver, and write it to the bag.
+        albums: takes what cameras deliver, to be drawn afterwards; the bag has their topics.
 
     Raises:
         MockError: it names what the contract does not have.
@@ -114,6 +130,12 @@ def recorded(
     def watch(plant: Plant) -> None:
         writer, trace = RunBag(bag, plant), RunTrace(plant)
         writer.begin(cell.folder.urdf)
+        if images or albums is not None:
+            album = Album(Photographer(plant, cell.folder.description, cell.folder.mesh_roots))
+            writer.images(album.photographer.topics())
+            photograph(plant, album, partial(_draw, writer, album.photographer) if images else album.take)
+            if albums is not None:
+                albums.append(album)
         watched.append((RunListener(plant, writer, trace), trace))
 
     result = cell.rehearse(entry, seed=seed, watch=watch)
@@ -121,6 +143,11 @@ def recorded(
         listener.end()
     bag.finish()
     return result, watched[0][1].result() if watched else None
+
+
+def _draw(bag: RunBag, photographer: Photographer, shot: Shot, now_ns: int) -> None:
+    for topic, data in photographer.drawn(shot):
+        bag.image(topic, data, now_ns)
 
 
 def _identity(cell: MockCell, entry: RehearsalEntry, seed: int) -> dict[str, str]:

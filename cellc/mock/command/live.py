@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import signal
 import threading
+from collections import deque
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from ipaddress import ip_address
@@ -28,6 +29,7 @@ from cellc.mock.cell import MockCell
 from cellc.mock.command.evidence import recorded
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.fault_times import fault_times
+from cellc.mock.evidence.images.photographer import Album, Photographer, Shot
 from cellc.mock.evidence.topics import LOG
 from cellc.mock.result import RehearsalResult
 from cellc.robot.description.yaml_values import load_values
@@ -44,6 +46,7 @@ _QUIET_S = 0.2
 _LAST_S = 0.5
 """Left to the network for what was sent last, before the server ends."""
 _LAST_PORT = 65535
+_LATE_S = 0.2
 
 
 @contextmanager
@@ -76,6 +79,8 @@ class LiveView:
         self._channels: dict[str, Any] = {}
         self._latched: dict[str, tuple[bytes, int]] = {}
         self._asked = threading.Event()
+        self._wanted: dict[str, int] = {}
+        """Viewers of each topic."""
         self._server: Any = None
         self.executed_s = 0.0
         """What the last rehearsal needed to be executed; waiting for a viewer and showing it are no part of that."""
@@ -101,13 +106,15 @@ class LiveView:
 
     def on_subscribe(self, client: object, channel: Any) -> None:
         """Give who comes late what a latched topic holds; called by the server."""
+        self._wanted[channel.topic] = self._wanted.get(channel.topic, 0) + 1
         held = self._latched.get(channel.topic)
         if held is not None:
             self._channels[channel.topic].log(held[0], log_time=held[1])
         self._asked.set()
 
     def on_unsubscribe(self, client: object, channel: Any) -> None:
-        """Do nothing; called by the server."""
+        """Draw no more images of a topic without viewers; called by the server."""
+        self._wanted[channel.topic] = self._wanted.get(channel.topic, 1) - 1
 
     def run(self, cell: MockCell, name: str, seed: int) -> RehearsalResult:
         """Execute a rehearsal, and show it to its end.
@@ -118,13 +125,14 @@ class LiveView:
         entry = cell.entry(name)
         with temporary_file() as file:
             start_s = perf_counter()
-            result, _ = recorded(cell, entry, file, seed)
+            albums: list[Album] = []
+            result, _ = recorded(cell, entry, file, seed, albums=albums)
             self.executed_s = perf_counter() - start_s
             file.seek(0)
-            self._show(file, entry, result)
+            self._show(file, entry, result, albums[0] if albums else None)
         return result
 
-    def _show(self, file: BinaryIO, entry: RehearsalEntry, result: RehearsalResult) -> None:
+    def _show(self, file: BinaryIO, entry: RehearsalEntry, result: RehearsalResult, album: Album | None) -> None:
         reader = make_reader(file)
         summary = reader.get_summary()
         assert summary is not None  # we wrote it
@@ -138,16 +146,29 @@ class LiveView:
         latched = {channel.topic for channel in summary.channels.values() if _is_latched(channel.metadata)}
         lines = _log_lines(entry, result)
         start, first_ns = monotonic(), None
+        shots = deque(() if album is None else album.shots)
         for _, channel, message in reader.iter_messages():
             first_ns = message.log_time if first_ns is None else first_ns
             while lines and lines[0][0] <= message.log_time:
                 self._say(*lines.pop(0))
+            early_s = start + (message.log_time - first_ns) / 1e9 / self._speed - monotonic()
+            while album is not None and shots and shots[0][0] <= message.log_time:
+                at_ns, shot = shots.popleft()
+                if early_s > -_LATE_S:  # one that is late is not drawn, so that the rest is not late too
+                    self._draw(album.photographer, shot, at_ns)
             sleep(max(0.0, start + (message.log_time - first_ns) / 1e9 / self._speed - monotonic()))
             if channel.topic in latched:
                 self._latched[channel.topic] = (message.data, message.log_time)
             self._channels[channel.topic].log(message.data, log_time=message.log_time)
         for each in lines:
             self._say(*each)
+
+    def _draw(self, photographer: Photographer, shot: Shot, at_ns: int) -> None:
+        """Draw an image for those who look at it; of each camera only the topics that somebody has asked for."""
+        for stream in photographer.streams[shot.device]:
+            for topic in (stream.topic, stream.info_topic):
+                if self._wanted.get(topic, 0) > 0:
+                    self._channels[topic].log(photographer.message(topic, shot), log_time=at_ns)
 
     def _serve(self) -> None:
         """Begin to listen, once the topics are known: who connects learns of them all together."""

@@ -72,11 +72,13 @@ class RehearsalOptions(FolderOptions):
         rehearsals: to run; all of the folder without one.
         records: file that attempt records are written to, as JSON lines.
         live: how they are shown; None for not at all.
+        images: draw what cameras see into the bags.
     """
 
     rehearsals: tuple[str, ...] = ()
     records: str | None = None
     live: Live | None = None
+    images: bool = False
 
     def extras(self) -> Iterator[Extra]:
         """Yield what it needs beyond what cellc is installed with."""

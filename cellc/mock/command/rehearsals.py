@@ -119,7 +119,7 @@ def load_seeded(options: FolderOptions) -> MockCell:
 def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> list[TimedResult]:
     if options.evidence is None:
         return _timed(cell, names, lambda name: cell.run(name, seed=options.seed))
-    with begin_evidence(cell, Path(options.evidence), names, options.seed) as collector:
+    with begin_evidence(cell, Path(options.evidence), names, options.seed, images=options.images) as collector:
         timed = _timed(cell, names, collector.run)
         collector.settle()
     return timed
@@ -176,8 +176,13 @@ def keep_evidence(
         collector.settle(campaign, sweeps)
 
 
-def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int) -> EvidenceCollector:
+def begin_evidence(
+    cell: MockCell, folder: Path, names: Sequence[str], seed: int, *, images: bool = False
+) -> EvidenceCollector:
     """Return what runs rehearsals of a cell and writes their evidence to a folder.
+
+    Args:
+        images: draw what cameras see.
 
     Raises:
         MissingExtraError: the package that writes bags is not installed.
@@ -187,4 +192,4 @@ def begin_evidence(cell: MockCell, folder: Path, names: Sequence[str], seed: int
 
     for name in names:
         cell.entry(name)
-    return EvidenceCollector(cell, folder, names, seed)
+    return EvidenceCollector(cell, folder, names, seed, images=images)

@@ -26,6 +26,8 @@ _PIECE_NS = 250_000_000
 """States of controllers are taken four times a second, so that memory stays flat."""
 _DIAGNOSTIC_NS = 1_000_000_000
 """diagnostic_updater publishes once a second by default."""
+_CLOCK_NS = 25_000_000
+"""40 Hz, as `ros2 bag play --clock` publishes by default."""
 
 
 class RunListener:
@@ -41,6 +43,7 @@ class RunListener:
         self._streams = {key: TransformStream(plant, history) for key, history in plant.control.histories.items()}
         self._piece_due_ns = 0
         self._diagnostics_due_ns = 0
+        self._clock_due_ns = -(-plant.now_ns // _CLOCK_NS) * _CLOCK_NS
         plant.control.watch(self)
         plant.task.actions.listen(self._done)
         plant.control.listen(self._hear)
@@ -68,12 +71,19 @@ class RunListener:
             self._bag.transforms(message)
             self._trace.transforms(message)
         last_ns = int(block.stamps_ns[-1])
+        self._tick(last_ns)
         if last_ns >= self._piece_due_ns:
             self._take_states()
             self._piece_due_ns = last_ns + _PIECE_NS
         if last_ns >= self._diagnostics_due_ns:
             self._bag.diagnostics(last_ns)
             self._diagnostics_due_ns = last_ns + _DIAGNOSTIC_NS
+
+    def _tick(self, until_ns: int) -> None:
+        """Write the clock up to a time: it is no event of the run, and changes nothing in it."""
+        for due_ns in range(self._clock_due_ns, until_ns + 1, _CLOCK_NS):
+            self._bag.clock(due_ns)
+            self._clock_due_ns = due_ns + _CLOCK_NS
 
     def goal_sent(self, sent: GoalSent) -> None:
         """Take a goal."""
@@ -84,6 +94,7 @@ class RunListener:
         """Take what is left when the rehearsal is over."""
         self._take_states()
         self._statuses.look()
+        self._tick(self._plant.now_ns)
         self._bag.diagnostics(self._plant.now_ns, ended=True)
         self._trace.end(self._plant.now_ns)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from cellc.mock.evidence.bag.messages import (
 from cellc.mock.evidence.statuses import ROSOUT, Line, status_topics
 from cellc.mock.evidence.topics import (
     ATTEMPTS,
+    CLOCK_TOPIC,
     DIAGNOSTICS,
     BagTopic,
     controller_state_topic,
@@ -161,6 +162,7 @@ class RunBag:
         self._joint_states = {key: self._declare(joint_states_topic(contract, *key)) for key in plant.control.histories}
         self._states: dict[str, int] = {}
         self._goals: dict[str, int] = {}
+        self._images: dict[str, int] = {}
         for name, manager in contract.managers.items():
             for controller, facts in manager.controllers.items():
                 if facts.behavior in TRAJECTORIES:
@@ -173,6 +175,7 @@ class RunBag:
         topics = {frame: pose_topic(contract, frame) for frame in plant.perceptions}
         self._poses = {frame: self._declare(topic) for frame, topic in topics.items() if topic is not None}
         self._diagnostics = self._declare(DIAGNOSTICS)
+        self._clock = self._declare(CLOCK_TOPIC)
         self._attempts = self._declare(ATTEMPTS)
         self._statuses = {action: self._declare(topic) for action, topic in status_topics(contract).items()}
         self._log = self._declare(ROSOUT)
@@ -231,6 +234,18 @@ class RunBag:
         if as_transform:
             stamped = messages.StampedTransform(published.stamp_ns, published.frame, frame, published.pose)
             self._bag.write(self._transforms, messages.transforms((stamped,)), now_ns)
+
+    def clock(self, now_ns: int) -> None:
+        """Write the simulated time."""
+        self._bag.write(self._clock, messages.clock(now_ns), now_ns)
+
+    def images(self, topics: Iterable[BagTopic]) -> None:
+        """Declare the topics of cameras."""
+        self._images |= {topic.name: self._declare(topic) for topic in topics}
+
+    def image(self, topic: str, data: bytes, stamp_ns: int) -> None:
+        """Write an image, or the intrinsics of one."""
+        self._bag.write(self._images[topic], data, stamp_ns)
 
     def diagnostics(self, now_ns: int, *, ended: bool = False) -> None:
         """Write the present diagnostics; where the run has ended, every cycle up to now was due."""

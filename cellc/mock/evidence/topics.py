@@ -14,6 +14,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 from cellc.mock.evidence.bag.bag_file import LATCHED
 from cellc.mock.evidence.bag.messages import (
+    CLOCK,
     CONTROLLER_STATE,
     DIAGNOSTIC_ARRAY,
     JOINT_STATE,
@@ -37,6 +38,8 @@ class BagTopic:
 ATTEMPTS = BagTopic("/cellc/attempts", STRING, replace(LATCHED, history="keep_all"))
 LOG = "/cellc/log"
 """Where `cellc mock --live` tells faults and outcomes in words; no bag has it."""
+CLOCK_TOPIC = BagTopic("/clock", CLOCK, replace(DEFAULT, reliability="best_effort", depth=1))
+"""rclcpp/qos.hpp, ClockQoS."""
 DIAGNOSTICS = BagTopic("/diagnostics", DIAGNOSTIC_ARRAY, DEFAULT)
 
 

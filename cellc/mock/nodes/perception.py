@@ -65,12 +65,17 @@ class Camera:
         self.device = device
         self._frozen = False
         self.last: Image | None = None
+        self._listeners: list[Callable[[Image], None]] = []
         self._facts = facts
         self._topic = topic
         self._clock = clock
         self._simulation = simulation
         transport = DEFAULT_TRANSPORT_S if transport_s is None else transport_s
         self._latency_ns = round((facts.exposure_s + transport) * 1e9)
+
+    def listen(self, listener: Callable[[Image], None]) -> None:
+        """Call ``listener`` with every image as it is delivered."""
+        self._listeners.append(listener)
 
     def freeze(self, frozen: bool) -> None:
         """Repeat the last image with its old stamp from now on, or stream again."""
@@ -91,6 +96,8 @@ class Camera:
         if not self._frozen or self.last is None:
             self.last = image
         self._topic.publish(self.device, self.last)
+        for listener in self._listeners:
+            listener(self.last)
 
 
 class TransformSink(Protocol):

@@ -164,6 +164,10 @@ class World:
         """Return the pose of a link in the root link at a time."""
         return self._links.pose(link, self.joint_positions(stamp_ns))
 
+    def posed(self, link: str, positions: Mapping[str, float]) -> Pose:
+        """Return the pose of a link in the root link where joints are at some positions."""
+        return self._links.pose(link, positions)
+
     def carrier_of(self, joint: str) -> str | None:
         """Return the link in which a joint moves its child; None where no joint is called so."""
         return next((item.parent for item in self._links.joints.values() if item.name == joint), None)

@@ -15,6 +15,7 @@ from cellc.tools.cli.run_options import (
     EDITED,
     EVIDENCE,
     FOLDERS,
+    IMAGES,
     JSON,
     RECORDS,
     REHEARSALS,
@@ -55,6 +56,7 @@ class _Mock(click.Command):
 @REHEARSALS
 @RECORDS
 @EVIDENCE
+@IMAGES
 @JSON
 @SEED
 @STAGE

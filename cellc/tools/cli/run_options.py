@@ -48,6 +48,7 @@ EVIDENCE = click.option(
     callback=_refuse_empty,
     help="Write bags, records, key figures and a report.",
 )
+IMAGES = click.option("--images", is_flag=True, help="With --evidence: draw what cameras see into the bags.")
 SEED = click.option("--seed", default=0, show_default=True, help="Seed of all random draws.")
 STAGE = click.option("--stage", default="", metavar="PERCENT", help="Plan in this stage of commissioning.")
 EDITED = click.option(
@@ -84,6 +85,8 @@ def live_options(command: Command) -> Command:
         needless = [option for option, value in (("--listen", listen), ("--speed", speed)) if value is not None]
         if needless and not live:
             raise click.UsageError(f"{needless[0]} needs --live.")
+        if others["images"] and others["evidence"] is None:
+            raise click.UsageError("--images needs --evidence; with --live they are drawn where Foxglove shows them.")
         if live and others["evidence"] is not None:
             raise click.UsageError("--live cannot be combined with --evidence.")
         if speed is not None and not speed > 0.0:

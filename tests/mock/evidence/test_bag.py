@@ -28,6 +28,7 @@ TOPICS = {
     "/cellc/gripper_action/goal": "sensor_msgs/msg/JointState",
     "/object_pose": "geometry_msgs/msg/PoseStamped",
     "/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
+    "/clock": "rosgraph_msgs/msg/Clock",
     "/cellc/attempts": "std_msgs/msg/String",
     "/arm_trajectory/follow_joint_trajectory/_action/status": "action_msgs/msg/GoalStatusArray",
     "/gripper_action/gripper_cmd/_action/status": "action_msgs/msg/GoalStatusArray",

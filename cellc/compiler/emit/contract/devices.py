@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import AdaptedDevice
-from cellc.compiler.cell.device import Device, SimulatedJoint
+from cellc.compiler.cell.device import CameraStream, Device, SimulatedJoint
 from cellc.compiler.cell.frame import FrameKind
 from cellc.compiler.cell.hardware import Effect, HardwareComponent
 from cellc.compiler.cell.interface import Interface
@@ -26,6 +26,7 @@ from cellc.contract.devices import (
     ContractDriver,
     ContractEffect,
     ContractGripper,
+    ContractImages,
     ContractSimulatedJoint,
     ContractStop,
     ContractSwitched,
@@ -139,7 +140,27 @@ def _camera(cell: Cell, device: Device) -> ContractCamera | None:
         rate_hz=(None if used is None else used.rate_hz) or stream.rate_hz,
         exposure_s=device.sensing.exposure_s,
         clock=UNKNOWN if device.sensing.stamp is None else device.sensing.stamp.clock.domain,
+        images=tuple(_images(device.sensing.camera.streams)),
     )
+
+
+def _images(streams: Iterable[CameraStream]) -> Iterator[ContractImages]:
+    """Yield the streams whose images can be drawn: what they see, and how large they are, is known."""
+    for stream in streams:
+        if stream.pixels is None or stream.view is None or stream.encoding is None:
+            continue
+        yield ContractImages(
+            topic=stream.topic,
+            info_topic=stream.info_topic,
+            frame=stream.frame,
+            width=stream.pixels[0],
+            height=stream.pixels[1],
+            encoding=stream.encoding,
+            horizontal=rounded(stream.view.horizontal),
+            vertical=rounded(stream.view.vertical),
+            nearest_m=stream.view.nearest_m,
+            farthest_m=stream.view.farthest_m,
+        )
 
 
 def _switched(switched: Switched) -> ContractSwitched:

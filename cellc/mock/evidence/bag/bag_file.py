@@ -20,7 +20,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 from cellc.contract.store.regular_file import own_text
 
-_PRIMITIVES = ("byte", "float64", "int32", "int8", "string", "uint32", "uint8")
+_PRIMITIVES = ("bool", "byte", "float64", "int32", "int8", "string", "uint32", "uint8")
 """Those that occur in the definitions here."""
 _SEPARATOR = "=" * 80
 _FIELD = re.compile(r"([A-Za-z][\w/]*)(?:\[[^\]]*\])? +\w+")

@@ -70,6 +70,11 @@ class CdrWriter:
         offsets = [self.float64(value) for value in values]
         return offsets[0] if offsets else 0
 
+    def octets(self, values: bytes) -> None:
+        """Write a sequence of bytes."""
+        self.uint32(len(values))
+        self._bytes += values
+
     def fixed_float64s(self, values: Iterable[float]) -> None:
         """Write float64 fields one after the other."""
         for value in values:

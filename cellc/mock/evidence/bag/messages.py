@@ -21,6 +21,9 @@ POSE_STAMPED = "geometry_msgs/msg/PoseStamped"
 STRING = "std_msgs/msg/String"
 GOAL_STATUS = "action_msgs/msg/GoalStatusArray"
 LOG = "rcl_interfaces/msg/Log"
+CLOCK = "rosgraph_msgs/msg/Clock"
+IMAGE = "sensor_msgs/msg/Image"
+CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 
 CONTROLLER_STATE = "control_msgs/msg/JointTrajectoryControllerState"
 POINT_FIELDS = ("positions", "velocities", "accelerations", "effort")
@@ -78,6 +81,52 @@ def log(stamp_ns: int, level: int, node: str, text: str) -> bytes:
     for word in (node, text, "", ""):
         writer.string(word)
     writer.uint32(0)
+    return writer.message()
+
+
+def clock(now_ns: int) -> bytes:
+    """Encode a rosgraph_msgs/Clock."""
+    writer = CdrWriter()
+    writer.time(now_ns)
+    return writer.message()
+
+
+def image(stamp_ns: int, frame: str, encoding: str, pixels: NDArray[np.generic]) -> bytes:
+    """Encode a sensor_msgs/Image; pixels are of shape (height, width) or (height, width, channels)."""
+    height, width = pixels.shape[:2]
+    data = pixels.astype(pixels.dtype.newbyteorder("<")).tobytes()
+    writer = CdrWriter()
+    _header(writer, stamp_ns, frame)
+    writer.uint32(height)
+    writer.uint32(width)
+    writer.string(encoding)
+    writer.octet(0)  # little endian
+    writer.uint32(len(data) // height)
+    writer.octets(data)
+    return writer.message()
+
+
+def camera_info(stamp_ns: int, frame: str, size: tuple[int, int], focal: float, center: tuple[float, float]) -> bytes:
+    """Encode a sensor_msgs/CameraInfo of a camera with square pixels and without distortion.
+
+    Args:
+        size: width and height.
+        focal: in pixels.
+        center: the pixel on the optical axis.
+    """
+    (width, height), (u, v) = size, center
+    writer = CdrWriter()
+    _header(writer, stamp_ns, frame)
+    writer.uint32(height)
+    writer.uint32(width)
+    writer.string("plumb_bob")
+    writer.float64s((0.0,) * 5)
+    writer.fixed_float64s((focal, 0.0, u, 0.0, focal, v, 0.0, 0.0, 1.0))
+    writer.fixed_float64s((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0))
+    writer.fixed_float64s((focal, 0.0, u, 0.0, 0.0, focal, v, 0.0, 0.0, 0.0, 1.0, 0.0))
+    for _ in range(6):  # binning, and a region of interest that is the whole image
+        writer.uint32(0)
+    writer.octet(0)
     return writer.message()
 
 

@@ -1,0 +1,1 @@
+"""What a camera sees in a rehearsal, drawn from the shapes of the description."""
