@@ -238,7 +238,7 @@ def test_change_is_checked_and_points_at_the_place(session: Session) -> None:
 
 def test_hover_tells_meaning_si_value_what_is_used_and_its_origin(session: Session) -> None:
     assert "Translation in the parent frame" in session.hovers["value"]
-    assert "`0 0 250 mm` is `0 0 0.25` in SI units" in session.hovers["value"]
+    assert "`0 0 250 mm` is 0 0 0.25 m." in session.hovers["value"]
     place = (session.folder / "cell.yaml").as_posix()
     assert f"`xyz 0 0 0.25 m, rpy 0 0 0 deg` | {place}:7" in session.hovers["value"]
     assert "Time allowed past the end of a trajectory. Units: s, ms" in session.hovers["key"]

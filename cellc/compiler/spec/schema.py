@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from pydantic import BaseModel
 
 from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.compiler.spec.meanings import meaning_of_word
+from cellc.compiler.spec.wording import rule_of
 from cellc.contract.base import DIALECT, Json, contract_schema
 from cellc.contract.contract import Contract
 from cellc.contract.fleet import Fleet
@@ -63,8 +65,8 @@ def tidy(schema: Json) -> Json:
     inner = {key: value if key in ("examples", "default", "enum") else tidy(value) for key, value in schema.items()}
     properties = schema.get("properties")
     if isinstance(properties, dict):
-        inner["properties"] = {key: tidy(value) for key, value in properties.items()}
-    return _with_unit_notes(_titled(_one_of_scalars(_keys_checked(_without_null(inner)))))
+        inner["properties"] = {key: _with_meanings(key, tidy(value)) for key, value in properties.items()}
+    return _with_messages(_with_unit_notes(_titled(_one_of_scalars(_keys_checked(_without_null(inner))))))
 
 
 def _without_null(schema: dict[str, Json]) -> dict[str, Json]:
@@ -87,7 +89,7 @@ def _keys_checked(schema: dict[str, Json]) -> dict[str, Json]:
     ((pattern, values),) = patterns.items()
     names = schema.get("propertyNames")
     checked = {key: value for key, value in schema.items() if key != "patternProperties"}
-    names = {**(names if isinstance(names, dict) else {}), "pattern": pattern}
+    names = _with_messages({**(names if isinstance(names, dict) else {}), "pattern": pattern})
     return {**checked, "additionalProperties": values, "propertyNames": names}
 
 
@@ -119,3 +121,31 @@ def _with_unit_notes(schema: dict[str, Json]) -> dict[str, Json]:
     if not isinstance(units, list) or not isinstance(description, str) or " Units: " in description:
         return schema
     return {**schema, "description": f"{description} Units: {', '.join(str(unit) for unit in units)}."}
+
+
+def _with_messages(schema: dict[str, Json]) -> dict[str, Json]:
+    """Editors show `patternErrorMessage` in the place of the pattern."""
+    pattern, units, examples = (schema.get(key) for key in ("pattern", "x-units", "examples"))
+    if not isinstance(pattern, str) or "patternErrorMessage" in schema:
+        return schema
+    message = rule_of(pattern).replace("`", "")
+    if isinstance(examples, list) and "A-Za-z_]" not in pattern:
+        message = f"write it as in: {examples[0]}"
+    if isinstance(units, list):
+        *others, last = (str(unit) for unit in units)
+        message = (
+            f"write a number and its unit: {', '.join(others)} or {last}" if others else f"write a number and {last}"
+        )
+    return {**schema, "patternErrorMessage": message}
+
+
+def _with_meanings(key: str, schema: Json) -> Json:
+    """Editors show beside each word of a closed list what it means."""
+    if not isinstance(schema, dict):
+        return schema
+    words = schema.get("enum")
+    if isinstance(words, list):
+        meanings: list[Json] = [meaning_of_word(key, str(word)) for word in words]
+        return {**schema, "enumDescriptions": meanings} if all(meanings) else schema
+    inner = schema.get("items")
+    return schema if inner is None else {**schema, "items": _with_meanings(key, inner)}

@@ -66,9 +66,14 @@ _RULES: Mapping[str, str] = {
 }
 
 
+def rule_of(pattern: str) -> str:
+    """Return what the pattern of a name allows, in words."""
+    return _RULES.get(pattern, "use letters, digits and `_`; in a namespace each part begins with `/`")
+
+
 def help_for_bad_name(written: str, pattern: str) -> str:
     """Tell what the pattern allows and, where it is near, a name that fits."""
-    rule = _RULES.get(pattern, "use letters, digits and `_`; in a namespace each part begins with `/`")
+    rule = rule_of(pattern)
     suggestion = re.sub(r"[^A-Za-z0-9_/]+", "_", written.strip()).strip("_/")
     suggestion = suggestion.lower() if pattern == PACKAGE_NAME_PATTERN else suggestion
     fits = pattern in _RULES and len(suggestion) <= 64 and re.search(pattern, suggestion)

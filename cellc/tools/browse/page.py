@@ -50,7 +50,7 @@ def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
         "Joints": table(("joint", "type", "range", "velocity", "effort", "home"), _joints(entry)),
         "Frames": table(("name in a spec", "link", ""), _frames(model)),
         "States": table(("state", "outputs that set it", "sensors that report it", ""), _states(model)),
-        "Packages": table(("part", "ROS 2", "versions", "source"), _versions(model)),
+        "Packages": table(("part", "ROS 2", "versions", "source"), releases(model)),
         "What the real robot does": table(BEHAVIOR, behavior(model) if model.kind == "arm" else ()),
         "What it does": table(("moment", "what moves", "what happens", "source"), _effects(model)),
         "Stops": table(("state", "component", "a claim lacks", "reported by", "ends by", "shown"), _stops(model)),
@@ -135,7 +135,8 @@ def _frames(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
         yield code(name), code(link), ", ".join(uses)
 
 
-def _versions(model: DeviceModel) -> Iterator[tuple[TableCell, ...]]:
+def releases(model: DeviceModel) -> Iterator[tuple[str, str, str, str]]:
+    """Yield which versions of which part are released for which distribution, with the source."""
     for row in (row.of_model(model.model) for row in model.versions):
         bounds = [f"from {row.minimum}"] if row.minimum else []
         bounds += [f"below {row.below}"] if row.below else []

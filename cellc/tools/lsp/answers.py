@@ -14,11 +14,15 @@ from cellc.compiler.source.compose import compose
 from cellc.compiler.source.document import Node, SourceDocument
 from cellc.compiler.source.include import INCLUDE
 from cellc.compiler.spec.cell_spec import CellSpec
+from cellc.compiler.spec.meanings import meaning_of_word
+from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import Diagnostic, Span, YamlPath
-from cellc.tools.lsp.cursor import Typed, here, typed_at
-from cellc.tools.lsp.fields import annotation_at, in_si, keys_at, meaning_of, root_model, takes_a_frame, words_of
+from cellc.tools.lsp.cards import card, limits_table, words_table
+from cellc.tools.lsp.cursor import Here, Typed, here, typed_at
+from cellc.tools.lsp.fields import annotation_at, keys_at, meaning_of, quantity_of, root_model, takes_a_frame, words_of
 from cellc.tools.lsp.names import Names, kinds_at, names_of
 from cellc.tools.lsp.parts import place_of_part
+from cellc.tools.lsp.units import in_other_units
 from cellc.tools.report.resolved import flatten, resolved_at, resolved_tree
 
 _MOST_ROWS = 12
@@ -69,12 +73,24 @@ def hover(text: str, line: int, column: int, known: Known) -> tuple[str, Span] |
     if root is None or place is None:
         return None
     parts = [f"**{code(str(place.path[-1]))}**", meaning_of(root.data, _field(place.path))]
-    if not place.is_key:
-        si = in_si(annotation_at(root.data, place.path), place.text)
-        parts += [f"{code(place.text)} is `{si}` in SI units and radians."] if si else []
-    if root_model(root.data) is CellSpec and known.cell is not None:
-        parts.append(_uses(known.cell, place.path))
+    annotation = annotation_at(root.data, place.path)
+    parts += list(_of_the_value(annotation, place)) if not place.is_key else []
+    parts.append(words_table(annotation, str(_field(place.path)[-1])))
+    if root_model(root.data) is CellSpec:
+        model = str(value_at(root.data, place.path)) if place.path[-1] == "model" else ""
+        parts.append(card(model) if model else "")
+        parts += [] if known.cell is None else [limits_table(known.cell, place.path), _uses(known.cell, place.path)]
     return "\n\n".join(part for part in parts if part), place.span
+
+
+def _of_the_value(annotation: object, place: Here) -> Iterator[str]:
+    quantity = quantity_of(annotation, place.text)
+    others = () if quantity is None else in_other_units(quantity[1])
+    if others:
+        yield f"{code(place.text)} is {', or '.join(others)}."
+    meaning = meaning_of_word(str(_field(place.path)[-1]), place.text)
+    if meaning and place.text in words_of(annotation):
+        yield f"{code(place.text)}: {meaning}."
 
 
 def _uses(cell: Cell, path: YamlPath) -> str:
@@ -140,9 +156,9 @@ def _keys(typed: Typed, known: Known) -> Iterator[Proposal]:
 
 def _values(typed: Typed, known: Known) -> Iterator[Proposal]:
     annotation = annotation_at(typed.data, typed.path)
-    for word in words_of(annotation):
-        yield Proposal(word, "word")
     key = next((part for part in reversed(typed.path) if isinstance(part, str)), "")
+    for word in words_of(annotation):
+        yield Proposal(word, "word", meaning_of_word(key, word))
     if key == "model" and typed.path[0] == "devices":
         yield from _models()
     elif key == "type" and "controllers" in typed.path:

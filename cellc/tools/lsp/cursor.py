@@ -67,6 +67,13 @@ class Typed:
     data: Plain
 
 
+def word_before(text: str, line: int, column: int) -> str:
+    """Return what is written of a word up to a place, which a completion replaces."""
+    lines = text.split("\n")
+    match = _WORD.search(lines[line - 1][: column - 1]) if 1 <= line <= len(lines) else None
+    return match[0] if match is not None else ""
+
+
 def typed_at(text: str, line: int, column: int) -> list[Typed]:
     """Return what may be being typed at a position, counted from 1; empty where the text around it cannot be parsed."""
     lines = text.split("\n")

@@ -16,6 +16,7 @@ from cellc.contract.printing import refuse
 from cellc.tools.edit.rewrite import Edit
 from cellc.tools.layout.layout import formatted
 from cellc.tools.lsp.answers import Symbol, completions, definition, hover, symbols
+from cellc.tools.lsp.cursor import word_before
 from cellc.tools.lsp.remedies import fixes
 from cellc.tools.lsp.rename import Name, RenameRefusedError, name_at, renamed
 from cellc.tools.lsp.server import CellServer, Ranges, file_of
@@ -75,7 +76,10 @@ def _completion(of: CellServer, params: lsp.CompletionParams) -> list[lsp.Comple
     if of.known_text(params.text_document.uri) is None:
         return []
     text, ranges = _text(of, params.text_document.uri)
-    proposals = completions(text, *ranges.place(params.position), of.cells.known(file_of(params.text_document.uri)))
+    line, column = ranges.place(params.position)
+    proposals = completions(text, line, column, of.cells.known(file_of(params.text_document.uri)))
+    # A name such as `arm/tool0` is one word here, whatever an editor takes for a word.
+    written = ranges.of(Span("", line, column - len(word_before(text, line, column)), line, column))
     return [
         lsp.CompletionItem(
             label=proposal.word,
@@ -83,7 +87,7 @@ def _completion(of: CellServer, params: lsp.CompletionParams) -> list[lsp.Comple
             detail=proposal.kind,
             documentation=lsp.MarkupContent(lsp.MarkupKind.Markdown, proposal.meaning) if proposal.meaning else None,
             sort_text=f"{number:04}",
-            insert_text=f"{proposal.word}: " if proposal.kind.endswith("key") else proposal.word,
+            text_edit=lsp.TextEdit(written, f"{proposal.word}: " if proposal.kind.endswith("key") else proposal.word),
         )
         for number, proposal in enumerate(proposals)
     ]

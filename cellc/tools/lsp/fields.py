@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import Enum
 from types import UnionType
@@ -29,7 +30,7 @@ from cellc.compiler.spec.place import (
     model_of,
     required,
 )
-from cellc.compiler.spec.quantity import Quantity, QuantityType
+from cellc.compiler.spec.quantity import Quantity, QuantityType, QuantityVector
 from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import YamlPath
 
@@ -106,26 +107,25 @@ def takes_a_frame(annotation: object) -> bool:
     )
 
 
-def in_si(annotation: object, text: str) -> str:
-    """Return a quantity in SI units and radians; empty for anything else."""
-    kind = _quantity_type(annotation)
-    try:
-        read = None if kind is None else kind.read(text)
-    except PydanticCustomError:
-        return ""
-    if isinstance(read, Quantity):
-        return f"{read.si:.9g}"
-    return "" if read is None else " ".join(f"{value:.9g}" for value in read.si)
+def quantity_of(annotation: object, text: str) -> tuple[QuantityType, Quantity | QuantityVector] | None:
+    """Return how a value with a unit is read, with the value; None for anything else."""
+    for kind in _quantity_types(annotation):
+        with suppress(PydanticCustomError):
+            return kind, kind.read(text)
+    return None
 
 
-def _quantity_type(annotation: object) -> QuantityType | None:
-    metadata = get_args(required(annotation))[1:]
-    return next((item for item in metadata if isinstance(item, QuantityType)), None)
+def _quantity_types(annotation: object) -> Iterator[QuantityType]:
+    annotation = required(annotation)
+    yield from (item for item in get_args(annotation)[1:] if isinstance(item, QuantityType))
+    inner_ones = branches(annotation).values() if is_tagged(annotation) else _options(bare(annotation))
+    for option in inner_ones:
+        yield from _quantity_types(option)
 
 
 def _key(model: type[BaseModel], name: str) -> Key:
     field = fields_by_key(model)[name]
-    quantity = _quantity_type(inner(model, name))
+    quantity = next(_quantity_types(inner(model, name)), None)
     units = f" Units: {', '.join(quantity.units())}." if quantity is not None else ""
     example = re.sub(r"'", "", str(field.examples[0])) if field.examples else ""
     meaning = field.description or _documented(model, name)
