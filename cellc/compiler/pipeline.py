@@ -207,9 +207,9 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     if emitted.value is None or checked.graph is None:
         return emitted
     # Foreign parsers are imported here: a check does not pay for them, nor does who only compares.
-    from cellc.compiler.verify import verify
+    from cellc.compiler.verify import unread, verify
 
-    stage("reading back with other parsers")
+    stage(f"reading back with other parsers{unread()}")
     return Outcome(emitted.value, verify(emitted.value, checked.graph))
 
 

@@ -41,7 +41,7 @@ _CODES = {
     """,
     "ignores": "ignore-refused ignore-without-reason unknown-ignored-code unused-ignore",
     "fleet": "shared-domain-id",
-    "verify": "verify-frames verify-joints verify-json verify-text verify-urdf",
+    "verify": "verify-frames verify-joints verify-json verify-scene verify-text verify-urdf",
     "output": """
         bad-artifact-path edited-by-hand output-blocked output-busy output-shared output-symlink output-unwritable
     """,

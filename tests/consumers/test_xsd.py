@@ -24,8 +24,8 @@ _SCHEMAS = {
 }
 # Version 2 of Fast DDS, of Humble and Jazzy, has another namespace than the schema, which is of version 3.
 _FASTDDS_2, _FASTDDS_3 = "http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles", "http://www.eprosima.com"
-# What the policy includes is judged in it.
-_ELSEWHERE = (".launch.xml", ".srdf", ".svg", "security/common.xml")
+# What the policy includes is judged in it; MuJoCo publishes no schema, and loads the scene in tests/emit/test_scene.py.
+_ELSEWHERE = (".launch.xml", ".srdf", ".svg", "security/common.xml", "sim/scene.xml")
 
 
 @lru_cache(maxsize=8)

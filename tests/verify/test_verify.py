@@ -45,7 +45,7 @@ def test_cells_of_the_repository_have_nothing_to_report(cell: str) -> None:
     assert verify(built(cell).artifacts, built(cell).graph) == ()
 
 
-MOCK = "urdf/ur5e_pick.mock.urdf"
+MOCK, SCENE = "urdf/ur5e_pick.mock.urdf", "sim/scene.xml"
 FAULTS = [
     ({".mock.urdf": ('xyz="0 0 0.8"', 'xyz="0 0 0.801"')}, "verify-frames", MOCK),
     ({".mock.urdf": ('rpy="[^"]*"/>\n    <parent link="arm_tool0"', 'rpy="0 0 0"/>\n    <parent link="arm_tool0"')},
@@ -64,6 +64,12 @@ FAULTS = [
     ({"contract.json": (r'"update_rate_hz": [\d.]+', '"update_rate_hz": NaN')}, "verify-json", "contract.json"),
     ({"contract.json": (MOCK, "urdf/none.urdf")}, "verify-json", "contract.json"),
     ({"manifest.json": ('"cfg-', '"cfg-0')}, "verify-json", "manifest.json"),
+    ({SCENE: ('pos="0 0 0.8"', 'pos="0 0 0.801"')}, "verify-scene", SCENE),
+    ({SCENE: ('<site name="tcp"', '<site name="tpc"')}, "verify-scene", SCENE),
+    ({SCENE: (' range="-6.28', ' range="-6.27')}, "verify-scene", SCENE),
+    ({SCENE: ('actuatorfrcrange="-150 150"', 'actuatorfrcrange="-151 151"')}, "verify-scene", SCENE),
+    ({SCENE: ('<joint name="arm_elbow_joint"', '<joint name="arm_elbow"')}, "verify-scene", SCENE),
+    ({SCENE: ('type="hinge"', 'type="hinged"')}, "verify-scene", SCENE),
     ({"rehearsals.json": ('"format": 2', '"format": 1')}, "verify-json", "rehearsals.json"),
     ({"manifest.json": ('"format": 1', '"format": 2')}, "verify-json", "manifest.json"),
 ]  # fmt: skip

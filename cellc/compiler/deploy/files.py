@@ -44,6 +44,9 @@ NETWORK_CHECKLIST = "gates/network.md"
 SOURCES = "sources.repos"
 """Repositories of what no distribution releases, as vcstool reads them."""
 
+SCENE = "sim/scene.xml"
+"""The cell for a simulator of contacts and torques."""
+
 RVIZ = "config/cell.rviz"
 """What RViz shows of the cell."""
 

@@ -20,6 +20,7 @@ from cellc.compiler.emit import (
     rehearsals,
     responsibility_graph,
     rviz,
+    simulation,
 )
 from cellc.compiler.emit.audit import audit
 from cellc.compiler.emit.contract import contract
@@ -31,6 +32,7 @@ from cellc.compiler.graph.cell_graph import CellGraph
 EMITTERS: tuple[Callable[[CellGraph, Deployment], Iterator[Artifact]], ...] = (
     package.emit,
     description.emit,
+    simulation.emit,
     moveit.emit,
     commissioning.emit,
     rviz.emit,

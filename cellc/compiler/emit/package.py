@@ -44,7 +44,7 @@ _FIRST_GOAL = ("builtin_interfaces", "control_msgs", "sensor_msgs", "trajectory_
 _MOVE_GROUP = "moveit_ros_move_group"
 _OF_MOVEIT = "moveit_"
 _PERCEPTION = "moveit_ros_perception"
-_FOLDERS = ("config", "launch", "security", "urdf")
+_FOLDERS = ("config", "launch", "security", "sim", "urdf")
 _ON_HOSTS = "middleware"
 _FILES = ("contract.json", "manifest.json", "rehearsals.json")
 # The format demands an address, and the spec names owners, not mailboxes: RFC 2606 keeps this domain from being one.

@@ -25,6 +25,7 @@ from cellc.compiler.deploy.files import (
     PROMOTION_CHECKLIST,
     REQUIRED_PROGRAM,
     RVIZ,
+    SCENE,
     SOURCES,
     VERSIONS_PROGRAM,
     WATCH_PROGRAM,
@@ -54,6 +55,10 @@ _NO_PLANNER = (
 _GOAL = "launch/goal.launch.xml"
 _FILES = (
     ("urdf/", "the description for the mock and for real hardware"),
+    (
+        SCENE,
+        "the cell for MuJoCo, with masses, contacts and actuators; open it with `python -m mujoco.viewer --mjcf`",
+    ),
     ("config/", "parameters of controller managers and nodes, and the frame tree with its calibrations"),
     (RVIZ, "RViz configuration, display only; open it with `rviz2 -d`"),
     ("config/moveit/", "the SRDF and the other parameters of move_group, together with `config/joint_limits.yaml`"),

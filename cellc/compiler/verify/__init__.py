@@ -6,16 +6,27 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cellc.compiler.artifact import Artifact
+from cellc.compiler.deploy.files import SCENE
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import meant_by
+from cellc.compiler.verify.scene import is_read
 from cellc.contract.diagnostics import Diagnostic
+from cellc.contract.extras import PHYSICS
 from cellc.contract.store.cache import Program, recall
 
 _PARSERS = Program(
     code=("compiler/verify", "contract"),
-    libraries=("pin", "yourdfpy", "trimesh", "numpy", "lxml", "PyYAML", "jsonschema", "referencing", "pydantic"),
+    libraries=(
+        *("pin", "yourdfpy", "trimesh", "numpy", "lxml", "PyYAML", "jsonschema", "referencing", "pydantic"),
+        "mujoco",
+    ),
 )
+
+
+def unread() -> str:
+    """Return which file is not read back, because its parser is not installed, as the end of a sentence."""
+    return "" if is_read() else f"; {SCENE} is not read: the extra `{PHYSICS.name}` is not installed"
 
 
 def verify(artifacts: Sequence[Artifact], graph: CellGraph) -> tuple[Diagnostic, ...]:

@@ -18,9 +18,11 @@ from jsonschema.exceptions import best_match
 from pydantic import BaseModel
 
 from cellc.compiler.artifact import Artifact
+from cellc.compiler.deploy.files import SCENE
 from cellc.compiler.verify.description import check_description
 from cellc.compiler.verify.disagreement import Disagreement
 from cellc.compiler.verify.meant import Meant
+from cellc.compiler.verify.scene import check_scene
 from cellc.contract.base import contract_schema
 from cellc.contract.contract import Contract
 from cellc.contract.manifest import Manifest
@@ -48,6 +50,8 @@ def read_back(artifacts: Sequence[Artifact], meant: Meant) -> Iterator[Disagreem
     for artifact in artifacts:
         if artifact.path.endswith(".urdf") and artifact.path not in broken:
             yield from check_description(artifact, meant)
+        elif artifact.path == SCENE and artifact.path not in broken:
+            yield from check_scene(artifact, meant)
 
 
 def _check_text(artifacts: Sequence[Artifact]) -> Iterator[Disagreement]:

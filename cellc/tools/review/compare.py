@@ -32,8 +32,8 @@ UNCLASSIFIED = "(not classified)"
 WHOLE = "cell"
 """Subject of what belongs to the cell itself."""
 _PINNED = ("contract", "version_tuple")
-_SHOWS = ("graph/", "README.md")
-"""Files that show people what the others say, in the order of the spec: they are reported where a hand edited them."""
+_SHOWS = ("graph/", "README.md", "sim/")
+"""Files that show people and simulators what the others say: they are reported where a hand edited them."""
 
 
 @dataclass(frozen=True, slots=True)

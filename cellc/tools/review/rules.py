@@ -153,6 +153,7 @@ AREA_OF_FILE: Sequence[tuple[str, ReviewArea]] = (
     ("sources.repos", _A.VERSIONS),
     ("package.xml", _A.VERSIONS),
     ("urdf/", _A.MODEL),
+    ("sim/", _A.MODEL),
     ("config/moveit/", _A.MOTION),
     ("config/", _A.CONTROL),
 )

@@ -1,0 +1,1 @@
+"""The cell as MJCF, for a simulator of contacts and torques: bodies, joints, actuators, parts, cameras and poses."""
