@@ -116,3 +116,14 @@ def wrong_joint_count(graph: CellGraph) -> Findings:
         message = f"expected {expected} for `{controller.name}` of kind `{controller.kind}`, got {got}"
         help_text = "name the device whose joints it drives" if number == 0 else "name the one joint under `joints`"
         yield found(graph, (*controller.path, "device"), message, help_text)
+
+
+@rule(Severity.ERROR, assumes=("circular-mimic", "mimic-of-nothing", "mimic-of-fixed-joint"))
+def follower_without_leader(graph: CellGraph) -> Findings:
+    """Yield joints with interfaces that follow one without: the controller manager refuses the description."""
+    for device in graph.cell.devices:
+        listed = {joint.name for joint in device.joints if joint.command_interfaces or joint.state_interfaces}
+        for joint in device.joints if device.control.hardware is not None else ():
+            if joint.name in listed and joint.mimics is not None and joint.mimics not in listed:
+                message = f"`{joint.name}` follows `{joint.mimics}`, which must be in the `control` of its device, too"
+                yield found(graph, (*device.path, "model"), message)

@@ -95,6 +95,25 @@ def calibration_of_two_frames(graph: CellGraph) -> Findings:
             yield found(graph, path, message, related=related)
 
 
+_EYE = re.compile(r"\beye[ _-]?(in|on|to)[ _-]?(the[ _-]?)?(hand|base)", re.IGNORECASE)
+
+
+@rule(Severity.ERROR, assumes=("frame-cycle", "calibration-of-two-frames"))
+def hand_eye_of_another_kind(graph: CellGraph) -> Findings:
+    """Yield what rests on a calibration of an eye in the hand and does not move with one, and the other way around."""
+    for frame in graph.cell.frames:
+        calibration = graph.cell.calibrations.get(frame.calibration or "")
+        said = None if calibration is None else _EYE.search(calibration.method)
+        if calibration is None or said is None or frame.kind is FrameKind.DYNAMIC:
+            continue
+        in_hand = said[3].lower() == "hand" and said[1].lower() != "to"
+        if in_hand is not any(edge.moving for edge in graph.frames.chain(frame.parent)):
+            hung = "moves with no joint" if in_hand else "moves with an arm"
+            message = f"`{calibration.name}` was measured `{said[0]}`, but `{frame.parent}`, which carries it, {hung}"
+            related = (Related("how it was measured", graph.cell.locate(*calibration.path, "method")),)
+            yield found(graph, (*frame.path, "parent"), message, related=related)
+
+
 @rule(Severity.WARNING)
 def calibration_without_evidence(graph: CellGraph) -> Findings:
     """Yield calibrations without samples, residual or method."""
