@@ -18,7 +18,8 @@ PAGE = ROOT / "docs" / "review.md"
 _HEAD = """# Review
 
 `cellc diff` shows what changed from one state of a cell to another, and what that means: fact by fact, with figures
-in mm, degrees and percent. Comments, order and the spelling of units are not changes.
+in mm, degrees and percent. Comments, order and the spelling of units are not changes; numbers in another
+order are.
 
 <!-- exit 1: acceleration -->
 <!-- exit 1: velocity -->
@@ -109,7 +110,9 @@ def _areas() -> Iterator[str]:
     yield "## Areas"
     yield ""
     yield "The owner is that of the approval area in `owners.approvals` before the change, with a new one beside them;"
-    yield "a change cannot choose its own approver. Gates and layers rest on those before them, so that"
+    yield "a change cannot choose its own approver. Another owner of an area is approved by the old and the new one,"
+    yield "in that area and in that of the owners. Stiffness and damping of joints are approved by safety and control."
+    yield "Gates and layers rest on those before them, so that"
     yield "the evidence from the first one on is no longer valid. Under the same configuration id none is."
     yield ""
     yield "| area | approval | gate | layer |"

@@ -56,6 +56,12 @@ def changed(leaf: SpecLeaf) -> tuple[str, Checked] | None:
     return None
 
 
+def with_text(leaf: SpecLeaf, text: str) -> Checked:
+    """Return the cell with another text of a leaf, checked."""
+    document = _document(leaf.cell)
+    return check(document.file, _edited(document, leaf.path, text))
+
+
 @cache
 def _document(cell: str) -> SourceDocument:
     return document_of(spec_of(cell))

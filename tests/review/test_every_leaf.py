@@ -30,7 +30,7 @@ def _before(cell: str) -> Package:
     return package_of("main", check(spec_of(cell)))
 
 
-def _names_a_fact(found: Review) -> bool:
+def names_a_fact(found: Review) -> bool:
     """Whether a change has a name of its own, and is not a line of a file or a value that no file shows."""
     return any(
         "(not classified)" not in change.quantity and "that no file of the package shows" not in change.quantity
@@ -58,7 +58,7 @@ def test_a_leaf_that_changed_is_a_fact_with_a_name(cell: str, request: pytest.Fi
         text, checked = other
         tried += 1
         found = review(_before(cell), package_of("after", checked))
-        if not _names_a_fact(found):
+        if not names_a_fact(found):
             silent[leaf.name] = f"{leaf.text} -> {text}"
         contradicting += [leaf.name] if _contradicts(found) else []
         long += [leaf.name] if len(list(render_short(found))) > MOST_LINES else []

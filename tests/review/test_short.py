@@ -136,3 +136,43 @@ def test_a_value_that_two_folders_do_not_hold_is_dangerous() -> None:
     (change,) = _unexplained(facts, other)
     assert str(change.grade) == "dangerous"
     assert change.quantity == "value that these folders do not hold; compare the specs"
+
+
+@pytest.mark.parametrize(
+    ("area", "before", "asked"),
+    [
+        ("vendor", "robot", "vendor (robot and metrology), graph (integration)"),
+        ("graph", "integration", "graph (integration and metrology)"),
+        ("safety", "safety", "safety (safety and metrology)"),
+    ],
+)
+def test_who_takes_an_approval_over_is_asked_with_who_had_it(area: str, before: str, asked: str) -> None:
+    (group,) = groups_of(_of("ur5e_pick", (f"{area}: {before},", f"{area}: metrology,")))
+    assert group.asks == asked
+
+
+@pytest.mark.parametrize(
+    ("cell", "edit"),
+    [
+        ("openarm_bimanual", ("joint: 230 230 190 190", "joint: 230 190 230 190")),
+        ("hybrid_sdk", ("stiffness: 600 600 600 600 250", "stiffness: 600 600 600 250 600")),
+    ],
+)
+def test_stiffness_of_a_joint_is_dangerous_and_both_safety_and_control_are_asked(cell: str, edit: Edit) -> None:
+    found = _of(cell, edit)
+    assert "stiffness of the joint" in {change.quantity for change in found.changes if change.grade == "dangerous"}
+    assert {group.asks for group in groups_of(found)} == {"safety (safety), controller (controls)"}
+    assert not [change.quantity for change in found.changes if "law." in change.quantity]
+
+
+def test_who_is_asked_is_never_cut_and_the_head_counts_what_is_listed() -> None:
+    found = _of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), ("max_age: 200 ms", "max_age: 205 ms"))
+    lines = _lines(found)
+    assert lines[0].partition(": ")[2] == "4 changes (4 review)"
+    assert len(found.changes) == 5  # one is a line of a document that follows, which `--all` lists
+    owners = "data: metrology and calibration"
+    long = found.model_copy(
+        update={"changes": tuple(change.model_copy(update={"owner": owners}) for change in found.changes)}
+    )
+    text = " ".join(line.strip() for line in _lines(long))
+    assert f"asks controller ({owners}), time_tf ({owners})" in text

@@ -12,6 +12,7 @@ from cellc.tools.review.covering import covers, is_obstacle
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Delta, Leaf, said
 from cellc.tools.review.measured import unmeasured
+from cellc.tools.review.rules import approval_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,14 +38,14 @@ def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
 
 def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
     if rule in _FIXED:
-        return Verdict(_FIXED[rule])
+        return Verdict(_FIXED[rule], approval=approval_of(delta.path))
     if rule is Rule.PLACED:
         return _of_placement(delta, before, after)
     if rule is Rule.COVERED:
         return _of_shapes(delta, before, after)
     if rule is Rule.MEASURED:
         return _of_measurement(delta, before, after)
-    return Verdict(_GRADES[rule](delta.before, delta.after))
+    return Verdict(_GRADES[rule](delta.before, delta.after), approval=approval_of(delta.path))
 
 
 UNMEASURED = "measured with it, without a new revision"

@@ -13,6 +13,7 @@ from cellc.compiler.cell.members import field_names
 from cellc.contract.base import Json
 from cellc.contract.diagnostics import Span
 from cellc.contract.transforms import Pose, apart
+from cellc.tools.review.tokens import ordered as ordered_tokens
 from cellc.tools.review.tokens import tokens
 
 Path: TypeAlias = tuple[str, ...]
@@ -112,13 +113,13 @@ def as_json(value: object) -> Json:
 
 
 def same(before: Leaf, after: Leaf, *, ordered: bool = True) -> bool:
-    """Tell whether two values are one value, but for rounding and, where it says nothing, order."""
+    """Tell whether two values are one value, but for rounding and, where it says nothing, the order of words."""
     if isinstance(before, Prose) and isinstance(after, Prose):
-        return tokens(before.text) == tokens(after.text)
+        return ordered_tokens(before.text) == ordered_tokens(after.text)
     if isinstance(before, Pose) and isinstance(after, Pose):
         return _same_pose(before, after)
     if isinstance(before, tuple) and isinstance(after, tuple):
-        if not ordered:
+        if not ordered and all(isinstance(item, str) for item in (*before, *after)):
             return Counter(before) == Counter(after)
         return len(before) == len(after) and all(map(_same_item, before, after))
     if isinstance(before, (str, float, int)) and isinstance(after, (str, float, int)):

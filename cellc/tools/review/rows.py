@@ -24,6 +24,8 @@ from cellc.tools.review.rules import Row
 
 _A = ReviewArea
 
+_LAW = "contract devices {device} law"
+_YIELDS = "the joint yields by another amount, or swings"
 _MOVE_GROUP = "file config/moveit/move_group.yaml {_} ros__parameters"
 _STRAIGHT = "robot_description_planning.cartesian_limits"
 _BURNS = "a tool with a lower rating is destroyed"
@@ -56,6 +58,13 @@ _DECLARED: Sequence[Row] = tuple(
 
 ROWS: Sequence[Row] = (
     Row("contract approvals safety", Graded(_A.SAFETY, "approver of safety changes", Rule.DANGEROUS)),
+    Row(
+        f"{_LAW} joints {{joint}} stiffness", Graded(_A.CONTROL, "stiffness of the joint", Rule.DANGEROUS, why=_YIELDS)
+    ),
+    Row(f"{_LAW} joints {{joint}} damping", Graded(_A.CONTROL, "damping of the joint", Rule.DANGEROUS, why=_YIELDS)),
+    Row(f"{_LAW} joints {{joint}} ...", Graded(_A.CONTROL, "gain of the joint:", Rule.DANGEROUS, why=_YIELDS)),
+    Row(f"{_LAW} unaccounted", Graded(_A.PAYLOAD, "load that gravity compensation leaves out")),
+    Row(f"{_LAW} ...", Graded(_A.CONTROL, "control law of the joints:")),
     *_DECLARED,
     # What stops, and what happens then.
     Row("area {area} {what}", Graded(_A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET)),
@@ -222,6 +231,7 @@ FOLLOWS: Sequence[str] = (
     "file config/moveit/controllers.mock.yaml ...",
     "file config/moveit/controllers.real.yaml ...",
     "right ...",
+    "contract devices {device} law unaccounted",
     "device {device} payload ...",
     "device {device} tcp",
     "device {device} stamp ...",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 from cellc.contract.grading import Graded
 from cellc.contract.review import ApprovalArea
@@ -182,6 +183,17 @@ APPROVAL: Mapping[ReviewArea, ApprovalArea] = {
     _A.DOCUMENTS: "graph",
 }
 """Area of approval for each area of a change."""
+
+
+def approval_of(path: Path) -> ApprovalArea | None:
+    """Return the area of approval of a value that its area alone does not decide: that is asked beside it.
+
+    Whoever approved of an area says so when another takes it over; stiffness is a matter of safety, too.
+    """
+    if path[:2] == ("contract", "approvals"):
+        return next((area for area in get_args(ApprovalArea) if area == path[2]), None)
+    return "safety" if path[:2] == ("contract", "devices") and path[3:5] == ("law", "joints") else None
+
 
 _G = GateCode
 REPEATED: Mapping[ReviewArea, tuple[GateCode, ...]] = {

@@ -48,7 +48,7 @@ def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
 
 
 def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
-    head: _Lines = [summed_up(review), *_sides(review)]
+    head: _Lines = [summed_up(review, [change for group in groups for change in group.telling]), *_sides(review)]
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
     new, foot = [*_findings(review, folds.findings)], [*_foot(review)]
     return [*head, *new, *_of_groups(groups, most - len(head) - len(new) - len(foot), folds), *foot]
@@ -121,7 +121,7 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
         yield from inner
     if len(shown) < len(groups):
         rest = groups[len(shown) :]
-        changes = sum(len(group.changes) for group in rest)
+        changes = sum(len(group.telling) for group in rest)
         yield f"and {count(len(rest), 'cause')} more with {count(changes, 'change')}"
 
 
@@ -136,7 +136,9 @@ def _title(group: Group, fold: _Fold) -> _Lines:
 def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
     """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for."""
     changes = group.telling
-    asked: _Lines = [(Styled(cut(f"  asks {group.asks}"), Style.DIM),)] if group.asks else []
+    asked: _Lines = (
+        [(Styled(text, Style.DIM),) for text in _broken(f"  asks {group.asks}", "    ")] if group.asks else []
+    )
     figures: _Lines = [cut(f"  {text.replace('`', '')}") for text in group.unmeasured]
     figures += [(Styled(cut(f"  {'; '.join(group.figures)}"), Style.BOLD),)] if group.figures else []
     worst = _alike([change for change in changes if change.grade is group.grade or change.breaking])
@@ -147,7 +149,7 @@ def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
     rest = [change for change in changes if not any(change in worst[text] for text in listed)]
     if rest:
         lines.append((Styled(cut(_rest(rest, group, is_whole=not listed)), Style.DIM),))
-    yield from (*lines, *asked)[: max(most, 0)]
+    yield from (*lines[: max(most - len(asked), 0)], *asked)[: max(most, 0)]
 
 
 def _rest(rest: Sequence[ReviewChange], group: Group, *, is_whole: bool) -> str:

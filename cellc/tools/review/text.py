@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
@@ -38,17 +38,22 @@ def render_review(review: Review) -> Iterator[Line]:
         yield from (f"  {gate_line(gate)}" for gate in review.gates)
 
 
-def summed_up(review: Review) -> str:
-    """Return one line: how many changes of each grade."""
+def summed_up(review: Review, told: Sequence[ReviewChange] | None = None) -> str:
+    """Return one line: how many changes of each grade.
+
+    Args:
+        told: changes that are listed, where those that only follow are not.
+    """
     if not review.changes:
         differing = len(review.files)
         text = f"; {differing} files differ only in order or spelling" if differing else ""
         return f"{review.after.name}: no change{text}"
-    counts = ((sum(change.grade is grade for change in review.changes), grade) for grade in reversed(Grade))
+    changes = review.changes if told is None else told
+    counts = ((sum(change.grade is grade for change in changes), grade) for grade in reversed(Grade))
     listed = ", ".join(f"{number} {grade}" for number, grade in counts if number)
     breaking = sum(change.breaking for change in review.changes)
     more = f"; {breaking} break{'s' if breaking == 1 else ''} consumers outside the cell" if breaking else ""
-    return f"{review.after.name}: {count(len(review.changes), 'change')} ({listed}){more}"
+    return f"{review.after.name}: {count(len(changes), 'change')} ({listed}){more}"
 
 
 def subjects_of(change: ReviewChange, few: int = _FEW) -> str:
