@@ -49,6 +49,17 @@ def _tips(*speeds: float) -> str:
     return " / ".join((*rows, "and 1 more"))
 
 
+def _ages(image: float, most: int = 200) -> str:
+    """Return the lines of the audit on how old samples may be that end in `task`."""
+    unknown = "time in `perception` is UNKNOWN: `executor` is not stated"
+    camera = f"`/camera/color/image_raw` {image:g} ms"
+    return (
+        f"| `/camera/color/image_raw` | 100 ms | {image:g} ms: {camera} | {unknown} | / "
+        f"| `/object_pose` | {most} ms | {image + 100:.1f} ms: {camera} + `/object_pose` 100 ms | {unknown}; "
+        "time in `task` is UNKNOWN: `executor` is not stated |"
+    )
+
+
 def _first_goal(by: float, seconds: float) -> str:
     """Return the node of the first goal: to either side half of what is allowed, in half of the timeout."""
     # docs.universal-robots.com, UR5e: all joints turn 360 deg to both sides; the elbow 180 deg in ur_description.
@@ -168,6 +179,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review devices | camera | device camera.rate_hz | 30 Hz -> 15 Hz | -50 %",
             "review start order | launch/goal.launch.xml | 1 line (not classified) | "
             f"{_first_goal(0.04363323129985824, 2.5)} -> {_first_goal(0.08726646259971647, 2.5)}",
+            f"review documents | audit.md | 2 lines (not classified) | {_ages(41.33)} -> {_ages(74.67, 300)}",
         ],
     ),
     "limits and where it goes": (
@@ -229,6 +241,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "more -> <address>10.10.0.10</address>",
             "review network | cell | network discovery | localhost -> multicast",
             "review network | control_pc | variable ROS_AUTOMATIC_DISCOVERY_RANGE | SYSTEM_DEFAULT -> SUBNET",
+            f"review documents | audit.md | 2 lines (not classified) | {_ages(41.33)} -> {_ages(43.33)}",
         ],
     ),
     "who takes part": (
