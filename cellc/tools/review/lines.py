@@ -53,7 +53,7 @@ class Known:
 
 
 def _differing(before: Sequence[str], after: Sequence[str]) -> set[str]:
-    """Return the words that one side alone has; where both have the same, those that stand elsewhere."""
+    """Return the words that one side alone has; where both have the same, those in another place."""
     gone, come = Counter(before), Counter(after)
     if gone == come:
         return {word for was, now in zip(before, after, strict=True) if was != now for word in (was, now)}
@@ -120,7 +120,7 @@ def _plain(words: Iterable[str]) -> list[str]:
 
 
 def _moved(before: _Words, after: _Words) -> set[str]:
-    """Return the figures behind a word that are others on the two sides, each where it stands."""
+    """Return the figures behind a word that are others on the two sides, place by place."""
     gone, come = _held(before, after), _held(after, before)
     return {word for name in gone.keys() & come.keys() for word in _differing(gone[name], come[name])}
 

@@ -188,7 +188,7 @@ APPROVAL: Mapping[ReviewArea, ApprovalArea] = {
 def approval_of(path: Path) -> ApprovalArea | None:
     """Return the area of approval of a value that its area alone does not decide: that is asked beside it.
 
-    Whoever approved of an area says so when another takes it over; stiffness is a matter of safety, too.
+    The owner of an approval area has a say when another takes it over; stiffness is a matter of safety, too.
     """
     if path[:2] == ("contract", "approvals"):
         return next((area for area in get_args(ApprovalArea) if area == path[2]), None)

@@ -38,17 +38,17 @@ def render_review(review: Review) -> Iterator[Line]:
         yield from (f"  {gate_line(gate)}" for gate in review.gates)
 
 
-def summed_up(review: Review, told: Sequence[ReviewChange] | None = None) -> str:
+def summed_up(review: Review, listed_alone: Sequence[ReviewChange] | None = None) -> str:
     """Return one line: how many changes of each grade.
 
     Args:
-        told: changes that are listed, where those that only follow are not.
+        listed_alone: changes that are listed, where those that only follow are not.
     """
     if not review.changes:
         differing = len(review.files)
         text = f"; {differing} files differ only in order or spelling" if differing else ""
         return f"{review.after.name}: no change{text}"
-    changes = review.changes if told is None else told
+    changes = review.changes if listed_alone is None else listed_alone
     counts = ((sum(change.grade is grade for change in changes), grade) for grade in reversed(Grade))
     listed = ", ".join(f"{number} {grade}" for number, grade in counts if number)
     breaking = sum(change.breaking for change in review.changes)
