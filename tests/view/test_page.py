@@ -10,11 +10,13 @@ import subprocess
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from xml.etree.ElementTree import tostring
 
 import pytest
 
 from cellc.contract.diagnostics import Severity
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.mock.report_page.html import breakable
 from cellc.tools.view.content import Content, before_of, content_of
 from cellc.tools.view.page import three_js, to_html
 from cellc.tools.view.subject import read_subject
@@ -74,6 +76,19 @@ def test_paper_is_light_where_the_screen_is_dark(page: Page) -> None:
     dark = re.findall(r"@media ([^{]*prefers-color-scheme[^{]*)", "".join(page.styles))
     assert dark
     assert all(rule.startswith("screen and ") for rule in dark)
+
+
+def test_a_narrow_screen_is_told_from_paper(page: Page) -> None:
+    narrow = re.findall(r"@media ([^{]*-width[^{]*)", "".join(page.styles))
+    assert len(narrow) >= 3
+    assert all(rule.startswith("screen and ") for rule in narrow)
+
+
+def test_long_names_break_between_their_words() -> None:
+    name = "/arm_software/get_robot_software_version"
+    html = tostring(breakable(name), encoding="unicode", method="html")
+    assert html == "<span>/<wbr>arm_<wbr>software/<wbr>get_<wbr>robot_<wbr>software_<wbr>version</span>"
+    assert "".join(breakable(name).itertext()) == name
 
 
 def test_three_js_stands_in_the_page_with_its_license(page: Page) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element, tostring
@@ -45,6 +46,12 @@ def _named(cell: Child, name: str) -> Element:
     element = cell if isinstance(cell, Element) and cell.tag == "td" else tag("td", cell)
     element.set("data-name", name)
     return element
+
+
+def breakable(name: str) -> Element:
+    """Return a long name of an interface, a type or a node: a line breaks after `/` or `_`, not inside a word."""
+    words = [word for word in re.split(r"(?<=[/_])", name) if word]
+    return extend(tag("span"), [part for word in words for part in (word, tag("wbr"))][:-1])
 
 
 def section(title: str, *children: Child, id_: str = "") -> Element:

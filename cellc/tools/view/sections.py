@@ -15,7 +15,7 @@ from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.contract.review import Review
 from cellc.contract.vocabulary import Grade
 from cellc.mock.bus.qos import unmatched_pairs
-from cellc.mock.report_page.html import Child, cards, hint, section, tag
+from cellc.mock.report_page.html import Child, breakable, cards, hint, section, tag
 from cellc.tools.report.snippet import excerpt
 from cellc.tools.view.playback import Run
 
@@ -112,7 +112,7 @@ def rehearsals_section(runs: Sequence[Run], first: int = 0) -> Element:
             run.name,
             tag("span", run.outcome, class_="good" if run.passed else "bad"),
             run.expected,
-            "; ".join(f"{fault.name} at {fault.at_s:.2f} s" for fault in run.faults) or "none",
+            "; ".join(f"{fault.name} at {fault.at_s:.2f}\u00a0s" for fault in run.faults) or "none",
             run.reason or "–",
         )
         for number, run in enumerate(runs, start=first)
@@ -130,8 +130,8 @@ def interfaces_section(contract: Contract) -> Element:
 
 def _interface(name: str, one: ContractInterface) -> tuple[Child, ...]:
     return (
-        tag("b", name),
-        tag("span", one.type, tag("small", one.kind)),
+        tag("b", breakable(name)),
+        tag("span", breakable(one.type), tag("small", one.kind)),
         _ends(one.sources, one.kind == "topic"),
         _ends(one.sinks, one.kind == "topic"),
         ", ".join(_bounds(one)) or "–",
@@ -140,13 +140,13 @@ def _interface(name: str, one: ContractInterface) -> tuple[Child, ...]:
 
 
 def _ends(ends: Iterable[ContractEndpoint], with_qos: bool) -> Element:
-    shown = [tag("div", end.node, *([tag("small", _qos(end))] if with_qos else ())) for end in ends]
+    shown = [tag("div", breakable(end.node), *([tag("small", _qos(end))] if with_qos else ())) for end in ends]
     return tag("div", *shown) if shown else tag("div", "none")
 
 
 def _qos(end: ContractEndpoint) -> str:
     qos = end.qos
-    history = f"last {qos.depth}" if qos.history == "keep_last" else "all"
+    history = f"last\u00a0{qos.depth}" if qos.history == "keep_last" else "all"
     timed = [
         f"{name} {value:g} s" for name, value in (("deadline", qos.deadline_s), ("lifespan", qos.lifespan_s)) if value
     ]
