@@ -17,7 +17,7 @@ class Page(HTMLParser):
         self.styles: list[str] = []
         self.shown: list[str] = []
         self._within = ""
-        self.feed(html)
+        self.feed(html.replace("<wbr>", ""))
         self.close()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
