@@ -117,7 +117,7 @@ ROWS: dict[str, tuple[tuple[int, str], ...]] = {
         (2, NO_LOG),
         (0, "no known symptom in 21 lines of 1 file"),
         (0, "no known symptom in 22 lines of 1 file"),
-        (1, "first layer: owner of the command"),  # its pages name what fails
+        (1, "first layer, not sure: owner of the command"),  # its pages name what fails
         (0, "no known symptom"),
         (0, "no known symptom"),
     ),

@@ -233,6 +233,6 @@ def test_known_error_names_the_layer_and_an_unknown_one_is_only_counted(tmp_path
     folder = logs(tmp_path / "log", a=f"[ERROR] [{T0}.1] [task]: octopus\n[ERROR] [{T0 + 9}.1] {NO_REPLY}")
     ran = run("diagnose", "--log", folder.as_posix())
     assert ran.code == 1
-    assert ran.out.startswith("first layer: connection")
+    assert ran.out.startswith("first layer, not sure: connection")
     assert "1 error that no symptom has; the first:\n  2026-11-28 09:51:14" in ran.out
     assert "UNKNOWN" not in ran.out

@@ -84,7 +84,7 @@ def _search(path: Path, file: str | None) -> None:
         raise click.exceptions.Exit(2) from None
     answer = answer_to(searched.answered, cell) if searched.answered else None
     if searched.pasted or answer is None or not answer.fits:
-        show(*render_searched(searched))
+        show(*render_searched(searched, is_certain=answer is not None and not answer.ask))
     if answer is None:
         show(*render_routes(routes_in(searched.short, cell), "if something is wrong nevertheless: "))
     if answer is not None and (searched.pasted or answer.fits):

@@ -19,13 +19,21 @@ _WORDS = {Gravity.ERROR: "error", Gravity.UNSAID: "says", Gravity.WARNING: "warn
 _MOST_NOTES = 50
 
 
-def render_searched(searched: Searched) -> Iterator[Line]:
-    """Yield which layer spoke first, and every symptom with its first line."""
+def render_searched(searched: Searched, *, is_certain: bool) -> Iterator[Line]:
+    """Yield which layer spoke first, and every symptom with its first line.
+
+    Args:
+        is_certain: the text of that line is of no other layer.
+    """
     first = searched.first
     if first is None:
         yield f"no known symptom in {_size(searched)}"
     else:
-        yield ("first layer: ", Styled(_layer(first), Style.BOLD), f", {first.match.symptom.name}")
+        yield (
+            "first layer: " if is_certain else "first layer, not sure: ",
+            Styled(_layer(first), Style.BOLD),
+            f", {first.match.symptom.name}",
+        )
         yield f"  {_time(first)}  {first.file}:{first.line}"
         yield f"  {first.text}"
         yield ""
