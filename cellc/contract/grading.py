@@ -30,6 +30,7 @@ class Rule(Enum):
     COVERED = "dangerous where it no longer takes up all the room that it took, else review"
     CLAIM = "dangerous where another claims it than before, else review"
     LOST = "dangerous where something of it is lost, else review"
+    COMPARED = "dangerous where something of it is compared nowhere any more, else review"
 
 
 class Graded(NamedTuple):

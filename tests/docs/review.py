@@ -89,7 +89,13 @@ the calibration has a new revision. So is another model, serial number, mount or
 calibration measured: the device of the frame, and those that carry it, up to the next joint that moves.
 
 Collision shapes are compared by the room that they take up. One that shrank or lies elsewhere is dangerous, as is one
-that is gone: planning no longer avoids where it was. One that grew is graded `review`.
+that is gone: planning no longer avoids where it was. One that grew is graded `review`. Of an obstacle, pose and size
+count together. A box, also that of a shared area, says what it loses and gains on each side.
+
+An arm whose base stands elsewhere in the root frame is dangerous, whatever moved it: its mount, or what carries it.
+
+A step of the bring-up is what it does: one of another name is the same step. One that only compares versions, as a
+further computer takes it, is graded `review`.
 
 How far tips move in each named pose, and goals in the root frame, is computed by
 forward kinematics, with dynamic frames at their pose on the mock.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,10 +12,12 @@ from cellc.compiler.pipeline import check_document
 from cellc.compiler.source.document import Child, SourceDocument
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.review import ReviewCause, ReviewValue
-from cellc.tools.review.compare import Change, reported
+from cellc.tools.review.change import Change
+from cellc.tools.review.compare import reported
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.sides import SideError, package_of
 from cellc.tools.review.spec_edits import SpecEdit, spec_edits, undone, with_edits
+from cellc.tools.review.titles import WHOLE_SPEC
 
 _MOST = 20
 """Causes that are tried one by one; of more edits, those of one part of the spec are one cause."""
@@ -22,6 +25,8 @@ _TOGETHER = 3
 """Values of one mapping that are listed as one: of a calibration, its revision, its day and its residual."""
 _AS_ONE = ("payload",)
 """Mappings whose values are listed as one however few they are: a mass and where it is."""
+_ROOMS, _PLACED = ("scene", "areas"), 3
+"""Sections whose entries take up room: where it is and how large count together."""
 _LONGEST = 60
 
 Cause: TypeAlias = tuple[SpecEdit, ...]
@@ -56,7 +61,8 @@ def causes_between(before: SourceDocument, after: SourceDocument) -> tuple[Cause
 
 
 def _is_together(path: YamlPath, beside: Mapping[YamlPath, int]) -> bool:
-    return beside[path[:-1]] >= (2 if path[-2:-1] and path[-2] in _AS_ONE else _TOGETHER)
+    is_one = (path[-2:-1] and path[-2] in _AS_ONE) or (len(path) == _PLACED and path[0] in _ROOMS)
+    return beside[path[:-1]] >= (2 if is_one else _TOGETHER)
 
 
 def _grouped(edits: Sequence[SpecEdit], paths: Sequence[YamlPath]) -> tuple[Cause, ...]:
@@ -80,12 +86,27 @@ def attributed(
     known = [trial.changes for trial in trials if trial.valid]
     rest = len(alone) if together else None
     found = [(_cause_of(change, known, rest), change) for change in changes]
+    if together:
+        together = _leading_first(together, [change for number, change in found if number == rest])
     kept = sorted({number for number, _ in found if number is not None})
     every = (*alone, together)
     return (
         tuple(every[number] for number in kept),
         [(None if number is None else kept.index(number), change) for number, change in found],
     )
+
+
+def _leading_first(cause: Cause, changes: Sequence[Change]) -> Cause:
+    """Return the edits of a cause that cannot be tried one by one, that first whose name most of the changes hold."""
+
+    def held(edit: SpecEdit) -> int:
+        name = re.compile(rf"(?<!\w){re.escape(str(edit.path[-1]))}(?!\w)")
+        return sum(
+            any(name.search(text or "") for text in (change.subject, change.before, change.after)) for change in changes
+        )
+
+    first = max(cause, key=held)
+    return (first, *(edit for edit in cause if edit is not first))
 
 
 def _cause_of(change: Change, known: Sequence[Mapping[tuple[str, str], Change]], rest: int | None) -> int | None:
@@ -138,7 +159,7 @@ def as_cause(cause: Cause) -> ReviewCause:
         for edit in cause
     )
     return ReviewCause(
-        line=_dotted(common) or "spec",
+        line=_dotted(common) or WHOLE_SPEC,
         after=_short(", ".join(value.line for value in values)),
         place=str(first.place),
         lines=len(cause),

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import PurePosixPath
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.grading import Graded, Rule
-from cellc.contract.review import ApprovalArea, ReviewChange
+from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
-from cellc.tools.review.edges import edge_changes, offers_less
+from cellc.tools.review.change import Change
+from cellc.tools.review.effects import effects
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
-from cellc.tools.review.geometry import moved_places
 from cellc.tools.review.grading import ELSEWHERE, grade, is_reaching
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
+from cellc.tools.review.rooms import box_told
 from cellc.tools.review.rows import FOLLOWS, ROWS
 from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
+from cellc.tools.review.steps import with_step_names
 from cellc.tools.review.units import difference, shown, unit_in
 
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
@@ -27,6 +29,8 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
+_COMPARES = "versions"
+"""Kind of a request that only reads: a step of it moves nothing."""
 UNCLASSIFIED = "(not classified)"
 """How the quantity of lines ends that no row of the table explains."""
 WHOLE = "cell"
@@ -34,31 +38,6 @@ WHOLE = "cell"
 _PINNED = ("contract", "version_tuple")
 _SHOWS = ("graph/", "README.md", "sim/")
 """Files that show people and simulators what the others say: they are reported where a hand edited them."""
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """A change, before similar ones are merged.
-
-    Attributes:
-        words: words and figures that it explains in other files.
-        names: names of things added or removed with it.
-        approval: that of its area where it is None.
-    """
-
-    area: ReviewArea
-    subject: str
-    quantity: str
-    before: str | None
-    after: str | None
-    grade: Grade
-    delta: str = ""
-    breaking: bool = False
-    why: str = ""
-    approval: ApprovalArea | None = None
-    words: frozenset[str] = field(default=frozenset(), compare=False)
-    names: frozenset[str] = field(default=frozenset(), compare=False)
-    differing: frozenset[str] = field(default=frozenset(), compare=False)
 
 
 def changes_between(before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
@@ -116,6 +95,7 @@ def reported(before: Facts, after: Facts) -> list[Change]:
     """Return every change by itself, in the order of what tells it."""
     # What only specs say is compared where both sides were made of one.
     both = before.cell is not None and after.cell is not None
+    before = replace(before, leaves=with_step_names(before.leaves, after.leaves))
     one_sided = (*(() if both else OF_SPEC), *(() if before.has_gates and after.has_gates else OF_GATES))
     deltas = [
         difference for difference in differences(before.leaves, after.leaves) if difference.path[0] not in one_sided
@@ -123,7 +103,7 @@ def reported(before: Facts, after: Facts) -> list[Change]:
     whole_things, rest = _things(deltas, before, after)
     rest, pins = _pins(rest)
     primary = [delta for delta in rest if not follows(delta.path)]
-    reported = [*whole_things, *_effects(before, after)]
+    reported = [*whole_things, *effects(before, after)]
     values = [change for delta in primary if (change := change_of(delta, before, after)) is not None]
     reported += [_with_matrix(change, pins, before, after) for change in values]
     ids = _ids(before) | _ids(after)
@@ -239,7 +219,8 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) ->
     names = () if fit is None else fit.subject
     shown_leaf = next((delta for delta in inner if delta.path == (*path, thing.shown)), None)
     value = "present" if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
-    taken = thing.added if added else thing.removed
+    compares = added and any(delta.path[-2:] == ("request", "kind") and delta.after == _COMPARES for delta in inner)
+    taken = thing.removed if not added else Grade.REVIEW if compares else thing.added
     reaches = added and path[:2] == ("contract", "devices") and is_reaching(after.contract, path[2])
     return Change(
         thing.area,
@@ -303,13 +284,22 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         shown(delta.before, unit),
         shown(delta.after, unit),
         verdict.grade,
-        difference(delta.before, delta.after, unit, share=row.grade.share),
+        _difference(delta, unit, row, before, after),
         row.grade.breaking and delta.before is not None,
         verdict.why or (row.grade.why if verdict.grade is Grade.DANGEROUS else ""),
         verdict.approval,
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),
     )
+
+
+def _difference(delta: Delta, unit: str, row: Row, before: Facts, after: Facts) -> str:
+    """Return how much a value differs; of a box, on which sides."""
+    if delta.path[:2] == ("real", "shapes") or delta.path[::2] == ("area", "size"):
+        told = box_told(delta.path, before, after)
+        if told:
+            return told
+    return difference(delta.before, delta.after, unit, share=row.grade.share)
 
 
 PAIRS = ("can now meet", "can no longer meet")
@@ -357,29 +347,6 @@ def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:
     if unit == "effort":
         return "N" if is_straight else "N m"
     return unit.replace("joint", "m" if is_straight else "rad")
-
-
-def _effects(before: Facts, after: Facts) -> Iterator[Change]:
-    """Yield what follows for motion and data, though no value of it changed."""
-    for place in moved_places(before, after):
-        sides = (shown(place.before, ""), shown(place.after, ""))
-        yield Change(
-            ReviewArea.MOTION,
-            place.subject,
-            place.quantity,
-            *sides,
-            Grade.REVIEW,
-            difference(place.before, place.after, ""),
-        )
-    for subject, missed in offers_less(before.contract, after.contract):
-        why = "subscribers outside the cell that request the old offer no longer connect"
-        yield Change(ReviewArea.QOS, subject, "offered QoS", "compatible", missed, Grade.REVIEW, breaking=True, why=why)
-    for edge in edge_changes(before.contract, after.contract):
-        taken = Grade.SAFE if edge.connects else Grade.DANGEROUS
-        why = "" if edge.connects else "samples no longer arrive" if edge.before else "no sample arrives"
-        yield Change(
-            ReviewArea.QOS, edge.subject, "edge", edge.before, edge.after, taken, breaking=not edge.connects, why=why
-        )
 
 
 def _of_lines(left: LinesLeft) -> Change:

@@ -9,7 +9,8 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.causes import State, as_cause, attributed, causes_between, facts_of_document
-from cellc.tools.review.compare import Change, change_of, changes_between, follows, merged, reported
+from cellc.tools.review.change import Change
+from cellc.tools.review.compare import change_of, changes_between, follows, merged, reported
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.folder_names import facts_with_names, renames_between_folders
 from cellc.tools.review.groups import NAME_OF

@@ -31,6 +31,7 @@ from cellc.robot.description.yaml_values import load_values
 from cellc.tools.review.graded import graded_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.tools.review.rights import COMMON, POLICY, of_checklist, rights
+from cellc.tools.review.steps import CALLED
 from cellc.tools.review.units import shown
 
 CONTRACT, MANIFEST, OBSERVATION = "contract.json", "manifest.json", "config/observe.json"
@@ -279,7 +280,7 @@ def _of_bring_up(plan: BringUp) -> Iterator[tuple[Path, Leaf]]:
         steps = plan.steps(target)
         for number, step in enumerate(steps):
             path = ("step", target, step.name)
-            yield from flatten(_dumped(step.model_copy(update={"name": ""})), path)
+            yield from flatten({**_dumped(step), "name": None, CALLED: step.name}, path)
             feeding = (before for before in steps[:number] if any(proof in step.proof for proof in before.effect))
             earlier = tuple(sorted(before.name for before in feeding))
             if earlier:
@@ -346,6 +347,8 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
         yield from flatten(_without_place(as_json(area)), ("area", area.name))
     for device in cell.devices:
         yield from graded_values(device, ("device", device.name))
+        if device.site.connection is not None:
+            yield ("device", device.name, "host"), device.site.connection.host
         yield from flatten(as_json(device.robot.program), ("spec", "program", device.name))
     for name, host in cell.hosts.items():
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
-from cellc.contract.transforms import Pose, apart, climb
+from cellc.contract.transforms import Pose, apart, climb, identity
 from cellc.robot.description.posture import posture
 from cellc.tools.review.facts import Facts
 
@@ -36,6 +36,40 @@ def moved_places(before: Facts, after: Facts) -> Iterator[Moved]:
         {name: was[name] @ before.contract.goals[name].pose.pose for name in moved},
         {name: now[name] @ after.contract.goals[name].pose.pose for name in moved},
     )
+
+
+def moved_bases(before: Facts, after: Facts, bases: Collection[str]) -> Iterator[Moved]:
+    """Yield bases of arms that stand elsewhere because what carries them is another, with joints at zero.
+
+    A base that moved in its own parent is left out, and what stands on one that moved: its pose tells that.
+    """
+    was, now = _carried(before, bases), _carried(after, bases)
+    for name in was:
+        if name in now and max(apart(was[name][0], now[name][0])) > _NOTICED:
+            old, new = _mount(before, name), _mount(after, name)
+            if old is None or new is None or max(apart(old, new)) <= _NOTICED:
+                yield Moved(name, "base in the root frame", was[name][1], now[name][1])
+
+
+def _mount(facts: Facts, link: str) -> Pose | None:
+    return next((joint.pose for joint in facts.description.joints if joint.child == link), None)
+
+
+def _carried(facts: Facts, bases: Collection[str]) -> dict[str, tuple[Pose, Pose]]:
+    """Return the pose of each base in the base below it, or in the root, and that in the root."""
+    links = posture(facts.description, {})
+    parents = {joint.child: joint.parent for joint in facts.description.joints}
+    carried = {}
+    for base in bases:
+        pose, below = links.get(base), parents.get(base)
+        for _ in parents:
+            if below is None or below in bases:
+                break
+            below = parents.get(below)
+        under = identity() if below is None else links.get(below)
+        if pose is not None and under is not None:
+            carried[base] = (under.inverse() @ pose, pose)
+    return carried
 
 
 def _moved(quantity: str, was: Mapping[str, Pose], now: Mapping[str, Pose]) -> Iterator[Moved]:

@@ -8,10 +8,11 @@ from cellc.contract.contract import Contract
 from cellc.contract.grading import UNAVOIDED, Rule
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
-from cellc.tools.review.covering import covers, is_obstacle
+from cellc.tools.review.covering import covers
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.leaves import Delta, Leaf, said
 from cellc.tools.review.measured import unmeasured
+from cellc.tools.review.rooms import is_part_of_scene, obstacle_covers
 from cellc.tools.review.rules import approval_of
 
 
@@ -43,6 +44,8 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return _of_placement(delta, before, after)
     if rule is Rule.COVERED:
         return _of_shapes(delta, before, after)
+    if rule is Rule.COMPARED:
+        return Verdict(_compared(delta, after))
     if rule is Rule.MEASURED:
         return _of_measurement(delta, before, after)
     return Verdict(_GRADES[rule](delta.before, delta.after), approval=approval_of(delta.path))
@@ -126,9 +129,11 @@ def _greater(one: Leaf | None, other: Leaf | None) -> bool:
 def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
     """A transform that was measured does not change without another measurement; an arm that moved is elsewhere."""
     frame = delta.path[1]
-    if delta.before is not None and delta.after is not None and frame in _bases(before) & _bases(after):
+    if delta.before is not None and delta.after is not None and frame in bases(before) & bases(after):
         return Verdict(Grade.DANGEROUS, ELSEWHERE, approval="safety")
-    if delta.before is not None and delta.after is not None and _is_obstacle(frame, before):
+    if delta.before is not None and delta.after is not None and is_part_of_scene(frame, before):
+        if obstacle_covers(frame, before, after):
+            return Verdict(Grade.REVIEW, "it still takes up all the room that it took", ReviewArea.MODEL)
         return Verdict(Grade.DANGEROUS, UNAVOIDED, ReviewArea.MODEL)
     was, now = (side.contract.frames.get(frame) for side in (before, after))
     name = None if now is None else now.calibration
@@ -143,9 +148,15 @@ def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
     return Verdict(Grade.DANGEROUS, why, ReviewArea.CALIBRATION)
 
 
-def _is_obstacle(link: str, facts: Facts) -> bool:
-    devices = [device.root_link for device in facts.contract.devices.values()]
-    return is_obstacle(facts.description, link, devices)
+def _compared(delta: Delta, after: Facts) -> Grade:
+    """A version that another computer compares from now on is not lost."""
+    still = {
+        item
+        for path, leaf in after.leaves.items()
+        if path[:2] == delta.path[:2] and path[3:] == delta.path[3:]
+        for item in _entries(leaf)
+    }
+    return Grade.DANGEROUS if _entries(delta.before) - still else Grade.REVIEW
 
 
 def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:
@@ -154,7 +165,8 @@ def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:
         next((link.collisions for link in side.description.links if link.name == delta.path[2]), ())
         for side in (before, after)
     )
-    return Verdict(Grade.REVIEW if covers(was, now) else Grade.DANGEROUS)
+    in_parent = obstacle_covers(delta.path[2], before, after)
+    return Verdict(Grade.REVIEW if (covers(was, now) if in_parent is None else in_parent) else Grade.DANGEROUS)
 
 
 def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:
@@ -175,6 +187,7 @@ def is_reaching(contract: Contract, device: str) -> bool:
     return device in contract.devices and contract.devices[device].kind in _REACHING
 
 
-def _bases(facts: Facts) -> set[str]:
+def bases(facts: Facts) -> set[str]:
+    """Return the root links of what takes things to other places."""
     contract = facts.contract
     return {device.root_link for name, device in contract.devices.items() if is_reaching(contract, name)}

@@ -13,7 +13,15 @@ from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.titles import Quote, title_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
-_TELLING = ("reach", "largest payload", "base in its parent", "tip", "pose in its parent", "place in the root frame")
+_TELLING = (
+    "reach",
+    "largest payload",
+    "base in its parent",
+    "base in the root frame",
+    "tip",
+    "pose in its parent",
+    "place in the root frame",
+)
 """Quantities that say the most about a cause with many changes, in this order."""
 _SAID, _HOME = 3, "home"
 NAME_OF = "name of the "

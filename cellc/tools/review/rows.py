@@ -156,12 +156,15 @@ ROWS: Sequence[Row] = (
     Row("middleware {host} {what}", Graded(_A.NETWORK, "variable")),
     Row("right {enclave} ...", Graded(_A.NETWORK, "right to", ordered=False)),
     Row("spec network ...", Graded(_A.NETWORK, "network")),
+    Row("device {device} host", Graded(_A.NETWORK, "computer that it is connected to")),
     Row("spec hosts {host} ...", Graded(_A.NETWORK, "host")),
     Row("spec nodes {node} {what}", Graded(_A.CONTROL, "node")),
     Row("spec nodes {node} ...", Graded(_A.CONTROL, "parameter of the node")),
     Row("spec targets {target} {what}", Graded(_A.DEVICES, "target", Rule.DANGEROUS)),
     Row("spec mock_statements ...", Graded(_A.SAFETY, "statement that it touches no hardware", Rule.DANGEROUS)),
     # How it starts.
+    Row("step real {step} called", Graded(_A.START_ORDER, "what the step is called")),
+    Row("step real {step} request parts", Graded(_A.START_ORDER, "versions that it compares", Rule.COMPARED)),
     Row("step real {step} after", Graded(_A.START_ORDER, "steps before it", Rule.LOST, ordered=False)),
     Row(
         "step real {step} request controllers",

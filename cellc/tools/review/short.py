@@ -10,7 +10,7 @@ from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange
-from cellc.tools.review.compare import PAIRS, WHOLE
+from cellc.tools.review.compare import PAIRS, UNCLASSIFIED, WHOLE
 from cellc.tools.review.groups import NAME_OF, Group, areas_of, groups_of, quantities_of
 from cellc.tools.review.text import STYLES, outcomes, summed_up, values_of
 
@@ -135,7 +135,7 @@ def _title(group: Group, fold: _Fold) -> _Lines:
 
 def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
     """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for."""
-    changes = group.telling
+    changes = sorted(group.telling, key=_is_of_lines)
     asked: _Lines = (
         [(Styled(text, Style.DIM),) for text in _broken(f"  asks {group.asks}", "    ")] if group.asks else []
     )
@@ -150,6 +150,11 @@ def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
     if rest:
         lines.append((Styled(cut(_rest(rest, group, is_whole=not listed)), Style.DIM),))
     yield from (*lines[: max(most - len(asked), 0)], *asked)[: max(most, 0)]
+
+
+def _is_of_lines(change: ReviewChange) -> bool:
+    """Tell whether a change is that of a file: what its values say is read first."""
+    return change.quantity.endswith(UNCLASSIFIED) or change.quantity.startswith("file ")
 
 
 def _rest(rest: Sequence[ReviewChange], group: Group, *, is_whole: bool) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from cellc.compiler.source.document import Child, Node, SourceDocument
 from cellc.contract.diagnostics import Span, YamlPath
+from cellc.tools.review.renames import named_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,14 +46,17 @@ def undone(edits: Sequence[SpecEdit]) -> tuple[SpecEdit, ...]:
 def _differences(before: Node, after: Node, path: YamlPath) -> Iterator[SpecEdit]:
     for key in dict.fromkeys((*after.children, *before.children)):
         was, now = before.children.get(key), after.children.get(key)
-        if was is not None and now is not None and _have_parts(was.node, now.node):
+        if was is not None and now is not None and _have_parts(was.node, now.node, (*path, key)):
             yield from _differences(was.node, now.node, (*path, key))
         elif was is None or now is None or was.node.data != now.node.data:
             yield SpecEdit((*path, key), was, now)
 
 
-def _have_parts(before: Node, after: Node) -> bool:
-    """Whether two values are compared part by part: a list that grew is one value."""
+def _have_parts(before: Node, after: Node, path: YamlPath) -> bool:
+    """Whether two values are compared part by part: a list that grew is one value, and so is another alternative."""
     if isinstance(before.data, list) and isinstance(after.data, list):
         return len(before.data) == len(after.data) and all(isinstance(entry, dict) for entry in before.data)
-    return isinstance(before.data, dict) and isinstance(after.data, dict)
+    if not isinstance(before.data, dict) or not isinstance(after.data, dict):
+        return False
+    is_other = bool(before.data) and bool(after.data) and before.data.keys().isdisjoint(after.data)
+    return not is_other or named_in(path) is not None

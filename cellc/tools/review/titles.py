@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewValue
 
 _MOST = 6
@@ -29,8 +30,15 @@ def title_of(cause: ReviewCause, line: str, quote: Quote) -> str:
     return f"{line}: {quote(cause.before)} -> {quote(cause.after)} ({where})"
 
 
+WHOLE_SPEC = "spec"
+"""Line of a cause whose lines have nothing in common."""
+
+
 def _of_several(cause: ReviewCause, line: str, quote: Quote) -> str:
     values, where = cause.values, _places(cause.values)
+    if line == WHOLE_SPEC:
+        leading = f"{values[0].line}{_change(values[0], quote)} ({_where(values[0].place)})"
+        return f"{leading} and {count(len(values) - 1, 'line')} ({_places(values[1:])})"
     paths = [value.line.split(".") for value in values]
     names = [path[0] for path in paths]
     ends = {tuple(path[1:]) for path in paths}

@@ -7,16 +7,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.compiler.spec import quantity
 
 _DIMENSIONS = tuple(var for var in vars(quantity).values() if isinstance(var, quantity.Dimension))
-_FACTORS = {
-    unit: math.radians(1.0) if factor is None else float(factor)
+UNITS: Mapping[str, tuple[str, float]] = {
+    unit: (dimension.name, math.radians(1.0) if factor is None else float(factor))
     for dimension in _DIMENSIONS
     for unit, factor in dimension.units
 }
+"""What each unit measures, and its factor to SI."""
+_FACTORS = {unit: factor for unit, (_, factor) in UNITS.items()}
 _UNITS = "|".join(re.escape(unit) for unit in sorted(_FACTORS, key=len, reverse=True))
 # Bounded, so that an untrusted line costs no square.
 _NUMBER = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"

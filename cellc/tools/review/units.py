@@ -8,10 +8,12 @@ from collections import Counter
 
 from cellc.contract.transforms import Pose, apart
 from cellc.tools.review.leaves import Leaf, Prose, said
+from cellc.tools.review.tokens import UNITS
 
-_FIGURE = re.compile(r"[0-9]{1,15}(?:\.[0-9]{1,15})?")
+_FIGURE = re.compile(r"-?[0-9]{1,15}(?:\.[0-9]{1,15})?")
 _FEW = 6
 """Entries of a list that are shown; of a longer one, those that differ."""
+_PLACE = 3
 
 
 def shown(value: Leaf | None, unit: str) -> str | None:
@@ -101,21 +103,35 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: boo
 
 
 def _of_quantities(before: str, after: str) -> str:
-    """Return the share by which one figure with a unit differs from another with the same."""
-    (was, unit), (now, other) = (text.partition(" ")[::2] for text in (before, after))
-    if not unit or unit != other or not (_FIGURE.fullmatch(was) and _FIGURE.fullmatch(now)) or not float(was):
+    """Return the share by which a quantity differs from another of its kind, or how far a place is from another."""
+    (was, kind), (now, other) = (_quantity(text) for text in (before, after))
+    if not kind or kind != other or len(was) != len(now):
         return ""
-    return f"{_rounded(100.0 * (float(now) - float(was)) / float(was)):+.10g} %"
+    if len(was) == _PLACE and kind == "length":
+        return motion(math.dist(was, now), 0.0)
+    if len(was) != 1 or not was[0] or not now[0] >= 0.0 <= was[0]:
+        return ""
+    return f"{_rounded(100.0 * (now[0] - was[0]) / was[0]):+.10g} %"
+
+
+def _quantity(text: str) -> tuple[tuple[float, ...], str]:
+    """Return the figures of a text in SI, and of which kind they are; nothing where it is no quantity."""
+    *figures, unit = text.split() or [""]
+    name, factor = UNITS.get(unit, ("", None))
+    if not figures or not all(_FIGURE.fullmatch(figure) for figure in figures):
+        return (), ""
+    return tuple(float(figure) * (1.0 if factor is None else factor) for figure in figures), name or unit
 
 
 def motion(meters: float, radians: float) -> str:
     """Return how far something moves and turns."""
-    parts = [f"moves {_length(meters)}"] if meters > 1e-9 else []
+    parts = [f"moves {length(meters)}"] if meters > 1e-9 else []
     parts += [f"turns {_number(round(math.degrees(radians), 4))} deg"] if radians > 1e-7 else []
     return ", ".join(parts)
 
 
-def _length(meters: float) -> str:
+def length(meters: float) -> str:
+    """Return a length of three digits."""
     shown = _rounded(meters)
     return f"{shown * 1e3:.9f}".rstrip("0").rstrip(".") + " mm" if shown < 1.0 else f"{shown:.10g} m"
 

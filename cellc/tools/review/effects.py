@@ -1,0 +1,48 @@
+"""What follows for motion and data, though no value of it changed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.change import Change
+from cellc.tools.review.edges import edge_changes, offers_less
+from cellc.tools.review.facts import Facts
+from cellc.tools.review.geometry import moved_bases, moved_places
+from cellc.tools.review.grading import ELSEWHERE, bases
+from cellc.tools.review.units import difference, shown
+
+
+def effects(before: Facts, after: Facts) -> Iterator[Change]:
+    """Yield what follows for motion and data, though no value of it changed."""
+    for place in moved_places(before, after):
+        sides = (shown(place.before, ""), shown(place.after, ""))
+        yield Change(
+            ReviewArea.MOTION,
+            place.subject,
+            place.quantity,
+            *sides,
+            Grade.REVIEW,
+            difference(place.before, place.after, ""),
+        )
+    for base in moved_bases(before, after, bases(before) & bases(after)):
+        yield Change(
+            ReviewArea.FRAMES,
+            base.subject,
+            base.quantity,
+            shown(base.before, ""),
+            shown(base.after, ""),
+            Grade.DANGEROUS,
+            difference(base.before, base.after, ""),
+            why=ELSEWHERE,
+            approval="safety",
+        )
+    for subject, missed in offers_less(before.contract, after.contract):
+        why = "subscribers outside the cell that request the old offer no longer connect"
+        yield Change(ReviewArea.QOS, subject, "offered QoS", "compatible", missed, Grade.REVIEW, breaking=True, why=why)
+    for edge in edge_changes(before.contract, after.contract):
+        taken = Grade.SAFE if edge.connects else Grade.DANGEROUS
+        why = "" if edge.connects else "samples no longer arrive" if edge.before else "no sample arrives"
+        yield Change(
+            ReviewArea.QOS, edge.subject, "edge", edge.before, edge.after, taken, breaking=not edge.connects, why=why
+        )

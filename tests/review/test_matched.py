@@ -1,0 +1,136 @@
+"""What is one thing is told as one: a step by what it does, a box by its room, an arm by where it stands."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+import pytest
+
+from cellc.compiler.pipeline import check
+from cellc.contract.printing import as_text
+from cellc.contract.review import Review, ReviewChange
+from cellc.contract.vocabulary import Grade
+from cellc.tools.review.groups import groups_of
+from cellc.tools.review.leaves import Leaves, Prose
+from cellc.tools.review.review import review
+from cellc.tools.review.short import MOST_LINES, render_short
+from cellc.tools.review.sides import Package, package_of
+from cellc.tools.review.steps import with_step_names
+from cellc.tools.review.units import difference
+from tests.cells import spec_of
+from tests.review.revisions import Edit, edited
+
+
+@cache
+def _before(cell: str) -> Package:
+    return package_of("before", check(spec_of(cell)))
+
+
+def _of(cell: str, *edits: Edit) -> Review:
+    file = spec_of(cell).as_posix()
+    checked = check(file, {file: edited(*edits, cell=cell)})
+    assert checked.ok, [found.message for found in checked.diagnostics]
+    return review(_before(cell), package_of("after", checked))
+
+
+def _change(found: Review, quantity: str) -> ReviewChange:
+    (change,) = [change for change in found.changes if change.quantity == quantity]
+    return change
+
+
+def _titles(found: Review) -> list[str]:
+    return [re.sub(r" \(.*", "", f"{group.grade} {group.title}") for group in groups_of(found)]
+
+
+_SECOND_HOST: tuple[Edit, ...] = (
+    (
+        "network: {domain_id: 42, discovery: localhost}",
+        "network: {domain_id: 42, discovery: unicast, peers: [10.20.0.10, 10.20.0.11]}",
+    ),
+    ("connection: {host: control_pc, nic: bulk}", "connection: {host: vision_pc, nic: bulk}"),
+    ("lifecycle: true, host: control_pc, owner", "lifecycle: true, host: vision_pc, owner"),
+    ("independent_of: [control_pc]", "independent_of: [control_pc, vision_pc]"),
+)
+
+
+def test_a_step_of_the_bring_up_is_what_it_does_and_not_its_name() -> None:
+    bulk = re.search(r" *bulk: .*\n", edited())
+    assert bulk is not None
+    second = (
+        "      cell: {address: 10.20.0.10/24, carries: [ros]}\n"
+        "  vision_pc:\n"
+        "    scheduling: generic\n"
+        "    clock: {domain: ros, synchronized_by: chrony, max_offset: 1 ms}\n"
+        f"    nics:\n{bulk[0]}"
+        "      cell: {address: 10.20.0.11/24, carries: [ros]}\n"
+    )
+    found = _of("ur5e_pick", *_SECOND_HOST, (bulk[0], second))
+    assert found.worst() is Grade.REVIEW
+    called = _change(found, "what the step is called")
+    assert (called.before, called.after) == ("compare_versions", "compare_versions_on_control_pc")
+    moved = _change(found, "computer that it is connected to")
+    assert (moved.subjects, moved.before, moved.after) == (("camera",), "control_pc", "vision_pc")
+    lines = as_text(render_short(found), color=False).splitlines()
+    assert lines[3].startswith("review  hosts.vision_pc added (cell.yaml:22) and 4 lines (cell.yaml:")
+    assert "not classified" not in "".join(lines[4:9])
+    assert len(lines) <= MOST_LINES
+
+
+def _step(name: str, **values: str | tuple[str, ...]) -> Leaves:
+    return {("step", "real", name, *key.split("__")): leaf for key, leaf in values.items()}
+
+
+def test_a_step_that_asks_for_another_kind_of_thing_is_another_step() -> None:
+    was = _step("one", phase="start", request__kind="versions", proof=("a", "b"))
+    other = _step("two", phase="start", request__kind="controllers", proof=("a", "b"))
+    assert with_step_names(was, other) == was
+    same = _step("two", phase="start", request__kind="versions", proof=("a", "b"))
+    assert with_step_names(was, same) == same
+
+
+@pytest.mark.parametrize(
+    ("box", "grade", "told"),
+    [
+        ("xyz: 330 0 780 mm, box: 940 1200 40 mm", Grade.REVIEW, "gains 40 mm at -x"),
+        ("xyz: 330 0 780 mm, box: 900 1200 40 mm", Grade.DANGEROUS, ""),
+        ("xyz: 350 0 770 mm, box: 900 1200 20 mm", Grade.DANGEROUS, "loses 20 mm at the top"),
+    ],
+)
+def test_place_and_size_of_an_obstacle_are_graded_by_its_room(box: str, grade: Grade, told: str) -> None:
+    found = _of("ur5e_pick", ("xyz: 350 0 780 mm, box: 900 1200 40 mm", box))
+    assert _change(found, "pose in its parent").grade is grade
+    assert found.worst() is grade
+    if told:
+        assert _change(found, "collision shapes").delta == told
+        (title,) = _titles(found)
+        assert title == f"{grade} scene.table"
+
+
+def test_a_shared_area_says_what_it_loses_and_gains_on_each_side() -> None:
+    found = _of("dual_ur", ("xyz: 0 0 250 mm, box: 500 400 500 mm", "xyz: 0 0 220 mm, box: 600 400 440 mm"))
+    size = _change(found, "size of the shared area")
+    assert (size.grade, size.delta) == (Grade.DANGEROUS, "loses 60 mm at the top, gains 50 mm on each side in x")
+    assert _titles(found) == ["dangerous areas.over_nest"]
+
+
+def test_another_alternative_is_one_cause() -> None:
+    found = _of("ur5e_pick", ("{open: {person: integration, date: 2026-12-15}}", "{none: checked on site}"))
+    assert _titles(found) == [
+        "dangerous surroundings.fittings: {open: {person: integration, date: 2026-12-15}} -> {none: checked on site}"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "told"),
+    [
+        ("1.0 kg", "800 g", "-20 %"),
+        ("1.0 kg", "1000 g", "+0 %"),
+        ("-5 5 46 mm", "5 -5 46 mm", "moves 14.1 mm"),
+        ("0 0 46 mm", "0 0 0.05 m", "moves 4 mm"),
+        ("1.0 kg", "800 mm", ""),
+        ("0 kg", "800 g", ""),
+    ],
+)
+def test_quantities_in_other_units_have_a_difference(before: str, after: str, told: str) -> None:
+    assert difference(Prose(before), Prose(after), "") == told
