@@ -92,7 +92,7 @@ Collision shapes are compared by the room that they take up. One that shrank or 
 that is gone: planning no longer avoids where it was. One that grew is graded `review`. Of an obstacle, pose and size
 count together. A box, also that of a shared area, says what it loses and gains on each side.
 
-An arm whose base stands elsewhere in the root frame is dangerous, whatever moved it: its mount, or what carries it.
+An arm whose base is elsewhere in the root frame is dangerous, whatever moved it: its mount, or what carries it.
 
 A step of the bring-up is what it does: one of another name is the same step. One that only compares versions, as a
 further computer takes it, is graded `review`.

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+import shutil
 from functools import cache
+from pathlib import Path
 
 import pytest
 
+from cellc.compiler.catalog.compiled import CATALOG
 from cellc.compiler.pipeline import check
 from cellc.contract.printing import as_text
 from cellc.contract.review import Review, ReviewChange
@@ -18,7 +21,7 @@ from cellc.tools.review.short import MOST_LINES, render_short
 from cellc.tools.review.sides import Package, package_of
 from cellc.tools.review.steps import with_step_names
 from cellc.tools.review.units import difference
-from tests.cells import spec_of
+from tests.cells import spec_of, spec_text
 from tests.review.revisions import Edit, edited
 
 
@@ -134,3 +137,49 @@ def test_another_alternative_is_one_cause() -> None:
 )
 def test_quantities_in_other_units_have_a_difference(before: str, after: str, told: str) -> None:
     assert difference(Prose(before), Prose(after), "") == told
+
+
+def _on_own_axis(folder: Path, *edits: tuple[str, str, str]) -> Package:
+    """Return the cell with the axis in a folder of its own, edited."""
+    shutil.copytree(CATALOG / "devices" / "linear_axis", folder / "devices" / "linear_axis")
+    shutil.copy(CATALOG / "devices" / "shapes.xacro", folder / "devices")
+    spec = folder / "cell.yaml"
+    spec.write_text(spec_text("rail_arm").replace("model: linear_axis", "model: ./devices/linear_axis"), "utf-8")
+    for file, old, new in edits:
+        place = folder / "devices" / "linear_axis" / file
+        text = place.read_text("utf-8")
+        assert text.count(old) == 1
+        place.write_text(text.replace(old, new), "utf-8")
+    return package_of("after", check(spec.as_posix()))
+
+
+def test_lines_of_the_folder_of_a_device_cause_what_they_change_and_an_arm_that_stands_elsewhere_asks_safety(
+    tmp_path: Path,
+) -> None:
+    before = _on_own_axis(tmp_path / "before")
+    faster = ("device.yaml", "value: 2 m/s^2", "value: 3 m/s^2")
+    after = _on_own_axis(tmp_path / "after", faster, ("linear_axis.urdf.xacro", 'value="0.12"', 'value="0.10"'))
+    found = review(before, after)
+    lower, quicker = groups_of(found)
+    assert re.fullmatch(
+        r"devices/linear_axis/linear_axis\.urdf\.xacro top: 0\.12 -> 0\.10 \(linear_axis\.urdf\.xacro:\d+\)",
+        lower.title,
+    )
+    assert re.fullmatch(
+        r"devices/linear_axis/device\.yaml limits\.acceleration\.\*: 2 m/s\^2 -> 3 m/s\^2 \(device\.yaml:\d+\)",
+        quicker.title,
+    )
+    base = _change(found, "base in the root frame")
+    assert (base.subjects, base.grade, base.approval, base.delta) == (
+        ("arm_base_link",),
+        Grade.DANGEROUS,
+        "safety",
+        "moves 20 mm",
+    )
+    assert [change.quantity for change in quicker.changes] == ["acceleration"]
+
+
+def test_texts_of_the_folder_of_a_device_cause_nothing(tmp_path: Path) -> None:
+    before = _on_own_axis(tmp_path / "before")
+    after = _on_own_axis(tmp_path / "after", ("device.yaml", "summary: carriage", "summary: a carriage"))
+    assert not review(before, after).causes

@@ -180,6 +180,11 @@ def _dotted(path: YamlPath) -> str:
 def _text(child: Child | None) -> str | None:
     if child is None:
         return None
+    return flow_of(child)
+
+
+def flow_of(child: Child) -> str:
+    """Return a value in one line, cut where it is long."""
     return _short(_flow(child))
 
 

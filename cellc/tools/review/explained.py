@@ -11,6 +11,7 @@ from cellc.contract.vocabulary import Grade
 from cellc.tools.review.causes import State, as_cause, attributed, causes_between, facts_of_document
 from cellc.tools.review.change import Change
 from cellc.tools.review.compare import change_of, changes_between, follows, merged, reported
+from cellc.tools.review.device_folders import by_folders, folder_causes
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.folder_names import facts_with_names, renames_between_folders
 from cellc.tools.review.groups import NAME_OF
@@ -43,10 +44,14 @@ def explained(before: Package, after: Package) -> Explained:
     changes = reported(base.facts, now.facts)
     causes, found = attributed(changes, causes_between(base.document, now.document), base, now)
     first = [_as_cause(rename) for rename in leading]
+    in_folders = folder_causes(was.document, now.document) if any(number is None for number, _ in found) else ()
+    of_folders, found = by_folders(found, in_folders, len(causes), base.facts, now.facts)
     numbered: list[tuple[int | None, Change]] = list(enumerate(names))
     numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
     numbered += [(None if number is None else number + len(first), change) for number, change in found]
-    return Explained((*first, *map(as_cause, causes)), merged(numbered, before.facts, after.facts), renames)
+    return Explained(
+        (*first, *map(as_cause, causes), *of_folders), merged(numbered, before.facts, after.facts), renames
+    )
 
 
 def _of_folders(before: Package, after: Package) -> Explained:
