@@ -103,7 +103,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous calibration | tcp | pose in its parent | xyz 0 0 162 mm, rpy 0 0 0 deg -> "
             "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
             "dangerous calibration | hand_eye | residual | 0.8 mm -> 1.2 mm | +50 %",
-            "dangerous payload | arm | robot TCP xyz | 0.00 0.00 173.00 mm -> 0.00 0.00 174.00 mm",
+            "dangerous payload | arm | robot TCP xyz | 0.00 0.00 173.00 mm -> 0.00 0.00 174.00 mm | moves 1 mm",
             "dangerous payload | arm | robot payload mass | 1.0 kg -> 1.5 kg | +50 %",
             "dangerous rehearsals | canceled | bound of the outcome | 200 ms -> 400 ms | +100 %",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
@@ -197,7 +197,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             f"dangerous limits | {ARM} | velocity | 90 deg/s -> 108 deg/s | +20 %",
             f"dangerous control | {OF_TRAJECTORY} | path tolerance | 11.45916 deg -> 17.18873 deg | +50 %",
             "dangerous control | arm_trajectory | time past the end | 1 s -> 2 s | +100 %",
-            "review model | table | collision shapes | box 900 1200 40 mm -> box 900 1200 60 mm",
+            "review model | table | collision shapes | box 900 1200 40 mm -> box 900 1200 60 mm"
+            " | gains 10 mm on each side in z",
             f"review control | {OF_TRAJECTORY} | goal tolerance | 0.572958 deg -> 0.286479 deg | -50 %",
             "review motion | pick | approach | 0 0 -100 mm -> 0 0 -80 mm",
             "review motion | home manipulator | joint positions | 0 -90 90 -90 -90 0 deg -> 90 -90 90 -90 -90 0 deg",
