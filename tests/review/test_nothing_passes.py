@@ -37,7 +37,8 @@ def test_an_area_that_arms_share_is_told_in_mm_and_is_a_matter_of_safety(tmp_pat
     assert AREA in spec_text("dual_ur")
     smaller = AREA.replace("500 400 500 mm", "50 40 50 mm").replace("safety_plc", "nobody")
     assert _of_two_arms(tmp_path, smaller) == [
-        "dangerous safety | over_nest | size of the shared area | 500 400 500 mm -> 50 40 50 mm",
+        "dangerous safety | over_nest | size of the shared area | 500 400 500 mm -> 50 40 50 mm"
+        " | loses 225 mm on each side in x, loses 180 mm on each side in y, loses 225 mm on each side in z",
         "dangerous safety | over_nest | who grants access | safety_plc -> nobody",
     ]
 

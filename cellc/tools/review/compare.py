@@ -17,7 +17,7 @@ from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.grading import ELSEWHERE, grade, is_reaching
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
-from cellc.tools.review.rooms import box_told
+from cellc.tools.review.rooms import box_difference
 from cellc.tools.review.rows import FOLLOWS, ROWS
 from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
 from cellc.tools.review.steps import with_step_names
@@ -296,7 +296,7 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
 def _difference(delta: Delta, unit: str, row: Row, before: Facts, after: Facts) -> str:
     """Return how much a value differs; of a box, on which sides."""
     if delta.path[:2] == ("real", "shapes") or delta.path[::2] == ("area", "size"):
-        told = box_told(delta.path, before, after)
+        told = box_difference(delta.path, before, after)
         if told:
             return told
     return difference(delta.before, delta.after, unit, share=row.grade.share)

@@ -41,7 +41,7 @@ def moved_places(before: Facts, after: Facts) -> Iterator[Moved]:
 def moved_bases(before: Facts, after: Facts, bases: Collection[str]) -> Iterator[Moved]:
     """Yield bases of arms that stand elsewhere because what carries them is another, with joints at zero.
 
-    A base that moved in its own parent is left out, and what stands on one that moved: its pose tells that.
+    A base that moved in its own parent is left out, and what is mounted on one that moved: its pose tells that.
     """
     was, now = _carried(before, bases), _carried(after, bases)
     for name in was:

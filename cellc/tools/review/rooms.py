@@ -1,4 +1,4 @@
-"""The room of an obstacle or a shared area in its parent: where it stands and how large it is count together."""
+"""The room of an obstacle or a shared area in its parent: pose and size count together."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def obstacle_covers(link: str, before: Facts, after: Facts) -> bool | None:
     return covers(was[1], now[1])
 
 
-def box_told(path: Path, before: Facts, after: Facts) -> str:
+def box_difference(path: Path, before: Facts, after: Facts) -> str:
     """Return what the box of an obstacle or a shared area gains and loses on each side; empty of another shape."""
     if path[:1] == ("area",):
         was, now = _area(path[1], before.cell), _area(path[1], after.cell)
@@ -78,12 +78,12 @@ def _sides(pose: Pose, size: Vector3, new_pose: Pose, new_size: Vector3) -> tupl
     turned = Pose((0.0, 0.0, 0.0), pose.quaternion)
     was, now = (turned.inverse().apply(each.position) for each in (pose, new_pose))
     is_upright = turned.apply((0.0, 0.0, 1.0))[2] >= 1.0 - _NOTICED
-    told = list[str]()
+    sides = list[str]()
     for number, axis in enumerate("xyz"):
         grown, moved = (new_size[number] - size[number]) / 2, now[number] - was[number]
         ends = ("the bottom", "the top") if axis == "z" and is_upright else (f"-{axis}", f"+{axis}")
-        told += _ends(axis, grown - moved, grown + moved, ends)
-    return tuple(told)
+        sides += _ends(axis, grown - moved, grown + moved, ends)
+    return tuple(sides)
 
 
 def _ends(axis: str, low: float, high: float, names: tuple[str, str]) -> Iterator[str]:
