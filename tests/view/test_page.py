@@ -153,6 +153,12 @@ def test_the_page_of_a_change_draws_where_things_stood_and_lists_what_moved(tmp_
     ]
 
 
+def test_a_change_of_nothing_is_told_in_a_word(of_folder: Content) -> None:
+    same = (ROOT / "generated/ur5e_pick").as_posix()
+    found = Page(to_html(replace(of_folder, before=before_of(same, same)), three_js()))
+    assert "Gates to repeat: none Nothing. Rehearsals on the mock" in found.text
+
+
 def _home(scene: dict[str, Any]) -> list[float]:
     (numbers,) = (pose["groups"] for pose in scene["poses"] if pose["name"] == "home")
     assert isinstance(numbers, list)

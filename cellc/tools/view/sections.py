@@ -97,7 +97,8 @@ def changes_section(review: Review) -> Element:
     ]
     text = f"{review.before.name} → {review.after.name}. Gates to repeat: "
     gates = ", ".join(gate.code.value for gate in review.gates) or "none"
-    return section("What changed", hint(text, gates), cards(names, rows), id_="changes")
+    table = cards(names, rows) if rows else tag("p", "Nothing.")
+    return section("What changed", hint(text, gates), table, id_="changes")
 
 
 _GRADES = {Grade.SAFE: "good", Grade.REVIEW: "unknown", Grade.DANGEROUS: "bad"}
