@@ -20,7 +20,7 @@ from cellc.compiler.deploy.arrows import ArrowKind, drives, exchanges, helpers, 
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.formats.escape import one_line
 from cellc.compiler.formats.layered import Box, Columns, Layout, Line, Point, layout
-from cellc.compiler.formats.svg import arrow_head, rectangle, sheet, text
+from cellc.compiler.formats.svg import arrow_head, name_lines, rectangle, sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.frozen import dataclass
@@ -132,7 +132,7 @@ def _sheet(cell: Cell) -> Element:
     count = max(layers.values()) + 1
     columns = Columns(tuple(_BAND * 1.5 + layer * (_BOX + _GAP) for layer in range(count)), _BOX)
     arrows = tuple(_arrows(cell, exchanged))
-    boxes = [Box(key, layer, len(_wrapped(key)) * _LINE + 9.0) for key, layer in layers.items()]
+    boxes = [Box(key, layer, len(name_lines(key, _CHARACTERS)) * _LINE + 9.0) for key, layer in layers.items()]
     placed = layout(boxes, [line for line, _, _ in arrows], columns)
     width = columns.lefts[-1] + _BOX + _BAND * 1.5
     bottom = _MARGIN + _TITLE + placed.height + _MARGIN
@@ -215,22 +215,10 @@ def _boxes(placed: Layout, layers: Mapping[str, int], columns: Columns, unknown:
         left = columns.lefts[layers[key]]
         outline = {"rx": "5", "fill": "#eef2f7", "stroke": "#51606f"} | (_DASHED if key.strip() in unknown else {})
         yield rectangle(left, center - height / 2, columns.width, height, outline)
-        lines = _wrapped(key)
+        lines = name_lines(key, _CHARACTERS)
         first = center - (len(lines) - 1) * _LINE / 2 + _SIZE / 3
         for order, line in enumerate(lines):
             yield text(left + columns.width / 2, first + order * _LINE, line, {"text-anchor": "middle"})
-
-
-def _wrapped(name: str) -> list[str]:
-    """Return a name in lines that a box holds; it breaks behind an underscore or a slash where it can."""
-    words = one_line(name.strip()).replace("_", "_ ").replace("/", "/ ").split()
-    lines, line = [], ""
-    for word in words:
-        if line and len(line) + len(word) > _CHARACTERS:
-            lines.append(line)
-            line = ""
-        line += word
-    return [part for text in [*lines, line] for part in textwrap.wrap(text, _CHARACTERS)] or [""]
 
 
 def _legend(y: float, drawn: Container[str]) -> Iterator[Element]:

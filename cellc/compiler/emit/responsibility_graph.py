@@ -19,7 +19,7 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.arrows import Arrow, drives, exchanges, helpers, stop, unknown_boxes
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.formats.svg import Style, arrow_head, rectangle, sheet, text
+from cellc.compiler.formats.svg import Style, arrow_head, name_lines, rectangle, sheet, text
 from cellc.compiler.formats.xml_text import element, render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.frozen import dataclass
@@ -119,7 +119,7 @@ def _row(row: Arrow, top: int, unknown: Container[str]) -> Iterator[Element]:
 
 
 def _names(ends: tuple[str, ...]) -> list[str]:
-    return _wrapped(ends or ("none",), _BOX_CHARACTERS)
+    return [line for end in ends or ("none",) for line in name_lines(end, _BOX_CHARACTERS)]
 
 
 def _arrow(left: int, right: int, y: int, style: Style) -> Element:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Mapping
 from xml.etree.ElementTree import Element
 
@@ -26,6 +27,18 @@ def sheet(width: float, height: float, font_size: float, children: Iterable[Elem
 def text(x: float, y: float, content: str, style: Style | None = None) -> Element:
     """Return a line of text; ``y`` is its base line."""
     return element("text", {"x": number(x), "y": number(y), **(style or {})}, text=one_line(content))
+
+
+def name_lines(name: str, characters: int) -> list[str]:
+    """Return a name in lines that a box holds; it breaks behind an underscore or a slash where it can."""
+    words = one_line(name.strip()).replace("_", "_ ").replace("/", "/ ").split()
+    lines, line = [], ""
+    for word in words:
+        if line and len(line) + len(word) > characters:
+            lines.append(line)
+            line = ""
+        line += word
+    return [part for whole in [*lines, line] for part in textwrap.wrap(whole, characters)] or [""]
 
 
 def rectangle(left: float, top: float, width: float, height: float, style: Style) -> Element:
