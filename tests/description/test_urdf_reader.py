@@ -268,6 +268,7 @@ READERS = {
     "robot/description/xacro_confinement.py",
     "robot/description/xml_tree.py",
     "compiler/verify/read_back.py",
+    "compiler/verify/scene.py",  # reads back what cellc has written
     "compiler/emit/launch/observe_listener.py",  # it runs on the robot's host, without cellc
     "compiler/emit/launch/observe_program.py",  # it runs on the robot's host, without cellc
 }
