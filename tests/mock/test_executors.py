@@ -12,6 +12,7 @@ from cellc.mock import load
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.engine.simulation import Simulation
 from cellc.mock.nodes.executors import Executors
+from cellc.mock.plant import Plant
 from tests.cells import build_into, spec_text, written
 
 _NODE = "lifecycle: true, host: control_pc, owner: perception"
@@ -25,8 +26,8 @@ def _oldest_s(tmp_path: Path, said: str) -> float:
     cell = load(build_into(tmp_path.with_suffix(".built"), written(tmp_path, text)))
     ages: list[float] = []
 
-    def watch(plant: object) -> None:
-        inbox = plant.task.observations["object"]  # type: ignore[attr-defined]
+    def watch(plant: Plant) -> None:
+        inbox = plant.task.observations["object"]
         inbox.listen(lambda pose: ages.append(inbox.age_s(pose.stamp_ns)))
 
     result = cell.rehearse(cell.entry("canceled"), seed=0, watch=watch)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache
 
 import pytest
 
@@ -16,32 +15,17 @@ from cellc.tools.review.groups import groups_of
 from cellc.tools.review.markdown import render_markdown
 from cellc.tools.review.review import review
 from cellc.tools.review.short import MOST_LINES, render_short
-from cellc.tools.review.sides import Package, package_of
+from cellc.tools.review.sides import package_of
 from tests.cells import spec_of, spec_text
-from tests.review.revisions import Edit, edited
-
-
-@cache
-def _before(cell: str) -> Package:
-    return package_of("before", check(spec_of(cell)))
-
-
-def _of_text(cell: str, text: str) -> Review:
-    file = spec_of(cell).as_posix()
-    checked = check(file, {file: text})
-    assert checked.ok, [found.message for found in checked.diagnostics]
-    return review(_before(cell), package_of("after", checked))
-
-
-def _of(cell: str, *edits: Edit) -> Review:
-    return _of_text(cell, edited(*edits, cell=cell))
+from tests.review.edits import package_before, review_of, review_of_text
+from tests.review.revisions import Edit
 
 
 def _renamed(cell: str, names: Mapping[str, str]) -> Review:
     text = spec_text(cell)
     for old, new in names.items():
         text = re.sub(rf"(?<![\w-]){re.escape(old)}(?![\w-])", new, text)
-    return _of_text(cell, text)
+    return review_of_text(cell, text)
 
 
 def _lines(found: Review) -> list[str]:
@@ -63,7 +47,7 @@ def _unfolded(text: str) -> list[str]:
 
 
 def test_another_model_of_a_robot_is_one_group_whose_first_line_says_what_it_means() -> None:
-    found = _of("ur5e_pick", ("model: ur5e", "model: ur10e"))
+    found = review_of("ur5e_pick", ("model: ur5e", "model: ur10e"))
     assert len(found.changes) > 50
     lines = _lines(found)
     at = lines.index(next(line for line in lines if line.startswith("dangerous")))
@@ -102,7 +86,7 @@ def test_what_else_changed_is_told_beside_another_name() -> None:
     text = spec_text("dual_ur").replace("put: {group: load, frame: nest, rpy: 180 0 0 deg, xyz: 0 0 20 mm", "PUT", 1)
     text = re.sub(r"(?<![\w-])loader(?![\w-])", "feeder", text)
     text = text.replace("PUT", "put: {group: load, frame: nest, rpy: 180 0 0 deg, xyz: 0 0 30 mm")
-    renamed, moved = _titles(_of_text("dual_ur", text))
+    renamed, moved = _titles(review_of_text("dual_ur", text))
     assert renamed.startswith("review renamed: loader -> feeder (27 names follow)")
     assert moved.startswith("review motion.goals.put.xyz: 0 0 20 mm -> 0 0 30 mm (cell.yaml:")
 
@@ -114,7 +98,7 @@ def test_consumers_of_names_that_changed_break() -> None:
 
 
 def test_each_change_stands_under_its_own_line_the_worst_first_and_safety_before_others() -> None:
-    found = _of(
+    found = review_of(
         "ur5e_pick",
         ("xyz: 450 100 850 mm", "xyz: 450 100 860 mm"),
         ("path: hardwired", "path: safety_bus"),
@@ -132,7 +116,7 @@ def test_each_change_stands_under_its_own_line_the_worst_first_and_safety_before
 
 def test_what_a_comment_excuses_is_not_caused_by_the_line_that_changed_beside_it() -> None:
     rollback = "rollback: {image: UNKNOWN, configuration: UNKNOWN}"
-    found = _of(
+    found = review_of(
         "ur5e_pick",
         (rollback, f"{rollback}  # cellc: ignore missing-rollback no image yet"),
         ("plan_to_execute: 500 ms", "plan_to_execute: 600 ms"),
@@ -145,7 +129,7 @@ def test_what_a_comment_excuses_is_not_caused_by_the_line_that_changed_beside_it
 
 def test_many_lines_of_a_spec_still_fit_on_a_screen() -> None:
     text = re.sub(r"(\d+) mm", lambda found: f"{int(found[1]) + 1} mm", spec_text("ur5e_pick"))
-    found = _of_text("ur5e_pick", text.replace("500 ms", "600 ms").replace("goal_time: 1 s", "goal_time: 2 s"))
+    found = review_of_text("ur5e_pick", text.replace("500 ms", "600 ms").replace("goal_time: 1 s", "goal_time: 2 s"))
     assert len(groups_of(found)) > 6
     assert len(_lines(found)) <= MOST_LINES
     assert all(len(line) <= 80 for line in _lines(found)[3:])
@@ -153,22 +137,22 @@ def test_many_lines_of_a_spec_still_fit_on_a_screen() -> None:
 
 
 def test_an_arm_whose_base_moved_and_a_new_arm_are_asked_of_safety() -> None:
-    moved = _of("ur5e_pick", ("xyz: 0 0 0.8 m", "xyz: 0 0.3 0.8 m"))
+    moved = review_of("ur5e_pick", ("xyz: 0 0 0.8 m", "xyz: 0 0.3 0.8 m"))
     told = {(change.quantity, str(change.grade), change.approval) for change in moved.changes}
     assert ("pose in its parent", "dangerous", "safety") in told
-    back = review(package_of("one", check(spec_of("ur5e_pick"))), _before("dual_ur"))
+    back = review(package_of("one", check(spec_of("ur5e_pick"))), package_before("dual_ur"))
     new = [change for change in back.changes if change.quantity == "device added"]
     assert {(str(change.grade), change.approval) for change in new} == {("dangerous", "safety")}
 
 
 @pytest.mark.parametrize(("tolerance", "grade"), [("0.0101 rad", "review"), ("0.02 rad", "dangerous")])
 def test_a_tolerance_is_dangerous_where_it_is_another(tolerance: str, grade: str) -> None:
-    (change,) = _of("ur5e_pick", ("goal_tolerance: 0.01 rad", f"goal_tolerance: {tolerance}")).changes
+    (change,) = review_of("ur5e_pick", ("goal_tolerance: 0.01 rad", f"goal_tolerance: {tolerance}")).changes
     assert change.grade == grade
 
 
 def test_a_fresh_calibration_is_not_dangerous() -> None:
-    found = _of(
+    found = review_of(
         "ur5e_pick",
         ("fixture_a: {revision: 2, measured: 2026-07-02", "fixture_a: {revision: 3, measured: 2026-09-02"),
         ("residual: 0.3 mm", "residual: 0.4 mm"),
@@ -191,19 +175,19 @@ def test_a_fresh_calibration_is_not_dangerous() -> None:
     ],
 )
 def test_gates_are_repeated_where_the_configuration_is_another(edit: Edit, again: bool) -> None:
-    found = _of("ur5e_pick", edit)
+    found = review_of("ur5e_pick", edit)
     assert (found.before.configuration_id != found.after.configuration_id) is again
     assert bool(found.gates) is again
 
 
 def test_nothing_breaks_that_was_not_there() -> None:
-    found = _of("ur5e_pick", ("frames:\n  tcp:", "frames:\n  spare: {parent: world, xyz: 1 0 0 m}\n  tcp:"))
+    found = review_of("ur5e_pick", ("frames:\n  tcp:", "frames:\n  spare: {parent: world, xyz: 1 0 0 m}\n  tcp:"))
     assert found.changes
     assert not [change for change in found.changes if change.breaking]
 
 
 def test_a_pin_is_told_once_with_what_the_matrix_says() -> None:
-    found = _of("ur5e_pick", ("ur_robot_driver 3.8.0", "ur_robot_driver 3.7.0"))
+    found = review_of("ur5e_pick", ("ur_robot_driver 3.8.0", "ur_robot_driver 3.7.0"))
     (change,) = [change for change in found.changes if change.area == "versions"]
     assert (str(change.grade), change.after) == ("dangerous", "ur_robot_driver 3.7.0")
     assert change.why.startswith("by the compatibility matrix UNKNOWN")
@@ -216,7 +200,7 @@ def _finding(message: str, severity: str = "warning") -> ReviewFinding:
 def test_a_finding_that_says_another_figure_is_neither_new_nor_gone() -> None:
     was = (_finding("`a` lies 57 deg to the side"), _finding("`tip` must be near, got `far`"), _finding("`b` is slow"))
     now = (_finding("`a` lies 58.5 deg to the side"), _finding("`tip` must be near, got 3 m"), _finding("`c` is slow"))
-    before, after = (replace(_before("minimal"), findings=each) for each in (was, now))
+    before, after = (replace(package_before("minimal"), findings=each) for each in (was, now))
     found = review(before, after)
     assert [[each.message for each in side] for side in (found.new_findings, found.gone_findings)] == [
         ["`c` is slow"],
@@ -227,7 +211,7 @@ def test_a_finding_that_says_another_figure_is_neither_new_nor_gone() -> None:
 def test_new_findings_stand_first_and_what_fails_before_what_does_not() -> None:
     severities = ("audit", "warning", "blocker", "error")
     new = tuple(_finding(f"`{severity}` came", severity) for severity in severities)
-    found = review(_before("minimal"), replace(_before("minimal"), findings=new))
+    found = review(package_before("minimal"), replace(package_before("minimal"), findings=new))
     assert [each.severity for each in found.new_findings] == list(reversed(severities))
     assert _lines(found)[3:5] == ["new findings: 4", "  error[a-code]: `error` came"]
     assert _unfolded(render_markdown(found))[3:5] == ["**New findings: 4**", "- error `a-code`: `error` came"]

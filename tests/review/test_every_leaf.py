@@ -6,16 +6,15 @@ A session takes one leaf of eighteen, another of them in each cell; with ``--lon
 from __future__ import annotations
 
 import zlib
-from functools import cache
 
 import pytest
 
-from cellc.compiler.pipeline import check
 from cellc.contract.review import Review
 from cellc.tools.review.review import review
 from cellc.tools.review.short import MOST_LINES, render_short
-from cellc.tools.review.sides import Package, package_of
-from tests.cells import EVERY_CELL, spec_of
+from cellc.tools.review.sides import package_of
+from tests.cells import EVERY_CELL
+from tests.review.edits import package_before
 from tests.review.leaves import SpecLeaf, changed, leaves_of
 
 _SHARE = 18
@@ -23,11 +22,6 @@ WITHOUT_EFFECT: dict[str, str] = {
     "gen3_2f: motion.groups.manipulator.base": "`arm/base` and `arm/base_link` are two names of one link",
 }
 """Leaves whose other text reaches nothing, and why: no evidence, no file and no person at the cell depends on it."""
-
-
-@cache
-def _before(cell: str) -> Package:
-    return package_of("main", check(spec_of(cell)))
 
 
 def names_a_fact(found: Review) -> bool:
@@ -57,7 +51,7 @@ def test_a_leaf_that_changed_is_a_fact_with_a_name(cell: str, request: pytest.Fi
             continue
         text, checked = other
         tried += 1
-        found = review(_before(cell), package_of("after", checked))
+        found = review(package_before(cell), package_of("after", checked))
         if not names_a_fact(found):
             silent[leaf.name] = f"{leaf.text} -> {text}"
         contradicting += [leaf.name] if _contradicts(found) else []

@@ -8,18 +8,17 @@ from __future__ import annotations
 import re
 import zlib
 from collections.abc import Iterator
-from functools import cache
 from itertools import combinations
 
 import pytest
 
-from cellc.compiler.pipeline import check
 from cellc.contract.review import Review
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.review import review
-from cellc.tools.review.sides import Package, package_of
+from cellc.tools.review.sides import package_of
 from cellc.tools.review.tokens import ordered, parts, tokens
-from tests.cells import EVERY_CELL, spec_of
+from tests.cells import EVERY_CELL
+from tests.review.edits import package_before
 from tests.review.leaves import SpecLeaf, leaves_of, with_text
 from tests.review.test_every_leaf import WITHOUT_EFFECT, names_a_fact
 
@@ -27,14 +26,9 @@ _SHARE = 9
 _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?![\w.:/]*[.:/]\d)")
 
 
-@cache
-def _before(cell: str) -> Package:
-    return package_of("main", check(spec_of(cell)))
-
-
 def _reviewed(leaf: SpecLeaf, text: str) -> Review | None:
     checked = with_text(leaf, text)
-    return review(_before(leaf.cell), package_of("after", checked)) if checked.ok else None
+    return review(package_before(leaf.cell), package_of("after", checked)) if checked.ok else None
 
 
 def _exchanged(text: str) -> Iterator[tuple[str, str, str]]:

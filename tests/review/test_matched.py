@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -21,20 +20,9 @@ from cellc.tools.review.short import MOST_LINES, render_short
 from cellc.tools.review.sides import Package, package_of
 from cellc.tools.review.steps import with_step_names
 from cellc.tools.review.units import difference
-from tests.cells import spec_of, spec_text
+from tests.cells import spec_text
+from tests.review.edits import review_of
 from tests.review.revisions import Edit, edited
-
-
-@cache
-def _before(cell: str) -> Package:
-    return package_of("before", check(spec_of(cell)))
-
-
-def _of(cell: str, *edits: Edit) -> Review:
-    file = spec_of(cell).as_posix()
-    checked = check(file, {file: edited(*edits, cell=cell)})
-    assert checked.ok, [found.message for found in checked.diagnostics]
-    return review(_before(cell), package_of("after", checked))
 
 
 def _change(found: Review, quantity: str) -> ReviewChange:
@@ -68,7 +56,7 @@ def test_a_step_of_the_bring_up_is_what_it_does_and_not_its_name() -> None:
         f"    nics:\n{bulk[0]}"
         "      cell: {address: 10.20.0.11/24, carries: [ros]}\n"
     )
-    found = _of("ur5e_pick", *_SECOND_HOST, (bulk[0], second))
+    found = review_of("ur5e_pick", *_SECOND_HOST, (bulk[0], second))
     assert found.worst() is Grade.REVIEW
     called = _change(found, "what the step is called")
     assert (called.before, called.after) == ("compare_versions", "compare_versions_on_control_pc")
@@ -101,7 +89,7 @@ def test_a_step_that_asks_for_another_kind_of_thing_is_another_step() -> None:
     ],
 )
 def test_place_and_size_of_an_obstacle_are_graded_by_its_room(box: str, grade: Grade, told: str) -> None:
-    found = _of("ur5e_pick", ("xyz: 350 0 780 mm, box: 900 1200 40 mm", box))
+    found = review_of("ur5e_pick", ("xyz: 350 0 780 mm, box: 900 1200 40 mm", box))
     assert _change(found, "pose in its parent").grade is grade
     assert found.worst() is grade
     if told:
@@ -111,14 +99,14 @@ def test_place_and_size_of_an_obstacle_are_graded_by_its_room(box: str, grade: G
 
 
 def test_a_shared_area_says_what_it_loses_and_gains_on_each_side() -> None:
-    found = _of("dual_ur", ("xyz: 0 0 250 mm, box: 500 400 500 mm", "xyz: 0 0 220 mm, box: 600 400 440 mm"))
+    found = review_of("dual_ur", ("xyz: 0 0 250 mm, box: 500 400 500 mm", "xyz: 0 0 220 mm, box: 600 400 440 mm"))
     size = _change(found, "size of the shared area")
     assert (size.grade, size.delta) == (Grade.DANGEROUS, "loses 60 mm at the top, gains 50 mm on each side in x")
     assert _titles(found) == ["dangerous areas.over_nest"]
 
 
 def test_another_alternative_is_one_cause() -> None:
-    found = _of("ur5e_pick", ("{open: {person: integration, date: 2026-12-15}}", "{none: checked on site}"))
+    found = review_of("ur5e_pick", ("{open: {person: integration, date: 2026-12-15}}", "{none: checked on site}"))
     assert _titles(found) == [
         "dangerous surroundings.fittings: {open: {person: integration, date: 2026-12-15}} -> {none: checked on site}"
     ]

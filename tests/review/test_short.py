@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from functools import cache
 
 import pytest
 
@@ -17,21 +16,10 @@ from cellc.tools.review.leaves import Delta
 from cellc.tools.review.markdown import render_markdown
 from cellc.tools.review.review import review
 from cellc.tools.review.short import MOST_LINES, render_short
-from cellc.tools.review.sides import Package, package_of
+from cellc.tools.review.sides import package_of
 from tests.cells import spec_of
-from tests.review.revisions import Edit, edited
-
-
-@cache
-def _before(cell: str) -> Package:
-    return package_of("before", check(spec_of(cell)))
-
-
-def _of(cell: str, *edits: Edit) -> Review:
-    file = spec_of(cell).as_posix()
-    checked = check(file, {file: edited(*edits, cell=cell)})
-    assert checked.ok, [found.message for found in checked.diagnostics]
-    return review(_before(cell), package_of("after", checked))
+from tests.review.edits import package_before, review_of
+from tests.review.revisions import Edit
 
 
 def _lines(found: Review) -> list[str]:
@@ -43,7 +31,7 @@ def test_a_faster_arm_stands_before_a_patch_of_its_library_and_both_say_their_va
     assert text.count("libfranka 0.20.4") == 2
     file = spec_of("fr3_hand").as_posix()
     text = text.replace("libfranka 0.20.4", "libfranka 0.20.5").replace("velocity: 35 %", "velocity: 60 %")
-    found = review(_before("fr3_hand"), package_of("after", check(file, {file: text})))
+    found = review(package_before("fr3_hand"), package_of("after", check(file, {file: text})))
     first, second = (group.title for group in groups_of(found))
     assert first.startswith("devices.arm.limits.velocity: 35 % -> 60 % (cell.yaml:")
     assert second.startswith("devices.{arm,hand}.sdk: libfranka 0.20.4 -> 0.20.5 (cell.yaml:")
@@ -55,7 +43,7 @@ def test_a_faster_arm_stands_before_a_patch_of_its_library_and_both_say_their_va
 
 
 def test_ports_that_were_exchanged_are_told_as_that() -> None:
-    found = _of(
+    found = review_of(
         "openarm_bimanual", ("port: can1", "port: canX"), ("port: can0", "port: can1"), ("port: canX", "port: can0")
     )
     told = r"exchanged: left can1 -> can0, right can0 -> can1 \(cell\.yaml:\d+, \d+\)"
@@ -74,7 +62,7 @@ def test_ports_that_were_exchanged_are_told_as_that() -> None:
     ],
 )
 def test_an_obstacle_that_is_no_longer_where_it_was_is_dangerous(cell: str, edit: Edit, grade: str) -> None:
-    found = _of(cell, edit)
+    found = review_of(cell, edit)
     assert str(groups_of(found)[0].grade) == grade
     assert {(str(change.area), change.approval) for change in found.changes if change.grade == grade} == {
         ("model", "controller")
@@ -82,7 +70,7 @@ def test_an_obstacle_that_is_no_longer_where_it_was_is_dangerous(cell: str, edit
 
 
 def test_what_was_measured_with_it_stands_under_the_heading() -> None:
-    found = _of("hybrid_sdk", ("xyz: 0 0 11 mm", "xyz: 0 0 14 mm"))
+    found = review_of("hybrid_sdk", ("xyz: 0 0 11 mm", "xyz: 0 0 14 mm"))
     lines = _lines(found)
     at = next(number for number, line in enumerate(lines) if line.startswith("dangerous"))
     assert lines[at + 1] == "  measured with it, without a new revision: tcp_2f"
@@ -90,7 +78,7 @@ def test_what_was_measured_with_it_stands_under_the_heading() -> None:
 
 
 def test_a_moved_base_is_asked_of_safety_and_of_who_measures_and_no_line_is_cut() -> None:
-    found = _of("dual_ur", ("xyz: 0 -900 600 mm", "xyz: 0 -600 600 mm"))
+    found = review_of("dual_ur", ("xyz: 0 -900 600 mm", "xyz: 0 -600 600 mm"))
     lines = _lines(found)
     assert "  asks safety (safety), controller (controls), time_tf (metrology)" in lines
     assert not [line for line in lines if line.endswith("...")]
@@ -100,13 +88,13 @@ def test_a_moved_base_is_asked_of_safety_and_of_who_measures_and_no_line_is_cut(
 def test_a_state_that_recovery_lost_is_told_without_the_cell_and_a_value_is_one_piece_of_code() -> None:
     left = "[protective_stop, emergency_stop, fault]"
     was = "[protective_stop, user_stop, emergency_stop, fault]"
-    found = _of("fr3_hand", (f"states: {was}", f"states: {left}"))
+    found = review_of("fr3_hand", (f"states: {was}", f"states: {left}"))
     assert "  safety  states that need recovery lost user_stop" in _lines(found)
     assert f": `{was}` -> `{left}`" in render_markdown(found)
 
 
 def test_efforts_and_centers_of_mass_have_units() -> None:
-    facts = _before("ur5e_pick").facts
+    facts = package_before("ur5e_pick").facts
     path = ("real", "joint", "arm_elbow_joint", "limit", "effort")
     change = change_of(Delta(path, 150.0, 433.0), facts, facts)
     assert change is not None
@@ -118,7 +106,7 @@ def test_efforts_and_centers_of_mass_have_units() -> None:
 
 
 def test_pairs_of_links_read_as_what_can_meet() -> None:
-    before = _before("dual_ur")
+    before = package_before("dual_ur")
     pairs = [path for path, leaf in before.facts.leaves.items() if path[0] == "pair" and leaf == "Never"][:3]
     leaves = {path: leaf for path, leaf in before.facts.leaves.items() if path not in pairs}
     after = replace(before, document=None, facts=replace(before.facts, leaves=leaves))
@@ -130,7 +118,7 @@ def test_pairs_of_links_read_as_what_can_meet() -> None:
 
 
 def test_a_value_that_two_folders_do_not_hold_is_dangerous() -> None:
-    facts = replace(_before("rail_arm").facts, cell=None)
+    facts = replace(package_before("rail_arm").facts, cell=None)
     inputs = facts.manifest.configuration_inputs.model_copy(update={"cell_sha256": "0" * 64})
     other = replace(facts, manifest=facts.manifest.model_copy(update={"configuration_inputs": inputs}))
     (change,) = _unexplained(facts, other)
@@ -147,7 +135,7 @@ def test_a_value_that_two_folders_do_not_hold_is_dangerous() -> None:
     ],
 )
 def test_who_takes_an_approval_over_is_asked_with_who_had_it(area: str, before: str, asked: str) -> None:
-    (group,) = groups_of(_of("ur5e_pick", (f"{area}: {before},", f"{area}: metrology,")))
+    (group,) = groups_of(review_of("ur5e_pick", (f"{area}: {before},", f"{area}: metrology,")))
     assert group.asks == asked
 
 
@@ -159,14 +147,14 @@ def test_who_takes_an_approval_over_is_asked_with_who_had_it(area: str, before: 
     ],
 )
 def test_stiffness_of_a_joint_is_dangerous_and_both_safety_and_control_are_asked(cell: str, edit: Edit) -> None:
-    found = _of(cell, edit)
+    found = review_of(cell, edit)
     assert "stiffness of the joint" in {change.quantity for change in found.changes if change.grade == "dangerous"}
     assert {group.asks for group in groups_of(found)} == {"safety (safety), controller (controls)"}
     assert not [change.quantity for change in found.changes if "law." in change.quantity]
 
 
 def test_who_is_asked_is_never_cut_and_the_head_counts_what_is_listed() -> None:
-    found = _of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), ("max_age: 200 ms", "max_age: 205 ms"))
+    found = review_of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), ("max_age: 200 ms", "max_age: 205 ms"))
     lines = _lines(found)
     assert lines[0].partition(": ")[2] == "4 changes (4 review)"
     assert len(found.changes) == 5  # one is a line of a document that follows, which `--all` lists
