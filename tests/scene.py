@@ -7,15 +7,13 @@ from functools import cache
 from typing import Any
 from xml.etree import ElementTree
 
+import mujoco
 import numpy as np
 import pinocchio
-import pytest
 
 from cellc.compiler.feasibility.question import shapes_and_joints
 from cellc.robot.planning import RobotModel
 from tests.cells import built
-
-mujoco = pytest.importorskip("mujoco", reason="MuJoCo is not installed")
 
 SCENE = "sim/scene.xml"
 FREE = 0
