@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -19,7 +20,7 @@ from cellc.robot.description.model import Inertial
 from tests.cells import EVERY_CELL, ROOT, built, spec_text
 from tests.emit.cells import emitted
 from tests.link.test_packages import CELL, CUBE, DEVICE
-from tests.scene import FREE, SCENE, Described, loaded, mujoco, place, text_of
+from tests.scene import FREE, SCENE, Described, loaded, place, text_of
 
 every_cell = pytest.mark.parametrize("cell", EVERY_CELL)
 
