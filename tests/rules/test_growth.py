@@ -6,14 +6,20 @@ import cProfile
 import json
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 
+from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.deploy.deployment import Deployment, plan_deployment
 from cellc.compiler.deploy.gate_subjects import ROWS
+from cellc.compiler.emit import cell_picture, description, node_graph, simulation
+from cellc.compiler.emit.emit_all import EMITTERS
+from cellc.compiler.emit.launch import launch
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.pipeline import check, emit_cell
 from cellc.compiler.rules.run import ALL_RULES
@@ -23,6 +29,7 @@ from tests.rules.halls import HALLS, of_groups
 if TYPE_CHECKING:
     from _typeshed import TraceFunction
 
+Emitter: TypeAlias = Callable[[CellGraph, Deployment], Iterator[Artifact]]
 _FIRST, _MANY, _MOST = 14, 250, 2.15
 
 
@@ -120,16 +127,57 @@ WORK = {rule.code: rule.check for rule in ALL_RULES} | {name: rows for name, row
 _TWICE = 2.3
 
 
-@pytest.mark.parametrize("spec", [_cell, _stands, *HALLS], ids=lambda spec: spec.__name__.strip("_"))
+SPECS = pytest.mark.parametrize("spec", [_cell, _stands, *HALLS], ids=lambda spec: spec.__name__.strip("_"))
+
+
+@SPECS
 def test_no_rule_and_no_line_of_a_gate_searches_the_cell_for_each_of_its_things(
     spec: Callable[[int], str], tmp_path: Path
 ) -> None:
+    cells = _of_three_sizes(spec, 15, tmp_path)
+    assert _grown({name: [_steps(work, cell) for cell in cells] for name, work in WORK.items()}) == {}
+
+
+OF_THE_WHOLE = {
+    description.emit: "the robot that the manager of each station reads is all of the cell",
+    simulation.emit: "a keyframe has all joints, and pairs without contact are listed",
+    launch.emit: "each step of the bring-up lists all managed nodes",
+    node_graph.emit: "a line through a layer passes all that is there",
+    cell_picture.emit: "names are set beside each other in one picture",
+}
+"""Emitters whose files, or drawings, have all things of the cell beside each thing."""
+
+
+@SPECS
+def test_no_emitter_searches_the_cell_for_each_of_its_things(spec: Callable[[int], str], tmp_path: Path) -> None:
+    cells = _of_three_sizes(spec, 8, tmp_path)
+    plans = [plan_deployment(build_graph(cell)) for cell in cells]
+    steps = {
+        emit.__module__: [_steps(partial(_emitted, emit, plan), cell) for cell, plan in zip(cells, plans, strict=True)]
+        for emit in EMITTERS
+        if emit not in OF_THE_WHOLE
+    }
+    assert _grown(steps) == {}
+
+
+def _emitted(emit: Emitter, plan: Deployment, graph: CellGraph) -> Iterator[Artifact]:
+    return emit(graph, plan)
+
+
+def _of_three_sizes(spec: Callable[[int], str], first: int, folder: Path) -> list[Cell]:
+    """Return cells of a size, of twice and of four times that."""
     cells = []
-    for size in (15, 30, 60) if spec is not of_groups else (3, 6, 12):  # more pairs of shapes are refused
-        (tmp_path / "cell.yaml").write_text(spec(size), encoding="utf-8")
-        graph = there(check(tmp_path / "cell.yaml").graph)
-        cells.append(graph.cell)
-    # Of three sizes the constant part drops out: twice the things that are added are twice the steps, or four times.
-    steps = {name: [_steps(work, cell) for cell in cells] for name, work in WORK.items()}
+    first = 3 if spec is of_groups else first  # more pairs of shapes are refused
+    for size in (first, 2 * first, 4 * first):
+        (folder / "cell.yaml").write_text(spec(size), encoding="utf-8")
+        cells.append(there(check(folder / "cell.yaml").graph).cell)
+    return cells
+
+
+def _grown(steps: dict[str, list[int]]) -> dict[str, tuple[int, int]]:
+    """Return what grew with the square; the constant part drops out of three sizes.
+
+    Twice the things that are added are twice the steps, or four times.
+    """
     grown = {name: (twice - once, fourfold - twice) for name, (once, twice, fourfold) in steps.items()}
-    assert {name: added for name, added in grown.items() if added[1] > _TWICE * added[0] + 100} == {}
+    return {name: added for name, added in grown.items() if added[1] > _TWICE * added[0] + 100}

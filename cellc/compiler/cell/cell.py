@@ -153,6 +153,16 @@ class Cell:
         return {joint.name: joint for device in reversed(self.devices) for joint in reversed(device.joints)}
 
     @cached_property
+    def holders(self) -> Mapping[str, str]:
+        """Device of each joint, sensor and group of inputs and outputs by its name, the last where one occurs twice."""
+        holders = {joint.name: device.name for device in self.devices for joint in device.joints}
+        for device in self.devices:
+            hardware = device.control.hardware
+            if hardware is not None:
+                holders |= {group.name: device.name for group in (*hardware.sensors, *hardware.gpios)}
+        return holders
+
+    @cached_property
     def controllers_of(self) -> Mapping[str, Mapping[str, str]]:
         """Full names of the controllers of each device that has some, by their kind."""
         by_device: dict[str, dict[str, str]] = {}

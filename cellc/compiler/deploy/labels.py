@@ -242,9 +242,11 @@ def stop_facts(cell: Cell) -> Iterator[str]:
 
 def units(cell: Cell, controller: Controller, claimed: Sequence[str]) -> str:
     """Return the units of what a controller commands, each once; ``claimed`` are all or some of its claims."""
-    types = {joint.name: joint.type for device in cell.devices for joint in device.joints}
+    joints = cell.joints_by_name
     names = (
-        _UNITS[kind][types[joint] == "prismatic"] if joint in types and kind in _UNITS else f"as {kind} of the device"
+        _UNITS[kind][joints[joint].type == "prismatic"]
+        if joint in joints and kind in _UNITS
+        else f"as {kind} of the device"
         for joint, _, kind in (name.rpartition("/") for name in claimed)
     )
     if controller.behavior in PASSIVE:
@@ -269,8 +271,7 @@ def watchdog(device: Device) -> str:
 
 def watchdogs(cell: Cell, controller: Controller) -> str:
     """Return the watchdog of each device that a controller claims something of, by its name where there are several."""
-    holders = claimed_by_device(cell, controller)
-    stated = {device.name: watchdog(device) for device in cell.devices if device.name in holders}
+    stated = {name: watchdog(cell.device(name)) for name in claimed_by_device(cell, controller)}
     if len(stated) < 2:
         return next(iter(stated.values()), _NOT_STATED)
     return "; ".join(f"{name}: {text}" for name, text in stated.items())

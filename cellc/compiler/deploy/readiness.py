@@ -42,9 +42,8 @@ def is_claiming(cell: Cell, controller: Controller, later: tuple[Device, ...]) -
     One that answers services is wanted before anybody claims: it says what mode the robot is in. It waits where its
     hardware starts later, or where it claims a joint itself, whatever its kind is called.
     """
-    joints = {joint.name for device in cell.devices for joint in device.joints}
     served_early = controller.behavior in PASSIVE and controller.device not in {device.name for device in later}
-    moves = any(interface.rpartition("/")[0] in joints for interface in controller.command_interfaces)
+    moves = any(interface.rpartition("/")[0] in cell.joints_by_name for interface in controller.command_interfaces)
     return bool(controller.command_interfaces) and (moves or not served_early)
 
 

@@ -94,14 +94,9 @@ def build_claims(cell: Cell) -> ClaimGraph:
 
 def claimed_by_device(cell: Cell, controller: Controller) -> Mapping[str, tuple[str, ...]]:
     """Return what a controller claims on any target, by device; what no description lists is of its own device."""
-    holders = {joint.name: device.name for device in cell.devices for joint in device.joints}
-    for device in cell.devices:
-        hardware = device.control.hardware
-        if hardware is not None:
-            holders |= {group.name: device.name for group in (*hardware.sensors, *hardware.gpios)}
     claims: dict[str, list[str]] = {}
     for interface in controller.all_claims:
-        holder = holders.get(interface.rpartition("/")[0], controller.device)
+        holder = cell.holders.get(interface.rpartition("/")[0], controller.device)
         if holder is not None:
             claims.setdefault(holder, []).append(interface)
     return {holder: tuple(interfaces) for holder, interfaces in claims.items()}

@@ -184,8 +184,7 @@ def _controllers(cell: Cell) -> Iterator[tuple[str, ...]]:
 def _controller(
     cell: Cell, manager: ControllerManager, controller: Controller, action: Interface | None
 ) -> tuple[str, ...]:
-    holders = claimed_by_device(cell, controller)
-    components = (device.control.hardware for device in cell.devices if device.name in holders)
+    components = (cell.device(name).control.hardware for name in claimed_by_device(cell, controller))
     hardware = " and ".join(component.name for component in components if component is not None) or "its hardware"
     rate = controller.update_rate_hz or manager.update_rate_hz
     behavior = "" if action is None else f"; {failure_label(action, {})}"
@@ -258,10 +257,13 @@ def _record_source(cell: Cell, device: Device, source: RecordSource) -> str:
 
 
 def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
+    files = {manager.node: controllers_file(cell, manager, "real") for manager in cell.managers}
     for node in cell.nodes:
         real = " (real target)" if node.real_only else ""
         program = f"{node.package}/{node.executable}{real}"
-        yield code(node.full_name), program, node.host or "not stated", node.owner, _code(_parameters(cell, node))
+        own = files.get(node.full_name)
+        parameters = _parameters(cell, node) if own is None else (own,)
+        yield code(node.full_name), program, node.host or "not stated", node.owner, _code(parameters)
     for device in cell.devices:
         for host_program in device.site.programs:
             program = f"{host_program.package}/{host_program.program} (real target, no node)"
@@ -284,10 +286,7 @@ def _nodes(cell: Cell) -> Iterator[tuple[str, ...]]:
 
 
 def _parameters(cell: Cell, node: Node) -> tuple[str, ...]:
-    """Return the names of parameters, and the files of those that several nodes or controllers share."""
-    files = {manager.node: controllers_file(cell, manager, "real") for manager in cell.managers}
-    if node.full_name in files:
-        return (files[node.full_name],)
+    """Return the names of parameters of a node that is no manager, and the files of those that several nodes share."""
     if node.name == DESCRIPTION_PUBLISHER:
         return ("robot_description",)
     if node.source is NodeSource.STANDARD:

@@ -62,12 +62,12 @@ def bindings(graph: CellGraph) -> tuple[Binding, ...]:
     remote = network.discovery in ("multicast", "unicast", "server")
     servers = _servers(graph) if network.discovery == "server" else ()
     bindings: list[Binding] = []
+    cards = {host: _cards(graph, host) for host in graph.cell.hosts} if remote else {}
     for host in graph.cell.hosts:
-        cards = _cards(graph, host) if remote else ()
-        others = [address for other in graph.cell.hosts if other != host for address in _cards(graph, other)]
+        others = (address for other, own in cards.items() if other != host for address in own)
         peers = (*others, *network.peers) if network.discovery == "unicast" else ()
         runs = tuple(number for number, server in enumerate(network.servers) if server.host == host) if servers else ()
-        bindings.append(Binding(host, (_LOOPBACK, *cards), tuple(dict.fromkeys(peers)), servers, runs))
+        bindings.append(Binding(host, (_LOOPBACK, *cards.get(host, ())), tuple(dict.fromkeys(peers)), servers, runs))
     return tuple(bindings)
 
 
