@@ -125,7 +125,7 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
     """Ask for every named pose and every goal whose place is known before the cell runs."""
     cell = graph.cell
     tips = {group.name: graph.frames.carrier(group.tip_frame) for group in cell.groups}
-    joints = {joint.name: joint for device in cell.devices for joint in device.joints}
+    joints = cell.joints_by_name
     return MotionQuestion(
         urdf=shapes_and_joints(cell),
         start=tuple(sorted(start_positions(cell).items())),

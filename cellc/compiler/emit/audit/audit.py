@@ -108,7 +108,7 @@ def ending(cell: Cell) -> Iterator[str]:
     yield "Make sure that no part is held. Keep people and objects out from under any tool or part that may fall."
     if motion_clients(cell):
         yield "Stop move.launch.xml on every computer, which stops all motion clients"
-    joints = {joint.name for device in cell.devices for joint in device.joints}
+    joints = cell.joints_by_name
     for manager in cell.managers:
         claiming = " ".join(
             controller.name

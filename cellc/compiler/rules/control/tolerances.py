@@ -110,7 +110,7 @@ _WIDEST_RAD = 1.0
 @rule(Severity.ERROR, assumes=("unit-of-another-joint",))
 def path_tolerance_without_effect(graph: CellGraph) -> Findings:
     """Yield trajectory controllers whose tolerance exceeds half of a joint's range, or 1 rad."""
-    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    joints = graph.cell.joints_by_name
     for controller in graph.cell.controllers:
         if controller.behavior not in TRAJECTORIES or controller.path_tolerance is None:
             continue
@@ -223,7 +223,7 @@ _LEFT_RAD, _LEFT_M = 0.4, 0.1
 
 def _departures(graph: CellGraph) -> Iterator[Figure]:
     """Yield by how much a joint may leave its path."""
-    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    joints = graph.cell.joints_by_name
     for controller in graph.cell.controllers:
         if controller.behavior not in TRAJECTORIES:
             continue

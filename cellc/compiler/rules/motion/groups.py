@@ -76,7 +76,7 @@ def straight_planner_first(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR, assumes=("unit-of-another-joint",))
 def pose_outside_limits(graph: CellGraph) -> Findings:
     """Yield each joint of a pose that is below its lower or above its upper limit."""
-    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    joints = graph.cell.joints_by_name
     for pose in graph.cell.poses:
         if len(pose.joints) != len(pose.positions):
             continue
@@ -93,7 +93,7 @@ def pose_outside_limits(graph: CellGraph) -> Findings:
 @rule(Severity.ERROR)
 def unit_of_another_joint(graph: CellGraph) -> Findings:
     """Yield each figure whose unit is not that of its joint, once for each place."""
-    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    joints = graph.cell.joints_by_name
     seen = set[YamlPath]()
     for path, name, linear in _figures(graph.cell):
         joint = joints.get(name)
@@ -144,7 +144,7 @@ def _of_one_joint(cell: Cell) -> Iterator[tuple[YamlPath, str, bool]]:
 )
 def unplannable_joint(graph: CellGraph) -> Findings:
     """Yield joints of planning groups without the limits that a planner needs."""
-    joints = {joint.name: joint for device in graph.cell.devices for joint in device.joints}
+    joints = graph.cell.joints_by_name
     for group in graph.cell.groups:
         for joint in (joints[name] for name in group.joints if name in joints):
             if lacks := " and no ".join(_lacking(joint)):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
-from cellc.compiler.cell.device import Device, DeviceJoint
+from cellc.compiler.cell.device import Device
 from cellc.compiler.graph.commissioning import tip_bounds
 from cellc.compiler.rules.bounds import Bound, Figure, outside, stated
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
@@ -14,17 +14,13 @@ _Owners = Iterator[tuple[YamlPath, object]]
 _SERVO: YamlPath = ("motion", "servo")
 
 
-def _joints(graph: CellGraph) -> Mapping[str, DeviceJoint]:
-    return {joint.name: joint for device in graph.cell.devices for joint in device.joints}
-
-
 def _of_servo(graph: CellGraph) -> tuple[float, float, tuple[Related, ...]]:
     """Return the speed of the tip in m/s and of the fastest joint that Servo's group has, and where it is limited."""
     servo = graph.cell.servo
     group = next((group for group in graph.cell.groups if servo is not None and group.name == servo.group), None)
     if group is None:
         return 0.0, 0.0, ()
-    joints = graph.once(_joints)
+    joints = graph.cell.joints_by_name
     own = [joints[name] for name in group.joints if name in joints]
     fastest = max((joint.velocity or 0.0 for joint in own if not joint.slides), default=0.0)
     limits = (*own[0].path[:2], "limits") if own else ()
@@ -74,7 +70,7 @@ def _grips(graph: CellGraph) -> _Owners:
 
 def _saturated(graph: CellGraph) -> Iterator[Figure]:
     """Yield the speeds at which the mock saturates joints, and to which faults slow them."""
-    joints = graph.once(_joints)
+    joints = graph.cell.joints_by_name
     for device in graph.cell.devices:
         for simulated in device.mock.simulated_joints:
             if simulated.velocity is not None:

@@ -137,7 +137,7 @@ def _refused_modes(graph: CellGraph, state: ControlState) -> Iterator[tuple[Cont
 @rule(Severity.ERROR, assumes=("double-claim", "shared-prefix"))
 def two_interfaces_of_one_joint(graph: CellGraph) -> Findings:
     """Yield each second controller of a joint in a state that the cell reaches, once for a pair."""
-    joints = {joint.name for device in graph.cell.devices for joint in device.joints}
+    joints = graph.cell.joints_by_name
     seen: set[tuple[str, str, str]] = set()
     for state in graph.claims.states:
         owners: dict[str, tuple[str, Controller]] = {}
