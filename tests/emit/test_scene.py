@@ -329,4 +329,19 @@ def test_part_without_a_mass_weighs_as_water_and_the_file_says_so(tmp_path: Path
     )
     written_scene = emitted(tmp_path, text)[SCENE]
     assert loaded(written_scene).body("object").mass[0] == pytest.approx(1000.0 * 0.077**3, rel=1e-9)
-    assert "not stated: its mass, as of water" in written_scene
+    assert "not stated: its size, as a cube of 0.077 m, its mass, as of water, its friction, 0.5" in written_scene
+
+
+def test_part_is_the_box_that_is_stated_and_its_friction_counts_wherever_it_touches(tmp_path: Path) -> None:
+    stated = "width: 77 mm, tolerance: 2 mm, mass: 0.2 kg"
+    text = spec_text("ur5e_pick").replace(stated, f"{stated}, size: 40 77 60 mm, friction: 0.8")
+    written_scene = emitted(tmp_path, text)[SCENE]
+    model = loaded(written_scene)
+    body = model.body("object")
+    (geom,) = (index for index in range(model.ngeom) if model.geom_bodyid[index] == body.id)
+    assert model.geom_size[geom].tolist() == [0.02, 0.0385, 0.03]
+    assert model.geom_friction[geom][0] == 0.8
+    assert model.geom_priority[geom] > model.geom_priority[: geom - 1].max()
+    # 0.2 kg / 12 times the squares of the edges across each axis.
+    assert body.inertia == pytest.approx([1.588166666667e-4, 8.6666666667e-5, 1.254833333333e-4], rel=1e-9)
+    assert "object is a box of 0.04 by 0.077 by 0.06 m about its frame -->" in written_scene

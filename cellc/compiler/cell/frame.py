@@ -16,6 +16,8 @@ from cellc.robot.description.model import Box, Cylinder, Geometry, Mesh, Sphere
 
 WORLD = "world"
 """Root of every cell's frame tree."""
+FRICTION = 0.5
+"""Of the surface of a part where none is stated: that of dry rubber."""
 
 
 class FrameKind(str, Enum):
@@ -42,11 +44,23 @@ class SimulatedPose:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grasp:
-    """A part as fingers meet it, m and kg; None of what is not stated."""
+    """A part as fingers meet it, m and kg; None of what is not stated.
+
+    Args:
+        size_m: its edges along x, y and z of its frame.
+        friction: dry, of its surface.
+    """
 
     width_m: float | None
     tolerance_m: float | None
     mass_kg: float | None
+    size_m: Vector3 | None = None
+    friction: float | None = None
+
+    @property
+    def grips_with(self) -> float:
+        """The dry friction between it and what it touches, stated or not."""
+        return FRICTION if self.friction is None else self.friction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -11,7 +11,7 @@ from cellc.compiler.link.names import unknown_name
 from cellc.compiler.link.quantities import pose, si, vector
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.cell_spec import CellSpec
-from cellc.compiler.spec.frames import FrameSpec
+from cellc.compiler.spec.frames import FrameSpec, GraspSpec
 from cellc.contract.diagnostics import Diagnostic, Outcome, YamlPath
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
@@ -162,11 +162,19 @@ def _spec_frame(
         buffer_s=si(written.buffer),
         reference_points=written.reference_points,
         simulated_pose=simulated.value,
-        grasp=None
-        if (grasp := written.grasp) is None
-        else Grasp(width_m=si(grasp.width), tolerance_m=si(grasp.tolerance), mass_kg=si(grasp.mass)),
+        grasp=None if written.grasp is None else _grasp(written.grasp),
     )
     return Outcome(frame, problems)
+
+
+def _grasp(written: GraspSpec) -> Grasp:
+    return Grasp(
+        width_m=si(written.width),
+        tolerance_m=si(written.tolerance),
+        mass_kg=si(written.mass),
+        size_m=None if written.size is None else vector(written.size),
+        friction=written.friction,
+    )
 
 
 def _simulated_pose(name: str, written: FrameSpec, names: FrameNames) -> Outcome[SimulatedPose]:

@@ -4,7 +4,7 @@ from pydantic import Field
 
 from cellc.compiler.spec.base import MOST, FrameReference
 from cellc.compiler.spec.devices import PlacementSpec
-from cellc.compiler.spec.quantity import Duration, Frequency, Length, Mass, Position, RollPitchYaw
+from cellc.compiler.spec.quantity import Duration, Frequency, Length, Mass, Position, RollPitchYaw, Sides
 from cellc.contract.stated import Name, Pin, StatedModel, Text
 from cellc.contract.vocabulary import UNKNOWN
 
@@ -49,6 +49,18 @@ class GraspSpec(StatedModel):
         None, description="How much a right part may be wider or narrower; asked for too.", examples=["2 mm"]
     )
     mass: Mass | None = Field(None, description="Its mass; asked for too.", examples=["0.2 kg"])
+    size: Sides | None = Field(
+        None,
+        description="Its edges along x, y and z of the frame, for a simulator; if absent it is as wide everywhere.",
+        examples=["40 77 60 mm"],
+    )
+    friction: float | None = Field(
+        None,
+        description="Dry friction of its surface on what it touches, above all the pads of fingers; 0.5 if absent.",
+        examples=[0.5],
+        ge=0.01,
+        le=5.0,
+    )
 
 
 class FrameSpec(StatedModel):

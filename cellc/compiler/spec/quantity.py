@@ -308,6 +308,8 @@ JointJerk = Annotated[Quantity, QuantityType((ANGULAR_JERK, JERK), "20 rad/s^3",
 JointPositions = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0 -90 90 -90 -90 0 deg", size=0, mixed=True)]
 # One figure for joints that turn, one for joints that slide, or both.
 JointTolerances = Annotated[QuantityVector, QuantityType((ANGLE, LENGTH), "0.2 rad", mixed=True)]
+Sides = Annotated[QuantityVector, QuantityType((LENGTH,), "40 77 60 mm", size=3, least=1e-3)]
+"""Of a body, which has an extent each way."""
 Edges = Annotated[QuantityVector, QuantityType((LENGTH,), "80 120 0 mm", size=3, least=0.0)]
 Position = Annotated[QuantityVector, QuantityType((LENGTH,), "0 0 162 mm", size=3)]
 # One turn, rounded as people write it: more is an angle in degrees that is read in radians.

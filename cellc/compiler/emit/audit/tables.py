@@ -36,6 +36,7 @@ from cellc.compiler.deploy.labels import (
 from cellc.compiler.deploy.processes import past_controllers
 from cellc.compiler.formats.escape import code
 from cellc.compiler.formats.markdown_table import table
+from cellc.compiler.formats.mjcf.parts import assumed, edges_m, mass_kg
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
@@ -114,6 +115,19 @@ def _solid(cell: Cell, solid: Solid) -> tuple[str, ...]:
     if touched is None:
         return solid.name, shape, ", ".join(parts) or solid.kind, "figures of the spec"
     return solid.name, shape, ", ".join(parts) or solid.kind, touched_label(touched, solid.is_plane)
+
+
+def parts_section(cell: Cell) -> str:
+    """Write each part as a simulator has it in ``sim/scene.xml``, and what of it nobody has stated."""
+    return table(("part", "edges", "mass", "friction", "not stated"), _parts(cell))
+
+
+def _parts(cell: Cell) -> Iterator[tuple[str, ...]]:
+    for frame in cell.frames:
+        if (grasp := frame.grasp) is not None:
+            edges = " by ".join(f"{edge * 1e3:.4g}" for edge in edges_m(grasp))
+            figures = f"{edges} mm", f"{mass_kg(grasp):.4g} kg", f"{grasp.grips_with:g}"
+            yield code(frame.name), *figures, ", ".join(assumed(grasp)) or "nothing"
 
 
 def signals_section(cell: Cell) -> str:

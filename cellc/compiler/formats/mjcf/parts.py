@@ -2,47 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
-from cellc.compiler.cell.frame import Grasp
+from cellc.compiler.cell.frame import FRICTION, Grasp
 from cellc.compiler.formats.mjcf.elements import numbers
 from cellc.compiler.formats.mjcf.tree import Part
 from cellc.compiler.formats.numbers import rounded, shortest
 from cellc.compiler.formats.xml_text import element
+from cellc.contract.transforms import Vector3
 
 EDGE_M = 0.05
 DENSITY_KG_M3 = 1000.0
 _COLOR = "0.85 0.55 0.2 1"
+_TURNING = "0.005 0.0001"
+"""What MuJoCo has against turning about the normal of a contact, m, and against rolling, m."""
 
 
 def part_elements(part: Part) -> tuple[Element, ...]:
-    """Return what is in the body of a part: a cube as wide as fingers meet it, about its frame."""
-    edge, mass = edge_m(part.grasp), mass_kg(part.grasp)
-    moment = shortest(rounded(mass * edge**2 / 6.0))
+    """Return what is in the body of a part: a box about its frame, whose friction counts wherever it touches."""
+    edges, mass = edges_m(part.grasp), mass_kg(part.grasp)
+    x, y, z = (edge**2 for edge in edges)
+    moments = (rounded(mass * squares / 12.0) for squares in (y + z, x + z, x + y))
+    surface = {"condim": "4", "friction": f"{shortest(part.grasp.grips_with)} {_TURNING}", "priority": "1"}
     return (
         element("freejoint", {"name": f"{part.name}_free"}),
-        element("inertial", {"pos": "0 0 0", "mass": shortest(mass), "diaginertia": " ".join([moment] * 3)}),
-        element("geom", {"type": "box", "size": numbers([edge / 2.0] * 3), "rgba": _COLOR, "condim": "4"}),
+        element("inertial", {"pos": "0 0 0", "mass": shortest(mass), "diaginertia": numbers(moments)}),
+        element("geom", {"type": "box", "size": numbers(edge / 2.0 for edge in edges), "rgba": _COLOR, **surface}),
     )
 
 
-def edge_m(grasp: Grasp) -> float:
-    """Return the edge of the cube."""
-    return grasp.width_m or EDGE_M
+def edges_m(grasp: Grasp) -> Vector3:
+    """Return the edges of the box: those that are stated, else of a cube as wide as fingers meet it."""
+    edge = grasp.width_m or EDGE_M
+    return grasp.size_m or (edge, edge, edge)
 
 
 def mass_kg(grasp: Grasp) -> float:
     """Return the mass that is stated, or that of as much water."""
-    return grasp.mass_kg or rounded(DENSITY_KG_M3 * edge_m(grasp) ** 3)
+    x, y, z = edges_m(grasp)
+    return grasp.mass_kg or rounded(DENSITY_KG_M3 * x * y * z)
 
 
 def defaults_of(part: Part) -> str:
-    """Return what of a part is not stated, as a line of the file."""
-    grasp, taken = part.grasp, [f"a cube of {shortest(edge_m(part.grasp))} m about its frame"]
-    if grasp.width_m is None:
-        taken.append("its width")
-    if grasp.mass_kg is None:
-        taken.append("its mass, as of water")
-    return f"frames, grasp: {part.name} is {' with '.join(taken[:1])}" + (
-        f"; not stated: {', '.join(taken[1:])}" if taken[1:] else ""
+    """Return what a part is taken as, and what of it is not stated, as a line of the file."""
+    x, y, z = (shortest(edge) for edge in edges_m(part.grasp))
+    not_stated = ", ".join(assumed(part.grasp))
+    return f"frames, grasp: {part.name} is a box of {x} by {y} by {z} m about its frame" + (
+        f"; not stated: {not_stated}" if not_stated else ""
     )
+
+
+def assumed(grasp: Grasp) -> Iterator[str]:
+    """Yield what of a part is not stated, with what is taken in its place."""
+    if grasp.size_m is None:
+        yield f"its size, as a cube of {shortest(grasp.width_m or EDGE_M)} m"
+    if not grasp.mass_kg:
+        yield "its mass, as of water"
+    if grasp.friction is None:
+        yield f"its friction, {shortest(FRICTION)}"

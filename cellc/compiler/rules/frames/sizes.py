@@ -114,6 +114,8 @@ def _parts(graph: CellGraph) -> Iterator[Figure]:
         path = (*frame.path, "grasp")
         if grasp.width_m is not None:
             yield Figure((*path, "width"), grasp.width_m, 1e-4, 3.0)
+        if grasp.size_m is not None:
+            yield Figure((*path, "size"), max(grasp.size_m), 1e-3, 3.0)
         if grasp.tolerance_m is not None:
             most = 0.05 if grasp.width_m is None else grasp.width_m / 2.0
             related = () if grasp.width_m is None else (Related("its width", graph.cell.locate(*path, "width")),)
@@ -214,7 +216,7 @@ BOUNDS = (
     Bound(("uncertainty.repeatability.*",), "the repeatability", "mm", "what arms have by ISO 9283", _repeatability),
     Bound(("uncertainty.tolerances.*",), "the tolerance of the goal", "mm", "to which parts are placed", _allowed),
     Bound(
-        ("frames.*.grasp.width", "frames.*.grasp.tolerance"),
+        ("frames.*.grasp.width", "frames.*.grasp.size", "frames.*.grasp.tolerance"),
         "the measure of the part",
         "mm",
         "a part that fingers hold, and at most half of its width for its tolerance",

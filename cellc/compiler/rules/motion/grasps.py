@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Gripper
-from cellc.compiler.cell.frame import Frame, Grasp
+from cellc.compiler.cell.frame import FRICTION, Frame, Grasp
 from cellc.compiler.rules.carried import parts_taken
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, enters, found, rule
 from cellc.contract.diagnostics import Span
@@ -106,8 +106,8 @@ def part_like_nothing(graph: CellGraph) -> Findings:
             yield found(graph, path, message, related=(Related("it closes here", span), *related))
 
 
-_GRAVITY, _FRICTION, _ARM = 9.81, 0.5, 9.81
-"""Two pads with a dry friction hold a part that is accelerated with 1 g beside its weight."""
+_GRAVITY, _ARM = 9.81, 9.81
+"""Two pads hold by dry friction a part that is accelerated with 1 g beside its weight."""
 
 
 @rule(Severity.WARNING)
@@ -116,7 +116,8 @@ def grip_too_weak(graph: CellGraph) -> Findings:
     for name, gripper, frame, span in graph.once(_gripped):
         mass_kg = None if frame.grasp is None else frame.grasp.mass_kg
         force = gripper.max_force if gripper.grip_force is None else gripper.grip_force
-        needed = (mass_kg or 0.0) * (_GRAVITY + _ARM) / (2.0 * _FRICTION)
+        friction = FRICTION if frame.grasp is None else frame.grasp.grips_with
+        needed = (mass_kg or 0.0) * (_GRAVITY + _ARM) / (2.0 * friction)
         if 0.0 < force < needed:
             mass, stated = (*frame.path, "grasp", "mass"), (*graph.cell.device(name).path, "grip", "force")
             path, other = (mass, stated) if gripper.grip_force is None else (stated, mass)
