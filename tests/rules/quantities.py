@@ -25,6 +25,7 @@ BY_RULES: dict[str, tuple[str, ...]] = {
     "devices.*.tool_connector.serial.tx_idle_chars": ("refused-tool-connector",),
     "devices.*.tool_connector.voltage": ("refused-tool-connector", "tool-voltage-mismatch"),
     "format": ("unsupported-format",),
+    "frames.*.grasp.friction": ("grip-too-weak", "out-of-range"),
     "frames.*.rpy": ("out-of-range",),
     "frames.*.simulated_pose.rpy": ("out-of-range",),
     "frames.*.xyz": ("implausible-distance",),
@@ -134,8 +135,8 @@ WRONG: tuple[tuple[str, str], ...] = (
         "devices.*.switching.time devices.*.switching.within",
     ),
     (
-        "frames: {object: {grasp: {width: 50 m, tolerance: 30 m, mass: 50 kg}}}",
-        "frames.*.grasp.width frames.*.grasp.tolerance frames.*.grasp.mass",
+        "frames: {object: {grasp: {width: 50 m, tolerance: 30 m, mass: 50 kg, size: 50 50 50 m}}}",
+        "frames.*.grasp.width frames.*.grasp.size frames.*.grasp.tolerance frames.*.grasp.mass",
     ),
     (
         "scene: {table: {parent: world, xyz: 0 2 0 m, box: 0.9 1.2 0.04 mm}, "

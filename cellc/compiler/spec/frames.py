@@ -58,8 +58,8 @@ class GraspSpec(StatedModel):
         None,
         description="Dry friction of its surface on what it touches, above all the pads of fingers; 0.5 if absent.",
         examples=[0.5],
-        ge=0.01,
-        le=5.0,
+        ge=0.05,
+        le=2.0,
     )
 
 

@@ -118,15 +118,15 @@ def _solid(cell: Cell, solid: Solid) -> tuple[str, ...]:
 
 
 def parts_section(cell: Cell) -> str:
-    """Write each part as a simulator has it in ``sim/scene.xml``, and what of it nobody has stated."""
+    """Write each part as a simulator has it in ``sim/scene.xml``, and what of it is not stated."""
     return table(("part", "edges", "mass", "friction", "not stated"), _parts(cell))
 
 
 def _parts(cell: Cell) -> Iterator[tuple[str, ...]]:
     for frame in cell.frames:
         if (grasp := frame.grasp) is not None:
-            edges = " by ".join(f"{edge * 1e3:.4g}" for edge in edges_m(grasp))
-            figures = f"{edges} mm", f"{mass_kg(grasp):.4g} kg", f"{grasp.grips_with:g}"
+            edges = " by ".join(f"{edge:.4g}" for edge in edges_m(grasp))
+            figures = f"{edges} m", f"{mass_kg(grasp):.4g} kg", f"{grasp.grips_with:g}"
             yield code(frame.name), *figures, ", ".join(assumed(grasp)) or "nothing"
 
 
