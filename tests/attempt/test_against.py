@@ -55,7 +55,7 @@ def test_outcome_time_and_error_are_told_at_their_step(tmp_path: Path) -> None:
     # Accepted at 150 ms.
     assert found["parted"] == [
         f"{step}: time 0.750 s, rehearsed 0.350 s",
-        f"{step}: error 0.03 rad or m, rehearsed 0.01",
+        f"{step}: error 30 mrad or mm, rehearsed 10 mrad or mm",
     ]
     failed = against(driven(500 * MS, ABORTED), driven(520 * MS), tmp_path / "failed")
     assert failed["parted"] == [f"{step}: outcome tolerance_violation at 0.500 s, rehearsed succeeded"]
@@ -68,7 +68,7 @@ def test_an_error_of_zero_is_known_and_one_that_was_not_recorded_is_not(tmp_path
     assert (step["real"]["error"], step["rehearsed"]["error"]) == (0.0, None)
     words = (tmp_path / "real").as_posix(), *PACKAGE, "--against", (tmp_path / "other").as_posix()
     page = run("attempt", *words, "--format", "markdown").out
-    assert "`succeeded` | `succeeded` | `0.350` | `0.350` | `0` | `UNKNOWN` |" in page
+    assert "| succeeded | succeeded | 0.350 | 0.350 | 0 rad or m | UNKNOWN |" in page
 
 
 def test_rate_age_and_error_are_those_of_the_messages(tmp_path: Path) -> None:
@@ -81,7 +81,7 @@ def test_rate_age_and_error_are_those_of_the_messages(tmp_path: Path) -> None:
     rate, age = found["rate", "/joint_states"], found["age at arrival", "/joint_states"]
     assert (rate["median"], rate["worst"], rate["count"]) == pytest.approx((500.0, 250.0, 498))
     assert (age["median"], age["worst"], age["count"]) == pytest.approx((0.0, 0.03, 499))
-    assert (rate["stated"], age["stated"]) == ("500 Hz", "0.1 s")
+    assert (rate["stated"], age["stated"]) == ("500 Hz", "100 ms")
     error = found["following error", "arm_trajectory"]
     assert (error["median"], error["worst"], error["count"]) == pytest.approx((0.01, 0.01, 100))
 
@@ -213,8 +213,8 @@ def test_records_have_no_errors_and_what_is_unknown_stays_unknown(rehearsed: Pat
     records.write_text("".join(f"{json.dumps(line)}\n" for line in lines), encoding="utf-8")
     bag = driven(500 * MS).write(tmp_path / "real").as_posix()
     page = run("attempt", bag, *PACKAGE, "--against", records.as_posix(), "--format", "markdown").out
-    assert "`succeeded` | `UNKNOWN` | `0.350` | `UNKNOWN` | `0.01` | `UNKNOWN` |" in page
-    assert re.search(r"`rate of /joint_states` \| `median 500[^|]*\| `UNKNOWN` \|", page)
+    assert "| succeeded | UNKNOWN | 0.350 | UNKNOWN | 10 mrad or mm | UNKNOWN |" in page
+    assert re.search(r"\| rate of /joint_states \| median 500 Hz[^|]*\| UNKNOWN \|", page)
 
 
 @pytest.mark.parametrize(

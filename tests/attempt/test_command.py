@@ -31,7 +31,7 @@ def test_text_names_outcome_steps_and_figures(bag: str) -> None:
     lines = ran.out.splitlines()
     assert lines[1] == "outcome  succeeded"
     assert "    steps 3 at 0.150, 4 at 0.150, 5 at 0.150, 6 at 0.152, 7 at 0.162, 8 at 0.500" in lines
-    assert "plan_to_execute_s  0.012 s, target 0.5 s" in lines
+    assert "plan to execute  12 ms, target 500 ms" in lines
 
 
 def test_every_field_of_the_contract_is_on_the_page_and_in_the_record(bag: str) -> None:

@@ -41,6 +41,17 @@ def page(bag: Path) -> Page:
     return Page(ran.out)
 
 
+@pytest.mark.parametrize("form", ["html", "markdown"])
+def test_times_have_units_and_no_more_digits_than_they_are_worth(form: str, tmp_path: Path) -> None:
+    bag = protective_stop()
+    bag.messages = [each for each in bag.messages if each[1] != "/arm_io/safety_mode"]
+    shown = attempted(bag.write(tmp_path / "stop"), form=form).out
+    shown = re.sub(r"<style>[\s\S]*?</style>|<svg[\s\S]*?</svg>|style=\"[^\"]*\"|title=\"[^\"]*\"", "", shown)
+    assert re.findall(r"\d\.\d{5,}|(?<![-\w])\d{8,}(?![-\w])", shown) == []
+    assert "12 ms" in shown
+    assert form == "markdown" or "`" not in shown
+
+
 def signals(bag: Path) -> Signals:
     folder = read_folder(generated("ur5e_pick"))
     report = read_attempt([bag], folder.contract, folder.rehearsals, folder.watches, None, Drawn((), {}))

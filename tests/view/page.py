@@ -8,7 +8,10 @@ from typing import Any
 
 
 class Page(HTMLParser):
-    """Elements with their attributes in order, the text of scripts and styles, and all text that is shown."""
+    """Elements with their attributes in order, the text of scripts and styles, and all text that is shown.
+
+    What is set as code is shown between backticks.
+    """
 
     def __init__(self, html: str) -> None:
         super().__init__()
@@ -17,7 +20,7 @@ class Page(HTMLParser):
         self.styles: list[str] = []
         self.shown: list[str] = []
         self._within = ""
-        self.feed(html.replace("<wbr>", ""))
+        self.feed(html.replace("<wbr>", "").replace("<code>", "`").replace("</code>", "`"))
         self.close()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 from pathlib import Path
 from xml.etree.ElementTree import Element, tostring
 
@@ -14,6 +15,10 @@ Child = Element | str
 _NONE = "–"
 PREFIXES = ((1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n"))
 """Of units, each with its parts of one."""
+_LENGTHS = frozenset({"m", "rad", "rad or m"})
+_CODE = re.compile(r"`([^`\n]+)`")
+_VERBATIM = frozenset({"code", "mark", "option", "pre", "script", "style", "text", "title"})
+"""Elements whose text stays as it is: a backtick in it is a backtick."""
 
 
 def tag(name: str, *children: Child, **attributes: str) -> Element:
@@ -24,8 +29,8 @@ def tag(name: str, *children: Child, **attributes: str) -> Element:
 
 
 def extend(element: Element, children: Iterable[Child]) -> Element:
-    """Add children to an element and return it."""
-    for child in children:
+    """Add children to an element and return it; what a text has in backticks is set as code."""
+    for child in chain.from_iterable(_parts(each, element.tag) for each in children):
         if isinstance(child, Element):
             element.append(child)
         elif len(element):
@@ -33,6 +38,14 @@ def extend(element: Element, children: Iterable[Child]) -> Element:
         else:
             element.text = (element.text or "") + escaped_within(child)
     return element
+
+
+def _parts(child: Child, tag_name: str) -> Iterator[Child]:
+    if isinstance(child, Element) or tag_name in _VERBATIM or "`" not in child:
+        yield child
+        return
+    for number, part in enumerate(_CODE.split(child)):
+        yield tag("code", part) if number % 2 else part
 
 
 def cards(names: Sequence[str], rows: Iterable[Sequence[Child]]) -> Element:
@@ -44,13 +57,16 @@ def cards(names: Sequence[str], rows: Iterable[Sequence[Child]]) -> Element:
 
 def _named(cell: Child, name: str) -> Element:
     element = cell if isinstance(cell, Element) and cell.tag == "td" else tag("td", cell)
+    if element.find("code") is not None:  # the cell of a card is a grid, in which all of its text is one item
+        whole = tag("span")
+        whole.text, whole[:], element.text, element[:] = element.text, element[:], None, [whole]
     element.set("data-name", name)
     return element
 
 
 def breakable(name: str) -> Element:
-    """Return a long name of an interface, a type or a node: a line breaks after `/` or `_`, not inside a word."""
-    words = [word for word in re.split(r"(?<=[/_])", name) if word]
+    """Return a long name of an interface, a type or a node: a line breaks after `/`, `:` or `_`, not inside a word."""
+    words = [word for word in re.split(r"(?<=[/:_])", name) if word]
     return extend(tag("span"), [part for word in words for part in (word, tag("wbr"))][:-1])
 
 
@@ -109,7 +125,7 @@ def seconds(value_s: float | None) -> str:
     if value_s is None:
         return _NONE
     if abs(value_s) < 1.0:
-        return f"{value_s * 1e3:.3g} ms"
+        return "below 1 µs" if 0.0 < abs(value_s) < 1e-6 else f"{value_s * 1e3:.3g} ms"
     return f"{value_s:.4g} s"
 
 
@@ -127,14 +143,23 @@ def small(value: float, unit: str) -> str:
     """Return a deviation in thousandths or millionths of its unit, whatever reads best; rounding is no deviation."""
     for factor, prefix in PREFIXES:
         if abs(value) * factor >= 1.0:
-            return f"{value * factor:.3g} {prefix}{unit}"
-    return f"0 {unit}" if value == 0.0 else f"below 1 n{unit}"
+            return f"{value * factor:.3g} {_prefixed(prefix, unit)}"
+    return f"0 {unit}" if value == 0.0 else f"below 1 {_prefixed('n', unit)}"
+
+
+def _prefixed(prefix: str, unit: str) -> str:
+    """Return a unit, or the units of which it is one: `mrad or mm`."""
+    return " or ".join(prefix + each for each in unit.split(" or "))
 
 
 def plain(value: float | None, unit: str) -> str:
-    """Return a figure of the checkpoint."""
+    """Return a figure of the checkpoint, or one that was measured."""
     if value is None:
         return _NONE
     if unit == "s":
         return seconds(value)
-    return f"{value:.0%}" if unit == "share" else f"{value:g} {unit.removesuffix('s') if value == 1 else unit}"
+    if unit in _LENGTHS:
+        return small(value, unit)
+    if unit == "share":
+        return f"{value:.0%}"
+    return f"{value:{'g' if value % 1.0 == 0.0 else '.4g'}} {unit.removesuffix('s') if value == 1 else unit}"

@@ -14,7 +14,19 @@ from cellc.mock.campaign.plan import RunEnd
 from cellc.mock.campaign.summary import Matrix, cell_text, legend, limit_lines, matrix_of, outcome_lines
 from cellc.mock.evidence.kpis import TITLES, Kpi
 from cellc.mock.gates.gate import GateCheck, GateResult, Tally, Verdict
-from cellc.mock.report_page.html import Child, cards, hint, pairs, plain, seconds, section, style, tag, to_page
+from cellc.mock.report_page.html import (
+    Child,
+    breakable,
+    cards,
+    hint,
+    pairs,
+    plain,
+    seconds,
+    section,
+    style,
+    tag,
+    to_page,
+)
 from cellc.mock.report_page.run_section import RunEvidence, run_section
 from cellc.mock.report_page.sweep_section import sweep_section, sweep_verdict
 from cellc.mock.result import simulated_s
@@ -170,7 +182,7 @@ def _failures(failed: Sequence[RunEnd]) -> Iterator[Element]:
 def _table(matrix: Matrix) -> Element:
     steps = [tag("th", tag("b", str(number)), f" {title}") for number, title in enumerate(matrix.steps, start=1)]
     head = tag("tr", tag("th", matrix.rehearsal), *steps)
-    rows = [tag("tr", tag("td", fault), *(_cell(cell) for cell in row)) for fault, row in matrix.rows]
+    rows = [tag("tr", tag("td", breakable(fault)), *(_cell(cell) for cell in row)) for fault, row in matrix.rows]
     return tag("div", tag("table", tag("thead", head), tag("tbody", *rows), class_="matrix"), class_="wide")
 
 

@@ -16,7 +16,7 @@ from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.evidence.kpis import Kpi
 from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
-from cellc.mock.report_page.html import Child, at, cards, hint, seconds, tag
+from cellc.mock.report_page.html import Child, at, breakable, cards, hint, seconds, tag
 from cellc.mock.report_page.plots import plots
 from cellc.mock.result import RehearsalResult
 from cellc.mock.sweep.sweep import SweepRun
@@ -197,7 +197,7 @@ def _lane(interfaces: list[str], spans: _Spans, time: TimeAxis) -> Element:
     owners = ", ".join(dict.fromkeys(owner for owner, *_ in spans))
     wrong = [] if all(right for *_, right in spans) else [tag("span", " not by contract", class_="bad")]
     named = interfaces[0] if len(interfaces) == 1 else count(len(interfaces), "interface")
-    title = tag("span", named, title=", ".join(interfaces))
+    title = tag("span", breakable(named), title=", ".join(interfaces))
     return lane([tag("b", owners), " ", title, *wrong], bars, time)
 
 

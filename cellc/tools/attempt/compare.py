@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 from cellc.contract.attempt import PacketStep
 from cellc.contract.contract import ContractManager
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.vocabulary import TRAJECTORIES
+from cellc.mock.report_page.html import plain, small
 from cellc.tools.attempt.measures import Measure
-from cellc.tools.attempt.record import UNKNOWN, Attempt, Report
+from cellc.tools.attempt.record import JOINT, UNKNOWN, Attempt, Report
 
 _LATER_SHARE, _LATER_S = 0.1, 0.05
 """A step takes another time where it differs by more than both: a tenth, and 50 ms."""
@@ -134,10 +136,10 @@ def _parted(step: Step) -> Iterator[tuple[str, str]]:
     if real.error is not None and rehearsed.error is not None:
         larger, smaller = max(real.error, rehearsed.error), min(real.error, rehearsed.error)
         if larger > _ERROR_FACTOR * smaller and larger - smaller > _ERROR:
-            yield "error", f"error {real.error:.3g} rad or m, rehearsed {rehearsed.error:.3g}"
+            yield "error", f"error {small(real.error, JOINT)}, rehearsed {small(rehearsed.error, JOINT)}"
 
 
-STEP_NAMES = ("step", "outcome", "rehearsed", "took, s", "rehearsed, s", "error, rad or m", "rehearsed error")
+STEP_NAMES = ("step", "outcome", "rehearsed", "took, s", "rehearsed, s", "error", "rehearsed error")
 MEASURE_NAMES = ("figure", "measured", "rehearsed", "stated", "from")
 
 
@@ -151,7 +153,7 @@ def step_words(step: Step) -> tuple[str, ...]:
     sides = (step.real, step.rehearsed)
     outcomes = map(_outcome, sides)
     times = (_NONE if side is None else _number(side.took_s, ".3f") for side in sides)
-    errors = (_NONE if side is None or not side.is_followed else _number(side.error, ".3g") for side in sides)
+    errors = (_NONE if side is None or not side.is_followed else _error(side.error) for side in sides)
     return step.name, *outcomes, *times, *errors
 
 
@@ -161,6 +163,10 @@ def _outcome(side: Side | None) -> str:
 
 def _number(value: float | None, form: str) -> str:
     return UNKNOWN if value is None else format(value, form)
+
+
+def _error(value: float | None) -> str:
+    return UNKNOWN if value is None else small(value, JOINT)
 
 
 def measure_words(paired: Paired) -> tuple[str, ...]:
@@ -174,4 +180,5 @@ def measure_words(paired: Paired) -> tuple[str, ...]:
 def _value(measure: Measure) -> str:
     if measure.median is None or measure.worst is None:
         return UNKNOWN
-    return f"median {measure.median:.4g}, worst {measure.worst:.4g} {measure.unit}, n {measure.count}"
+    values = (plain(each, measure.unit) for each in (measure.median, measure.worst))
+    return "median {}, worst {}, {}".format(*values, count(measure.count, "value"))

@@ -8,7 +8,7 @@ from cellc.contract.attempt import PacketStep
 from cellc.contract.contract import Contract
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.tools.attempt.follow import Followed
-from cellc.tools.attempt.record import Attempt, Figure
+from cellc.tools.attempt.record import JOINT, Attempt, Figure
 
 _OWNERS = (AttemptOutcome.WRONG_OWNER, AttemptOutcome.CLAIM_FAILURE)
 
@@ -37,7 +37,7 @@ def figures_of(contract: Contract, attempts: Sequence[Attempt], followed: Follow
             float(sum(each.outcome in _OWNERS for each in steps)),
             targets.wrong_owner_events,
         ),
-        Figure("following_error", "rad or m", _worst(errors), None),
+        Figure("following_error", JOINT, _worst(errors), None),
     )
 
 

@@ -9,10 +9,12 @@ import numpy as np
 
 from cellc.contract.contract import Contract
 from cellc.contract.devices import ContractGripper
+from cellc.mock.report_page.html import seconds, small
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.tools.attempt.follow import SUCCEEDED, Followed
 from cellc.tools.attempt.heard import ControllerSample, Edges, Heard, JointSample, ObservedPose, Vector
 from cellc.tools.attempt.motion import MOVED, STANDSTILL
+from cellc.tools.attempt.record import JOINT
 from cellc.tools.attempt.topics import Sources
 
 _MOST = 4096
@@ -160,9 +162,9 @@ class MeasureBuilder:
         joints = {each.controller: each.joints for each in self._sources.actions.values()}
         for name, each in self._controllers.items():
             bounds = [self._tolerances[joint] for joint in joints.get(name, ()) if joint in self._tolerances]
-            stated = f"path tolerance {min(bounds):g}" if bounds else ""
+            stated = f"path tolerance {small(min(bounds), JOINT)}" if bounds else ""
             key = f"path tolerance of {name}"
-            yield _measure("following error", name, "rad or m", each.errors, _NO_STATES, stated, key)
+            yield _measure("following error", name, JOINT, each.errors, _NO_STATES, stated, key)
             yield _measure("settling time", name, "s", each.settling, _NO_STATES, "", f"goal time of {name}")
 
     def _of_stream(self, topic: str, stream: _Stream) -> Iterator[Measure]:
@@ -174,7 +176,7 @@ class MeasureBuilder:
             yield Measure("rate", topic, "Hz", *figures, periods.count, source, rate, f"rate of {topic}")
         if topic not in self._sources.states:
             bound_s = self._oldest_s(topic)
-            oldest, source = "" if bound_s is None else f"{bound_s:g} s", f"arrival less stamp of {topic}"
+            oldest, source = "" if bound_s is None else seconds(bound_s), f"arrival less stamp of {topic}"
             yield _measure("age at arrival", topic, "s", stream.ages, source, oldest, f"max_age of {topic}", source)
         if topic in self._sources.observations or self._is_of_joints(topic):
             yield _offset(topic, stream.ages)
@@ -205,12 +207,12 @@ class MeasureBuilder:
                 if at is not None and min(abs(at - gripper.open), abs(at - gripper.closed)) > near:
                     widths.add(width_m(gripper, at))
         bands = {
-            f"{frame} {facts.grasp.width_m:g} m"
+            f"{frame} {small(facts.grasp.width_m, 'm')}"
             for frame, facts in self._contract.frames.items()
-            if facts.grasp is not None and device in facts.grasp.bands
+            if facts.grasp is not None and facts.grasp.width_m is not None and device in facts.grasp.bands
         }
         needed = f"ends of goals of {gripper.controller} on a part, and joint states with {gripper.joint}"
-        key = "grasp: {width} of the part"
+        key = "width in the grasp of the part"
         return _measure("grip width", device, "m", widths, needed, ", ".join(sorted(bands)), key, gripper.joint)
 
 
@@ -220,7 +222,7 @@ def _offset(topic: str, ages: Spread) -> Measure:
     if ages.least < 0.0:
         text = f"earliest arrival less stamp of {topic}: its clock is ahead by at least that"
         return Measure("clock offset", topic, "s", -ages.least, -ages.least, ages.count, text, "", key)
-    least = f"{ages.least:.3g} s"
+    least = seconds(ages.least)
     text = f"offsets as chrony or PTP measure them; {topic} arrives {least} after its stamp at the earliest"
     return Measure("clock offset", topic, "s", None, None, ages.count, text, "", key)
 

@@ -17,7 +17,7 @@ from cellc.mock.report_page.plots import plots, state_plot
 from cellc.mock.report_page.run_section import Bar, axis, details, lane, packet
 from cellc.tools.attempt.compare import MEASURE_NAMES, STEP_NAMES, Comparison, measure_words, step_words
 from cellc.tools.attempt.record import UNKNOWN, Attempt, Report
-from cellc.tools.attempt.text import figure_words, shown_words, unknown_fields
+from cellc.tools.attempt.text import figure_title, figure_words, shown_words, unknown_fields
 
 _NO_TASK = "no task named: each goal is a step"
 
@@ -140,7 +140,7 @@ def _against(comparison: Comparison) -> Iterator[Element]:
 
 
 def _rest(report: Report) -> Iterator[Element]:
-    rows: list[tuple[Child, ...]] = [(figure.name, figure_words(figure)) for figure in report.figures]
+    rows: list[tuple[Child, ...]] = [(figure_title(figure), figure_words(figure)) for figure in report.figures]
     yield section("Key figures", cards(("figure", "value"), rows))
     for title, lines in (
         ("UNKNOWN, and what would have to be recorded", [f"{key}: {why}" for key, why in unknown_fields(report)]),

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from cellc.tools.attempt.signals import Signals
 
 UNKNOWN = "UNKNOWN"
+JOINT = "rad or m"
+"""Unit of a joint whose kind does not matter."""
 
 
 @dataclass(frozen=True, slots=True)

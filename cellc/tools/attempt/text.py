@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import fields
 
-from cellc.compiler.formats.escape import code
+from cellc.compiler.formats.escape import code, markdown
+from cellc.compiler.formats.markdown_table import table
 from cellc.contract.attempt import PacketStep
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.vocabulary import AttemptOutcome
+from cellc.mock.evidence.kpis import TITLES
+from cellc.mock.report_page.html import at, plain, seconds
 from cellc.tools.attempt.compare import MEASURE_NAMES, STEP_NAMES, Comparison, measure_words, step_words
 from cellc.tools.attempt.record import UNKNOWN, Attempt, Figure, Finding, Report
 
@@ -30,7 +33,7 @@ def render_text(report: Report) -> Iterator[Line]:
         reached = [f"{step.value[0]} at {time}" for step, time in _steps(report, attempt) if time]
         yield f"    steps {', '.join(reached) or 'not shown'}"
     for figure in report.figures:
-        yield f"{figure.name}  {figure_words(figure)}"
+        yield f"{figure_title(figure)}  {figure_words(figure)}"
     if report.comparison is not None:
         yield from _against(report.comparison)
     yield from (f"UNKNOWN  {name}: {why}" for name, why in unknown_fields(report))
@@ -57,17 +60,18 @@ def _page(report: Report) -> Iterator[str]:
     contract = report.contract
     yield f"# Attempt of {code(contract.cell)}"
     yield ""
-    yield from _table(
-        ("bags", ", ".join(report.bags)),
+    rows = (
+        ("bags", report.bags),
         ("configuration", contract.configuration_id),
         ("versions", ", ".join(f"{part} {version}" for part, version in contract.version_tuple.items())),
         ("steps of", report.task or "no task named: each goal is a step"),
         ("length", f"{_seconds(report)}, {report.messages} messages"),
         ("outcome", _outcome(report.end)),
     )
+    yield table(("of", "this attempt"), rows)
     if report.end.finding is not None:
         yield ""
-        yield f"Layer **{report.end.finding.layer}**: {code(shown_words(report, report.end.finding))}"
+        yield f"Layer **{report.end.finding.layer}**: {markdown(shown_words(report, report.end.finding))}"
     if report.comparison is not None:
         yield from _against_tables(report.comparison)
     for attempt in report.attempts:
@@ -76,32 +80,27 @@ def _page(report: Report) -> Iterator[str]:
 
 
 def _against_tables(comparison: Comparison) -> Iterator[str]:
-    yield from ("", f"## Against {code(comparison.name)}", "")
-    yield from (f"- {code(each)}" for each in comparison.parted or ("They part nowhere",))
-    tables = (
-        (STEP_NAMES, [step_words(each) for each in comparison.steps]),
-        (MEASURE_NAMES, [measure_words(each) for each in comparison.measures]),
-    )
-    for names, rows in tables:
-        yield ""
-        yield f"| {' | '.join(names)} |"
-        yield "|" + "---|" * len(names)
-        yield from (f"| {' | '.join(code(cell).replace('|', '&#124;') for cell in row)} |" for row in rows)
+    yield from ("", f"## Against {markdown(comparison.name)}", "")
+    yield from (f"- {markdown(each)}" for each in comparison.parted or ("They part nowhere",))
+    yield from ("", table(STEP_NAMES, map(step_words, comparison.steps)))
+    yield from ("", table(MEASURE_NAMES, map(measure_words, comparison.measures)))
 
 
 def _attempt(report: Report, attempt: Attempt) -> Iterator[str]:
     yield ""
-    yield f"## {code(attempt.attempt_id)} {code(attempt.step)}"
+    yield f"## {markdown(attempt.step)} ({code(attempt.attempt_id)})"
     yield ""
-    yield from _table(
-        *((each.name, _value(attempt, each.name)) for each in fields(attempt) if each.name not in _APART),
-        *_layer(report, attempt),
+    shown = (each.name for each in fields(attempt) if each.name not in _APART)
+    yield table(
+        ("field", "value"),
+        (
+            *((name.removesuffix("_ns"), _value(report, attempt, name) or "–") for name in shown),
+            *_layer(report, attempt),
+        ),
     )
     if attempt is not report.end:
-        yield ""
-        yield "| step of the packet | s since the begin of the bag |"
-        yield "|---|---|"
-        yield from (f"| {step.value} | {time or _absent(attempt)} |" for step, time in _steps(report, attempt))
+        steps = ((step.value, time or _absent(attempt)) for step, time in _steps(report, attempt))
+        yield from ("", table(("step of the packet", "s since the begin of the bag"), steps))
 
 
 def _layer(report: Report, attempt: Attempt) -> Iterator[tuple[str, str]]:
@@ -113,20 +112,14 @@ def _rest(report: Report) -> Iterator[str]:
     yield ""
     yield "## Key figures"
     yield ""
-    yield from _table(*((figure.name, figure_words(figure)) for figure in report.figures))
+    yield table(("figure", "value"), ((figure_title(each), figure_words(each)) for each in report.figures))
     for title, lines in (
         ("UNKNOWN, and what would have to be recorded", [f"{name}: {why}" for name, why in unknown_fields(report)]),
         ("Topics of the cell that were not recorded", report.missing),
         ("Notes", report.notes),
     ):
         if lines:
-            yield from ("", f"## {title}", "", *(f"- {code(line)}" for line in lines))
-
-
-def _table(*rows: tuple[str, str]) -> Iterator[str]:
-    yield "| | |"
-    yield "|---|---|"
-    yield from (f"| {name} | {code(value).replace('|', '&#124;') if value else ''} |" for name, value in rows)
+            yield from ("", f"## {title}", "", *(f"- {markdown(line)}" for line in lines))
 
 
 def _outcome(attempt: Attempt) -> str:
@@ -163,25 +156,41 @@ def _absent(attempt: Attempt) -> str:
     return UNKNOWN if "trace" in attempt.unknown else "not reached"
 
 
-def _value(attempt: Attempt, name: str) -> str:
+def _value(report: Report, attempt: Attempt, name: str) -> str:
     value = getattr(attempt, name)
     if value is None or value == ():
         return UNKNOWN if name in attempt.unknown else ""
     if isinstance(value, tuple):
         return ", ".join(map(str, value))
-    shown = [(each.name, getattr(value, each.name)) for each in fields(value)] if hasattr(value, "__slots__") else []
-    known = [
-        f"{part} {UNKNOWN if f'{name}.{part}' in attempt.unknown else of_part}"
-        for part, of_part in shown
-        if of_part is not None or f"{name}.{part}" in attempt.unknown
-    ]
-    return ", ".join(known) if shown else f"{value.value if isinstance(value, AttemptOutcome) else value}"
+    if not hasattr(value, "__slots__"):
+        return _plain(report, name, value)
+    parts = {each.name: getattr(value, each.name) for each in fields(value)}
+    lacking = {part for part in parts if f"{name}.{part}" in attempt.unknown}
+    return ", ".join(
+        f"{part.removesuffix('_ns')} {UNKNOWN if part in lacking else _plain(report, part, of_part)}"
+        for part, of_part in parts.items()
+        if of_part is not None or part in lacking
+    )
+
+
+def _plain(report: Report, name: str, value: object) -> str:
+    """Return a value with its unit, which the name of its field tells."""
+    if isinstance(value, int) and name.endswith(("_ns", "_stamp")):
+        return at(value - report.begin_ns)
+    if isinstance(value, float) and name.endswith(("_s", "_age")):
+        return seconds(value)
+    return f"{value:.0%}" if name == "speed_scaling" else f"{value}"
 
 
 def figure_words(figure: Figure) -> str:
     """Return the value of a figure with its target."""
-    value = "not met in this bag" if figure.value is None else f"{figure.value:.6g} {figure.unit}"
-    return value if figure.target is None else f"{value}, target {figure.target:g} {figure.unit}"
+    value = "not met in this bag" if figure.value is None else plain(figure.value, figure.unit)
+    return value if figure.target is None else f"{value}, target {plain(figure.target, figure.unit)}"
+
+
+def figure_title(figure: Figure) -> str:
+    """Return the name of a figure in words."""
+    return TITLES.get(figure.name, figure.name.replace("_", " "))
 
 
 def unknown_fields(report: Report) -> list[tuple[str, str]]:

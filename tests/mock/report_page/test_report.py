@@ -53,6 +53,11 @@ def test_report_needs_nothing_from_outside(text: str, page: Page) -> None:
     assert not re.search(r"url\(|https?://|//[a-z]", text)
 
 
+def test_what_is_between_backticks_is_set_as_code(page: Page) -> None:
+    assert "code" in page.tags
+    assert "`" not in page.words
+
+
 def test_every_link_leads_to_a_file_or_a_place_of_the_page(page: Page, written: Written) -> None:
     places = {f"#{value}" for name, value in page.attributes if name == "id"}
     for name, value in page.attributes:

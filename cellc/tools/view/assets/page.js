@@ -320,7 +320,8 @@ class Player {
     const active = faults.filter((one) => one.at_s <= this.time).map((one) => one.name);
     if (active.length) parts.push(`fault: ${active.join(", ")}`);
     if (this.time >= end - 0.01) parts.push(reason ? `${outcome}: ${reason}` : outcome);
-    this.words.textContent = parts.join(" · ");
+    this.words.replaceChildren();
+    parts.join(" · ").split("`").forEach((part, at) => make(at % 2 ? "code" : "span", part, this.words));
     if (!ghost) return;
     const other = data.runs[ghost.run], time = this.time - ghost.shift_s;
     const beside = [`${ghost.name}: ${time.toFixed(2)} s`, ...stepAt(other, time), this.apart()];
