@@ -17,7 +17,7 @@ from cellc.mock.report_page.plots import plots, state_plot
 from cellc.mock.report_page.run_section import Bar, axis, details, lane, packet
 from cellc.tools.attempt.compare import MEASURE_NAMES, STEP_NAMES, Comparison, measure_words, step_words
 from cellc.tools.attempt.record import UNKNOWN, Attempt, Report
-from cellc.tools.attempt.text import figure_title, figure_words, shown_words, unknown_fields
+from cellc.tools.attempt.text import figure_title, figure_words, lists, shown_words
 
 _NO_TASK = "no task named: each goal is a step"
 
@@ -142,10 +142,5 @@ def _against(comparison: Comparison) -> Iterator[Element]:
 def _rest(report: Report) -> Iterator[Element]:
     rows: list[tuple[Child, ...]] = [(figure_title(figure), figure_words(figure)) for figure in report.figures]
     yield section("Key figures", cards(("figure", "value"), rows))
-    for title, lines in (
-        ("UNKNOWN, and what would have to be recorded", [f"{key}: {why}" for key, why in unknown_fields(report)]),
-        ("Topics of the cell that were not recorded", list(report.missing)),
-        ("Notes", list(report.notes)),
-    ):
-        if lines:
-            yield section(title, tag("ul", *(tag("li", each) for each in lines), class_="plain-list"))
+    for title, lines in lists(report):
+        yield section(title, tag("ul", *(tag("li", each) for each in lines), class_="plain-list"))

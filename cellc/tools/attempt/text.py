@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields
 
 from cellc.compiler.formats.escape import code, markdown
@@ -113,13 +113,15 @@ def _rest(report: Report) -> Iterator[str]:
     yield "## Key figures"
     yield ""
     yield table(("figure", "value"), ((figure_title(each), figure_words(each)) for each in report.figures))
-    for title, lines in (
-        ("UNKNOWN, and what would have to be recorded", [f"{name}: {why}" for name, why in unknown_fields(report)]),
-        ("Topics of the cell that were not recorded", report.missing),
-        ("Notes", report.notes),
-    ):
-        if lines:
-            yield from ("", f"## {title}", "", *(f"- {markdown(line)}" for line in lines))
+    for title, lines in lists(report):
+        yield from ("", f"## {title}", "", *(f"- {markdown(line)}" for line in lines))
+
+
+def lists(report: Report) -> Iterator[tuple[str, Sequence[str]]]:
+    """Yield what the bag does not show, and notes, each under its title."""
+    unknown = [f"{name}: {why}" for name, why in unknown_fields(report)]
+    titles = ("UNKNOWN, and what would have to be recorded", "Topics of the cell that were not recorded", "Notes")
+    yield from (each for each in zip(titles, (unknown, report.missing, report.notes), strict=True) if each[1])
 
 
 def _outcome(attempt: Attempt) -> str:
