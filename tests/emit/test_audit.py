@@ -164,3 +164,12 @@ def test_section_says_what_the_spec_means(title: str) -> None:
     text = emitted_graph(graph_of(CORPUS / "valid" / "complete.yaml"))["audit.md"]
     assert section(text, title) == AUDIT[title]
     assert ("None." in text.split(f"\n## {title}\n")[1].split("\n## ")[0]) is (AUDIT[title] == [])
+
+
+def test_parameters_that_no_check_knows_are_named(tmp_path: Path) -> None:
+    task = "  task: {run: cell_tasks/pick_place"
+    text = spec_text("ur5e_pick")
+    assert task in text
+    own = text.replace(task, f"{task}, parameters: {{approach_speed: 0.1, use_sim_time: false}}")
+    assert "- `/task`: `approach_speed`\n" in emitted(tmp_path, own)["audit.md"] + "\n"
+    assert "No check knows" not in emitted(tmp_path, text)["audit.md"]

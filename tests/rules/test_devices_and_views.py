@@ -84,6 +84,26 @@ def test_a_plugin_is_told_the_address_of_its_connection(literal: str, said: str,
 
 
 @pytest.mark.parametrize(
+    ("kept", "line"),
+    [("  acceleration: {joint_1: {value: 5 rad/s^2, source: made up}}\n", "  acceleration:"), ("", "limits:")],
+)
+def test_what_an_own_device_lacks_is_shown_in_its_file(kept: str, line: str, tmp_path: Path) -> None:
+    own(tmp_path, "demo_arm", ('  acceleration: {"*": {value: 5 rad/s^2, source: made up}}\n', kept))
+    lines = (tmp_path / "demo_arm" / "device.yaml").read_text(encoding="utf-8").splitlines()
+    wrong = [item for item in found("cell: demo", tmp_path) if item.code == "unplannable-joint"]
+    shown = {item.span.line for finding in wrong for item in finding.related if item.span.file.endswith("device.yaml")}
+    assert [lines[number - 1].startswith(line) for number in shown] == [True]
+
+
+def test_what_is_found_at_an_own_model_names_its_file(tmp_path: Path) -> None:
+    own(tmp_path, "demo_arm", ("laws: [{loop: position, source: made up}]\n", ""))
+    unknown = [item for item in found("cell: demo", tmp_path) if item.code == "unknown-control-law"]
+    assert [(item.span.file[-11:], item.span.line) for found in unknown for item in found.related] == [
+        ("device.yaml", 2)
+    ]
+
+
+@pytest.mark.parametrize(
     ("box", "said"),
     [
         # The foot is at 0.8 m.

@@ -19,6 +19,8 @@ from cellc.contract.diagnostics import YamlPath
 from cellc.contract.frozen import dataclass
 
 _RATE = "update_rate"
+_OF_EVERY_NODE = ("use_sim_time", "start_type_description_service")
+_OVERRIDES = "qos_overrides."
 _PLACEHOLDER = re.compile(r"<[a-z_]+>")
 
 
@@ -110,6 +112,25 @@ def _of_node(cell: Cell, node: Node) -> Iterator[StatedParameter]:
         path = (*node.path, "parameters", name)
         if cell.states(*path):
             yield StatedParameter(path, node.name, name, value, key, facts, node.parameters, declared)
+
+
+def unchecked_parameters(cell: Cell) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the full names of nodes and controllers with the parameters of the spec that the catalog does not know."""
+    for node in cell.nodes:
+        if not of_program(node) and (names := _written(cell, node.path, node.parameters)):
+            yield node.full_name, names
+    for controller in cell.controllers:
+        if controller.declared is None and (names := _written(cell, controller.path, controller.parameters)):
+            yield controller.full_name, names
+
+
+def _written(cell: Cell, path: YamlPath, parameters: Mapping[str, ParameterValue]) -> tuple[str, ...]:
+    return tuple(name for name in parameters if cell.states(*path, "parameters", name) and not is_of_every_node(name))
+
+
+def is_of_every_node(name: str) -> bool:
+    """Whether rclcpp or rclpy declares a parameter for every node."""
+    return name in _OF_EVERY_NODE or name.startswith(_OVERRIDES)
 
 
 def of_program(node: Node) -> tuple[ProgramParameters, ...]:

@@ -124,5 +124,16 @@ def enters(graph: CellGraph, text: str, *paths: YamlPath) -> tuple[Related, ...]
 def found(
     graph: CellGraph, path: YamlPath, message: str, help_text: str = "", related: tuple[Related, ...] = ()
 ) -> Finding:
-    """Report something at a path, or at its nearest ancestor where the path is what is missing."""
-    return Finding(message, graph.cell.locate(*path), path, help_text, related)
+    """Report something at a path, or at its nearest ancestor where the path is what is missing.
+
+    What is found at the model of a device that the user brings is mended in its file, which is named beside it.
+    """
+    return Finding(message, graph.cell.locate(*path), path, help_text, related or graph.once(_own_files).get(path, ()))
+
+
+def _own_files(graph: CellGraph) -> Mapping[YamlPath, tuple[Related, ...]]:
+    return {
+        (*device.path, "model"): (Related("its `device.yaml` is here", places.locate(("model",))),)
+        for device in graph.cell.devices
+        if (places := device.body.places) is not None
+    }

@@ -142,7 +142,12 @@ class TopicSpec(InterfaceFields):
     rate: Frequency | None = Field(None, description="Publishing rate.", examples=["30 Hz"])
     max_age: Duration | None = Field(None, description="Oldest sample that may be used.", examples=["100 ms"])
     transport: Duration | None = Field(None, description="Budget from publishing to use.", examples=["10 ms"])
-    on_stale: OnStale | None = Field(None, description="What happens on an older sample.", examples=["reject_goal"])
+    on_stale: OnStale | None = Field(
+        None,
+        description="What the consumer does with an older sample. The mock's task stops a motion that rests on the "
+        "topic in all cases but `continue`.",
+        examples=["reject_goal"],
+    )
     simulated: SimulatedNetworkSpec | None = Field(
         None, description="How the mock carries it; without delay and loss if absent.", examples=[{"latency": "2 ms"}]
     )

@@ -41,6 +41,7 @@ from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.claims import claimed_by_device
+from cellc.compiler.graph.stated_parameters import unchecked_parameters
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER
 from cellc.contract.vocabulary import InterfaceKind
 
@@ -225,8 +226,13 @@ def _names(ends: tuple[Endpoint, ...]) -> str:
 
 
 def nodes_section(cell: Cell) -> str:
-    """Write every node with its owner."""
-    return table(("node", "program", "host", "owner", "parameters"), _nodes(cell))
+    """Write every node with its owner, and whose parameters no check knows: they are those of the user's programs."""
+    nodes = table(("node", "program", "host", "owner", "parameters"), _nodes(cell))
+    unchecked = [f"- {code(owner)}: {_code(names)}" for owner, names in unchecked_parameters(cell)]
+    if not unchecked:
+        return nodes
+    advice = "No check knows these. Compare with `ros2 param list`: a name that a node does not declare has no effect."
+    return "\n".join((nodes, "", advice, "", *unchecked))
 
 
 def interfaces_section(cell: Cell, kind: InterfaceKind) -> str:

@@ -10,7 +10,13 @@ from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.cell.hardware import HardwareComponent, InterfaceGroup
 from cellc.compiler.cell.interface import Node
-from cellc.compiler.graph.stated_parameters import StatedParameter, of_program, program_parameters, stated_parameters
+from cellc.compiler.graph.stated_parameters import (
+    StatedParameter,
+    is_of_every_node,
+    of_program,
+    program_parameters,
+    stated_parameters,
+)
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, did_you_mean, found, rule
 from cellc.contract.diagnostics.nearest import is_slip
 
@@ -101,10 +107,6 @@ def _by_key(parameter: StatedParameter, key: str) -> tuple[object, ...]:
     return (stated.get(key, None if figure is None else figure.value),)
 
 
-_OF_EVERY_NODE = ("use_sim_time", "start_type_description_service")
-_OVERRIDES = "qos_overrides."
-
-
 @rule(Severity.ERROR)
 def unknown_node_parameter(graph: CellGraph) -> Findings:
     """Yield parameters that the known program of a node does not read in the distribution of the cell."""
@@ -124,7 +126,7 @@ def unknown_node_parameter(graph: CellGraph) -> Findings:
 
 def _unread(node: Node, name: str, declared: Mapping[str, ParameterFacts]) -> Iterable[str] | None:
     """Return what may be meant by a name that nothing reads; None where a plugin may read it."""
-    if name in _OF_EVERY_NODE or name.startswith(_OVERRIDES):
+    if is_of_every_node(name):
         return None
     rows = of_program(node)
     if any(row.closed and name.startswith(row.prefix) for row in rows):

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import DeviceJoint
-from cellc.compiler.rules.described import described
+from cellc.compiler.rules.described import described, in_its_file
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, found, rule
 from cellc.compiler.rules.tolerances import stated
 from cellc.contract.quantities import SMALLEST
@@ -149,7 +149,16 @@ def unplannable_joint(graph: CellGraph) -> Findings:
         for joint in (joints[name] for name in group.joints if name in joints):
             if lacks := " and no ".join(_lacking(joint)):
                 message = f"joint `{joint.name}` of group `{group.name}` has no {lacks}"
-                yield found(graph, group.path, message, related=described(graph, [joint.name]))
+                related = (*described(graph, [joint.name]), *_limits_of(graph, joint))
+                yield found(graph, group.path, message, related=related)
+
+
+def _limits_of(graph: CellGraph, joint: DeviceJoint) -> tuple[Related, ...]:
+    """Return where the `device.yaml` that the user brings has limits of the kind that a joint lacks, or any."""
+    device = graph.cell.device(graph.cell.holders[joint.name])
+    kinds = (kind for kind in ("acceleration", "jerk") if getattr(joint, kind) is None)
+    stated = [related for kind in kinds for related in in_its_file(device, "limits", kind)]
+    return tuple(stated) or in_its_file(device, "limits")
 
 
 def _lacking(joint: DeviceJoint) -> Iterator[str]:
