@@ -24,7 +24,11 @@ def loaded_devices(graph: CellGraph, *, powered: bool = False) -> Iterator[Value
         if device.robot.payload is not None and answers_when_powered(device) is powered:
             payload = (*device.path, "payload")
             moments = text(*payload, "inertia")
-            said = f", inertia about that center {moments} (ixx iyy izz ixy ixz iyz)" if moments else ""
+            said = (
+                f", inertia about that center {moments} (ixx iyy izz ixy ixz iyz)"
+                if moments
+                else ", inertia not stated"
+            )
             stated = device.name, text(*payload, "mass"), text(*payload, "center_of_mass"), moments, said
             frame, gate = device.body.tool_frame or device.body.root_link, enabled_in(device)
             yield *stated, frame, device.robot.payload.set_by, device.procedures.payload_entry or _UNSAID, gate

@@ -230,6 +230,26 @@ def unread_sensor(graph: CellGraph) -> Findings:
 
 
 @rule(Severity.ERROR)
+def sense_against_set(graph: CellGraph) -> Findings:
+    """Yield steps that wait for a state whose outputs are not those that were set last, where nothing else is meant."""
+    switched = {device.name: device.switched.states for device in graph.cell.devices if device.switched is not None}
+    reported: set[YamlPath] = set()
+    for rehearsal in graph.cell.rehearsals:
+        set_last: dict[str, Step] = {}
+        for step in rehearsal.steps if not rehearsal.faults and rehearsal.expect == "succeeded" else ():
+            states, state, before = switched.get(step.name, {}), step.state or "", set_last.get(step.name)
+            if step.kind == "set" and state in states:
+                set_last[step.name] = step
+            elif step.kind == "sense" and before is not None and state in states and step.path not in reported:
+                was = before.state or ""
+                if states[state].outputs != states[was].outputs:
+                    reported.add(step.path)
+                    message = f"`{step.name}` was set to `{was}` and cannot become `{state}` before this step"
+                    related = (Related("it is set here", before.span),)
+                    yield found(graph, step.path, message, f"write `{{sense: {step.name}, state: {was}}}`", related)
+
+
+@rule(Severity.ERROR)
 def unsimulated_object(graph: CellGraph) -> Findings:
     """Yield dynamic frames that a rehearsal detects and that have no simulated pose."""
     detected = {step.name for rehearsal in graph.cell.rehearsals for step in rehearsal.steps if step.kind == "detect"}
