@@ -126,7 +126,7 @@ def found(
 ) -> Finding:
     """Report something at a path, or at its nearest ancestor where the path is what is missing.
 
-    What is found at the model of a device that the user brings is mended in its file, which is named beside it.
+    What is found at the model of a device that the user brings is corrected in its file, which is named beside it.
     """
     return Finding(message, graph.cell.locate(*path), path, help_text, related or graph.once(_own_files).get(path, ()))
 
