@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING
 
 from cellc.compiler.formats.escape import shell_word
 from cellc.tools.diagnose.classify import Match, classify
+from cellc.tools.diagnose.codes import codes_in
 from cellc.tools.diagnose.evidence import Stated, stated
 from cellc.tools.diagnose.fields import FIELDS, NOT_STATED, Scope, Subject, placeholders
+from cellc.tools.diagnose.looks import Chosen, first_looks
+from cellc.tools.diagnose.named import named_in
 from cellc.tools.diagnose.naming import NO_NODE, loggers, names_of
 from cellc.tools.diagnose.sections import Bisection, Contrast, Placed, Section, blind_to, contrasts, placed
 from cellc.tools.diagnose.symptoms import Action, Hypothesis, Observation, knowledge, questions
@@ -67,6 +70,21 @@ class Cause:
 
 
 @dataclass(frozen=True, slots=True)
+class First:
+    """A cause of a part that the text names, and the one observation that tells.
+
+    Attributes:
+        part: empty for a cause of no part.
+    """
+
+    cause: str
+    action: str
+    is_command: bool
+    part: str
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
 class Suspicion:
     """One symptom that fits.
 
@@ -100,6 +118,8 @@ class Answer:
         stated: what the text says beside the symptom and was counted with.
         routes: what is compared, then how the part of the cell is narrowed down; empty where a line names the cause.
         weak: no symptom fits well: the routes come first, and the question is that of the part.
+        first: what is looked at first, by what the text names; empty where a line names the cause.
+        told: what the numbers and names of the text are, one line each.
     """
 
     suspicions: tuple[Suspicion, ...]
@@ -111,6 +131,8 @@ class Answer:
     stated: tuple[str, ...] = ()
     routes: tuple[Route, ...] = ()
     weak: bool = False
+    first: tuple[First, ...] = ()
+    told: tuple[str, ...] = ()
 
 
 _ELSE = "no other layer has any of these words; add what was done before, or a line of the log"
@@ -128,6 +150,28 @@ def diagnose(text: str, cell: Cell | None) -> Answer:
         cell: whose names are filled in, and whose drivers decide which symptoms count; without one the commands hold
             placeholders.
     """
+    answer = _answer(text, cell)
+    told = (*codes_in(text), *named_in(text, cell))
+    return replace(answer, first=first_in(text, cell) if answer.ask else (), told=told)
+
+
+def first_in(text: str, cell: Cell | None) -> tuple[First, ...]:
+    """Return what is looked at first, by the parts that a text names and the kind of trouble that it states."""
+    facts = stated(text)
+    chosen = (each for each in first_looks(text) if not facts.has_seen(each.look.action))
+    return tuple(_first(each, text, cell) for each in chosen)
+
+
+def _first(chosen: Chosen, text: str, cell: Cell | None) -> First:
+    look, part = chosen.look, chosen.part
+    subject = next((each for each in _chosen(cell, look.of, text) if _is_fit(look, each)), placeholders(look.of))
+    if look.look is not None:
+        subject = {field: "it" if value == f"<{field}>" else value for field, value in subject.items()}
+    name, source = ("", "") if part is None else (part.part, part.source)
+    return First(look.cause, _filled(look, subject, cell is not None), look.run is not None, name, source)
+
+
+def _answer(text: str, cell: Cell | None) -> Answer:
     classified = classify(text, knowledge(), _drivers(cell))
     suspicions = tuple(suspicion_of(match, text, cell) for match in classified.matches)
     question, said = classified.question, stated(text).names

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 from cellc.contract.printing import Line, Style, Styled
 
 if TYPE_CHECKING:
-    from cellc.tools.diagnose.diagnose import Answer, Cause, Route, Suspicion
+    from cellc.tools.diagnose.diagnose import Answer, Cause, First, Route, Suspicion
     from cellc.tools.diagnose.symptoms import LayerKnowledge
 
 
 def render_answer(answer: Answer) -> Iterator[Line]:
     """Yield what a text may mean; where no layer is certain, first the question that decides."""
+    yield from (f"named: {line}" for line in answer.told)
     if not answer.fits:
         yield from _nearest(answer)
+        yield from render_first(answer.first)
         yield from render_routes(answer.routes)
     elif answer.weak:
         yield (
@@ -24,6 +26,7 @@ def render_answer(answer: Answer) -> Iterator[Line]:
         )
         yield f"one question decides: {answer.ask}"
         yield from _counted(answer)
+        yield from render_first(answer.first)
         yield from render_routes(answer.routes)
         yield from ("", (Styled("or, by their words alone, one of these:", Style.BOLD),))
         for suspicion in answer.suspicions:
@@ -37,6 +40,7 @@ def render_answer(answer: Answer) -> Iterator[Line]:
         yield (Styled(guess, Style.BOLD),)
         yield from _question("one question decides", answer, "; or ")
         yield from _counted(answer)
+        yield from render_first(answer.first)
         first, *others = answer.suspicions
         yield from ("", *_suspicion(first))
         for suspicion in others:
@@ -49,6 +53,19 @@ def render_answer(answer: Answer) -> Iterator[Line]:
 def _counted(answer: Answer) -> Iterator[Line]:
     if answer.stated:
         yield f"counted with, as the text says it: {'; '.join(answer.stated)}"
+
+
+def render_first(first: Sequence[First]) -> Iterator[Line]:
+    """Yield what is looked at first, each cause with the one observation that tells."""
+    if first:
+        yield from ("", (Styled("first looks, by the parts and words that the text names:", Style.BOLD),))
+    for number, each in enumerate(first, 1):
+        part = f"{each.part}: " if each.part else ""
+        yield f"  {number}. {part}{each.cause}?"
+        yield "     ", Styled("$" if each.is_command else "look at", Style.BLUE), f" {each.action}"
+    sources = dict.fromkeys(each.source for each in first if each.source)
+    if sources:
+        yield f"  source: {'; '.join(sources)}"
 
 
 def render_routes(routes: Sequence[Route], intro: str = "") -> Iterator[Line]:
