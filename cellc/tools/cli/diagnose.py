@@ -71,9 +71,9 @@ def _classify(symptom: str, file: str | None) -> None:
 
 def _search(path: Path, file: str | None) -> None:
     from cellc.tools.diagnose.diagnose import diagnose as answer_to
-    from cellc.tools.diagnose.diagnose import first_in, routes_in
+    from cellc.tools.diagnose.diagnose import routes_in
     from cellc.tools.diagnose.logs import LogError, search
-    from cellc.tools.report.diagnosis_text import render_answer, render_first, render_routes
+    from cellc.tools.report.diagnosis_text import render_answer, render_routes
     from cellc.tools.report.log_text import render_searched
 
     cell = _cell(file)
@@ -83,12 +83,11 @@ def _search(path: Path, file: str | None) -> None:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
     answer = answer_to(searched.answered, cell) if searched.answered else None
-    if searched.pasted or answer is None or not answer.fits:
+    if searched.pasted or answer is None:
         show(*render_searched(searched, is_certain=answer is not None and not answer.ask))
     if answer is None:
-        show(*render_first(first_in(searched.short, cell)))
         show(*render_routes(routes_in(searched.short, cell), "if something is wrong nevertheless: "))
-    if answer is not None and (searched.pasted or answer.fits):
+    if answer is not None:
         show(*([""] if searched.pasted else []), *render_answer(answer))
         raise click.exceptions.Exit(1)
 

@@ -119,7 +119,7 @@ class Answer:
         routes: what is compared, then how the part of the cell is narrowed down; empty where a line names the cause.
         weak: no symptom fits well: the routes come first, and the question is that of the part.
         first: what is looked at first, by what the text names; empty where a line names the cause.
-        told: what the numbers and names of the text are, one line each.
+        named: what the numbers and names of the text are, one line each.
     """
 
     suspicions: tuple[Suspicion, ...]
@@ -132,7 +132,7 @@ class Answer:
     routes: tuple[Route, ...] = ()
     weak: bool = False
     first: tuple[First, ...] = ()
-    told: tuple[str, ...] = ()
+    named: tuple[str, ...] = ()
 
 
 _ELSE = "no other layer has any of these words; add what was done before, or a line of the log"
@@ -151,8 +151,8 @@ def diagnose(text: str, cell: Cell | None) -> Answer:
             placeholders.
     """
     answer = _answer(text, cell)
-    told = (*codes_in(text), *named_in(text, cell))
-    return replace(answer, first=first_in(text, cell) if answer.ask else (), told=told)
+    named = (*codes_in(text), *named_in(text, cell))
+    return replace(answer, first=first_in(text, cell) if answer.ask else (), named=named)
 
 
 def first_in(text: str, cell: Cell | None) -> tuple[First, ...]:

@@ -21,7 +21,7 @@ from cellc.tools.diagnose.symptoms import Action, read_table
 
 _AT_MOST, _OF_ONE_PART = 4, 3
 _OF_PART, _MOST_NAMED = 1.5, 3.0
-_OF_KIND, _OF_WORD, _MOST_SPOKEN, _OF_GENERAL = 1.5, 2.5, 8.0, 3.0
+_OF_KIND, _OF_WORD, _MOST_SPOKEN, _OF_GENERAL = 1.5, 2.5, 8.0, 4.0
 """Points of a word that one part alone has, of the kind of trouble, and of a word for one cause alone."""
 _LEAST = 4.0
 """Points of a cause: less says nothing of it, as one word of a part and the kind alone."""
@@ -105,7 +105,7 @@ def _weighed(small: str, kinds: Collection[str]) -> Iterator[Chosen]:
             is_kind = not kinds or not look.kinds or bool(set(kinds) & set(look.kinds))
             spoken = _spoken(look, small)
             points = named + _OF_KIND * is_kind + spoken
-            if points >= _LEAST and (is_kind or spoken > _OF_WORD):
+            if points >= _LEAST and (is_kind or spoken >= _OF_WORD):
                 yield Chosen(look, part, points)
     for look in looks().general:
         if spoken := _spoken(look, small):
@@ -135,7 +135,8 @@ def _rarity(word: str, of_parts: bool) -> float:
 
 @cache
 def _compiled(pattern: str) -> re.Pattern[str]:
-    return re.compile(pattern)
+    """Return a pattern on whole words, their plurals too; an underscore ends a word."""
+    return re.compile(rf"(?:(?<![^\W_])|(?!\w))(?:{pattern})(?:e?s)?(?:(?![^\W_])|(?<!\w))")
 
 
 def _small(text: str) -> str:

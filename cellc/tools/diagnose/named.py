@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from cellc.compiler.cell.interface import Endpoint, Interface
 
 _OF_CELL, _WELL_KNOWN = 3, 2
-"""How many names are told."""
+"""How many names are named."""
 _FULL_NAME = re.compile(r"(?<![\w./:~-])/[A-Za-z]\w*(?:/\w+)*(?![\w/.]*\.\w)(?![\w/])")
 _OF_TOPIC = re.compile(r"\b(topics?|publish\w*|subscri\w*|echo|hz)\b", re.IGNORECASE)
 _NO_TOPIC = re.compile(r"^/(home|tmp|opt|usr|etc|dev|var|proc|sys|mnt|root|media)\b")
@@ -50,11 +50,11 @@ def named_in(text: str, cell: Cell | None) -> tuple[str, ...]:
     """Return what the names of a text are, one line each, those of the cell first."""
     small = " ".join(text.casefold().split())
     of_cell = [] if cell is None else list(dict.fromkeys(_of_cell(text, cell)))
-    told = " ".join(of_cell)
+    so_far = " ".join(of_cell)
     known = [
         f"`{each.name}`: {each.means}"
         for each in names().names
-        if re.search(each.says, small) and f"`{each.name}`" not in told
+        if re.search(each.says, small) and f"`{each.name}`" not in so_far
     ]
     return (*of_cell[:_OF_CELL], *known[:_WELL_KNOWN])
 
@@ -78,4 +78,4 @@ def _interface(interface: Interface) -> str:
 
 
 def _nodes(ends: Iterable[Endpoint]) -> str:
-    return ", ".join(dict.fromkeys(end.node for end in ends)) or "nobody that is declared"
+    return ", ".join(dict.fromkeys(end.node for end in ends)) or "none that is declared"

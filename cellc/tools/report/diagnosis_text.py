@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def render_answer(answer: Answer) -> Iterator[Line]:
     """Yield what a text may mean; where no layer is certain, first the question that decides."""
-    yield from (f"named: {line}" for line in answer.told)
+    yield from (f"named: {line}" for line in answer.named)
     if not answer.fits:
         yield from _nearest(answer)
         yield from render_first(answer.first)
