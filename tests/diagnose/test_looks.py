@@ -20,7 +20,7 @@ POINTED = {
     "the modbus register shows 256 where the plc has 1, as if the bytes were swapped": "in the opposite order",
     "our weld gun's digital input is always true while nothing touches the sensor": "active low",
     "set filter.enable:=true in the launch, the parameter is ignored since": "not known to the installed version",
-    "ros2 node list shows nodes that I killed an hour ago": "the daemon of ros2",
+    "ros2 node list still shows old nodes": "the daemon of ros2",
     "pressing execute in rviz does nothing, planning is fine, and rqt_joint_trajectory_controller jogs": "no, or an",
     "rviz on the laptop: could not load mesh resource, the model is invisible": "mesh paths are absolute",
     "the canopen drive times out while it boots since the update": "a timeout of the configuration is shorter",

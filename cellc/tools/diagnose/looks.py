@@ -1,7 +1,7 @@
 """What is looked at first, by the parts that a text names and the kind of trouble that it states.
 
-The table is ``catalog/symptoms/looks.yaml``: it holds no symptoms, but for each part of a cell the ways in which it
-fails, with the one observation that tells. So it has an answer for what nobody has reported yet.
+The table is ``catalog/symptoms/looks.yaml``: not symptoms, but for each part of a cell how it fails, with the one
+observation that tells. So it has a cause for what no person has reported yet.
 """
 
 from __future__ import annotations
