@@ -105,7 +105,7 @@ def _weighed(small: str, kinds: Collection[str]) -> Iterator[Chosen]:
             is_kind = not kinds or not look.kinds or bool(set(kinds) & set(look.kinds))
             spoken = _spoken(look, small)
             points = named + _OF_KIND * is_kind + spoken
-            if points >= _LEAST and (is_kind or spoken >= _OF_WORD):
+            if points >= _LEAST and (spoken >= _OF_WORD or (is_kind and (spoken or kinds))):
                 yield Chosen(look, part, points)
     for look in looks().general:
         if spoken := _spoken(look, small):
