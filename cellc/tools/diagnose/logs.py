@@ -34,7 +34,7 @@ _MOST_SHORT = 8192
 _FAILS = re.compile(
     r"\b(error|fail\w*|fault|cannot|can't|can not|could not|couldn't|unable|refused|denied|rejected|invalid|timeout"
     r"|timed? out|not (found|available|started|possible|responding|valid|supported|(fully )?set)|disconnect\w*|lost"
-    r"|abort\w*|died|crash\w*|exception|unexpected|violat\w*|incompatible|mismatch|missing|undefined|no such)\b",
+    r"|abort\w*|died|crash\w*|exception|unexpected|violat\w*|incompatible|mismatch|undefined|no such)\b",
     re.IGNORECASE,
 )
 _QUARTER_NS = 15 * 60 * 1_000_000_000
