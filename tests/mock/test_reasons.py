@@ -94,6 +94,20 @@ def test_a_queue_that_is_always_full_is_named(edit_contract: Callable[[Callable[
     assert re.fullmatch(f"step 2 `detect: object`: .*; `perception` {told}", result.reason)
 
 
+@pytest.mark.parametrize("stated", ["reject_goal", "stop_and_hold", "ignore_sample"])
+def test_a_reaction_that_is_played_as_another_one_is_stated(
+    edit_contract: Callable[[Callable[[Any], None]], MockCell], stated: str
+) -> None:
+    def change(contract: Any) -> None:
+        contract["interfaces"]["/object_pose"]["on_stale"] = stated
+        (sink,) = contract["interfaces"]["/camera/color/image_raw"]["sinks"]
+        sink["qos"]["depth"] = 10
+
+    reason = edit_contract(change).run("pick_and_place").reason
+    alike = f"`on_stale: {stated}` is played as `reject_goal`, your node may react in another way"
+    assert reason.endswith(alike) == (stated != "reject_goal")
+
+
 def test_a_bring_up_that_fails_names_its_stage(folder: Path) -> None:
     file = folder / "config/controllers.yaml"
     file.write_text(file.read_text().replace("- arm_elbow_joint", "- arm_elbw_joint", 1))

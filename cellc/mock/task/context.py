@@ -302,9 +302,16 @@ class TaskContext:
         raise self.stale(self.acting_on or "", inbox.describe(self.acting_on or ""))
 
     def stale(self, frame: str, observation: str) -> AttemptError:
-        """Return what ends an attempt whose observation of a frame is stale, with the link that is starved."""
-        why = starved_observation(self.plant, frame, self.node.observations[frame].max_age_s)
-        return AttemptError(AttemptOutcome.STALE_STATE, f"{observation}; {why}")
+        """Return what ends an attempt whose observation of a frame is stale, with the link that is starved.
+
+        Three values of ``on_stale`` are played alike: the reason says so where the contract states another one.
+        """
+        inbox = self.node.observations[frame]
+        why = starved_observation(self.plant, frame, inbox.max_age_s)
+        alike = f"; `on_stale: {inbox.on_stale}` is played as `reject_goal`, your node may react in another way"
+        return AttemptError(
+            AttemptOutcome.STALE_STATE, f"{observation}; {why}{'' if inbox.on_stale == 'reject_goal' else alike}"
+        )
 
     def check_authorities(self, frames: Iterable[str]) -> None:
         """Raise AttemptError where two nodes publish one of the frames: lookups would jump from one to the other."""
