@@ -59,9 +59,10 @@ def test_pictures_have_the_attributes_and_words_of_svg(cell: str, distro: str) -
         assert [(name, value) for name, value in found if not _allowed(name, value, marks)] == []
         assert all(0.0 <= float(value) <= 1.0 for name, value in found if name.endswith("opacity"))
         assert {element.tag.removeprefix(_SVG) for element in root.iter()} <= _DRAWN
+        assert cell in (root.findtext(f"{_SVG}title") or "")
 
 
-_DRAWN = {"svg", "defs", "marker", "view", "g", "path", "rect", "polygon", "line", "text"}
+_DRAWN = {"svg", "title", "defs", "marker", "view", "g", "path", "rect", "polygon", "line", "text"}
 
 
 def _places(group: Element, at: tuple[float, float] = (0.0, 0.0)) -> set[tuple[float, float]]:

@@ -15,7 +15,7 @@ from tests.emit.cells import contract_data
 SHEET = "responsibility.svg"
 _SPACE = "{http://www.w3.org/2000/svg}"
 _COLUMNS = 4  # titles of bands, both boxes, what is carried
-_DRAWN = {"svg", "defs", "marker", "path", "rect", "text", "line"}
+_DRAWN = {"svg", "title", "defs", "marker", "path", "rect", "text", "line"}
 _ON_SEVERAL_PAGES = {"view"}
 
 

@@ -114,6 +114,7 @@ def test_a_name_cannot_leave_its_element() -> None:
     )
     assert {element.tag.removeprefix(_SVG) for element in root.iter()} <= {
         "svg",
+        "title",
         "g",
         "rect",
         "text",

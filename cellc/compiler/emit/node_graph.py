@@ -31,7 +31,7 @@ _BOX, _CHARACTERS = 126, 17  # width of a box, and how many characters it holds
 _GAP = 84  # between two layers, where lines cross
 _MARGIN, _TITLE = 14, 50
 _BAND = 20  # between a box and the boundary around it
-_INK, _BACK, _STOP = "#30363d", "#5b87b0", "#b3310a"
+_INK, _BACK, _STOP = "#30363d", "#3d6d9c", "#b3310a"
 _MOVE, _HELP = "#6b3fa0", "#8a949e"
 _DASHED = {"stroke-dasharray": "6 4"}
 
@@ -146,7 +146,7 @@ def _sheet(cell: Cell) -> Element:
         *_legend(bottom + _MARGIN + 6, {kind for _, kind, _ in arrows}),
         *listed,
     ]
-    return sheet(width, below, _SIZE, drawn)
+    return sheet(f"Node graph of {cell.name}", width, below, _SIZE, drawn)
 
 
 def _bands(cell: Cell, layers: Mapping[str, int], columns: Columns, bottom: float) -> Iterator[Element]:

@@ -42,9 +42,7 @@ _HELD = "\N{NO-BREAK SPACE}"
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the picture."""
-    yield Artifact(
-        "graph/responsibility.svg", render(_sheet(_bands(graph.cell), unknown_boxes(graph.cell)), plan.header.text)
-    )
+    yield Artifact("graph/responsibility.svg", render(_sheet(graph.cell), plan.header.text))
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,15 +64,17 @@ def _bands(cell: Cell) -> tuple[Band, ...]:
     )
 
 
-def _sheet(bands: tuple[Band, ...], unknown: Container[str]) -> Element:
+def _sheet(cell: Cell) -> Element:
     """Return the picture on a sheet that is as high as it needs to be."""
+    bands, unknown = _bands(cell), unknown_boxes(cell)
     heights = [_TITLE + sum(map(_height, band.rows)) + _GAP for band in bands]
     tops = [_MARGIN, *(_MARGIN + total for total in accumulate(height + _GAP for height in heights))]
     drawn = (_band(band, top, height, unknown) for band, top, height in zip(bands, tops, heights, strict=False))
     head = element("defs", children=[arrow_head("head", "#000000")])
     bottom = tops[-1] + _MARGIN - _GAP
     views = _views(bands, tops, bottom)
-    return sheet(_WIDTH, bottom, _FONT_SIZE, [head, *views, *(part for parts in drawn for part in parts)])
+    title = f"Every arrow of {cell.name} with its owner"
+    return sheet(title, _WIDTH, bottom, _FONT_SIZE, [head, *views, *(part for parts in drawn for part in parts)])
 
 
 def _views(bands: tuple[Band, ...], tops: list[int], bottom: int) -> Iterator[Element]:

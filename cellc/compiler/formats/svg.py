@@ -12,8 +12,8 @@ from cellc.compiler.formats.xml_text import element
 Style = Mapping[str, str]
 
 
-def sheet(width: float, height: float, font_size: float, children: Iterable[Element]) -> Element:
-    """Return a white sheet with what is drawn on it, in the order in which it is drawn."""
+def sheet(title: str, width: float, height: float, font_size: float, children: Iterable[Element]) -> Element:
+    """Return a white sheet with what is drawn on it, in the order in which it is drawn; its title is read aloud."""
     attributes = {
         "xmlns": "http://www.w3.org/2000/svg",
         "viewBox": f"0 0 {number(width)} {number(height)}",
@@ -21,7 +21,7 @@ def sheet(width: float, height: float, font_size: float, children: Iterable[Elem
         "font-size": f"{font_size:g}",
     }
     background = element("rect", {"width": "100%", "height": "100%", "fill": "#ffffff"})
-    return element("svg", attributes, [background, *children])
+    return element("svg", attributes, [element("title", text=one_line(title)), background, *children])
 
 
 def text(x: float, y: float, content: str, style: Style | None = None) -> Element:

@@ -137,7 +137,7 @@ def _sheet(drawing: Part, views: Sequence[_View]) -> Element:
         shift = f"translate({x - view.left:g} {y + title - view.top:g})"
         parts.append(element("g", {"transform": shift}, [_bodies(view, drawing), _marks(view, drawing, letter)]))
         x, y = (x + view.width + gap, y) if beside else (x, y + title + view.height + gap)
-    return sheet(width, height, letter, parts)
+    return sheet(f"{drawing.name} from two sides, with its frames", width, height, letter, parts)
 
 
 def _letter(width: float) -> float:

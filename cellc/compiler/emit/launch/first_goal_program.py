@@ -342,22 +342,22 @@ def identity(package: Path | None) -> dict[str, str]:
 def plot(samples: Sequence[Sample], joint: str) -> str:
     """Return command and state over time, and the error below, each on a scale of its own."""
     whole = max((sample.time_s for sample in samples), default=0.0) or 1.0
-    lines = [f'<text x="60" y="20">{html.escape(joint)}: command (gray), state (blue); error (red)</text>']
+    said = f"{html.escape(joint)}: command (broad gray line) and state (thin blue line), rad or m"
+    lines = [f'<title>{said}</title><text x="60" y="20">{said}</text>', '<text x="60" y="268">error, rad or m</text>']
     for columns, top in ((("command", "state"), 40.0), (("error",), 280.0)):
         values = [value for sample in samples for name in columns if math.isfinite(value := getattr(sample, name))]
         low, high = (min(values), max(values)) if values else (0.0, 0.0)
-        scale = 180.0 / (high - low) if high > low else 0.0
-        lines += [f'<text x="2" y="{y:g}">{v:.4f}</text>' for y, v in ((top + 8.0, high), (top + 180.0, low))]
+        lines += [f'<text x="2" y="{y:g}">{v:.4g}</text>' for y, v in ((top + 8.0, high), (top + 180.0, low))]
         for name in columns:
             points = " ".join(
-                f"{60.0 + 720.0 * sample.time_s / whole:.1f},{top + (high - value) * scale:.1f}"
+                f"{60.0 + 720.0 * sample.time_s / whole:.1f},{top + 180.0 * (high - value) / (high - low or 1.0):.1f}"
                 for sample in samples
                 if math.isfinite(value := getattr(sample, name))
             )
-            color = {"command": "gray", "state": "blue", "error": "red"}[name]
-            lines.append(f'<polyline fill="none" stroke="{color}" points="{points}"/>')
+            stroke = {"command": 'silver" stroke-width="6', "state": "blue", "error": "red"}[name]
+            lines.append(f'<polyline fill="none" stroke="{stroke}" points="{points}"/>')
+    head = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 800 500" font-family="sans-serif" font-size="12">'
     lines.append(f'<text x="60" y="490">0 to {whole:.2f} s</text>')
-    head = '<svg xmlns="http://www.w3.org/2000/svg" width="800" height="500" font-family="sans-serif" font-size="11">'
     return "\n".join((head, '<rect width="800" height="500" fill="white"/>', *lines, "</svg>", ""))
 
 
