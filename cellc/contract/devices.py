@@ -8,7 +8,7 @@ from pydantic import Field
 from cellc.contract.base import ContractModel
 from cellc.contract.control_law import ControlLaw
 from cellc.contract.entities import HardwareState
-from cellc.contract.grading import FURTHER, SECOND_CLIENT, STALE, Graded, Rule
+from cellc.contract.grading import HARDER, SECOND_CLIENT, STALE, Graded, Rule
 from cellc.contract.quantities import (
     Coordinate,
     Magnitude,
@@ -31,14 +31,16 @@ class ContractGripper(ContractModel):
     )
     open: Coordinate = Field(description="Position when open.")
     closed: Coordinate = Field(description="Position when closed on nothing.")
-    max_effort: Annotated[Magnitude, Graded(ReviewArea.LIMITS, "largest effort", Rule.MORE, why=FURTHER)] = Field(
+    max_effort: Annotated[Magnitude, Graded(ReviewArea.LIMITS, "grip force", Rule.LOOSER, "N", why=HARDER)] = Field(
         description="Largest effort, N or Nm."
     )
-    max_velocity: PositiveMagnitude | None = Field(
-        None, description="Speed of the joint as the jaws move, rad/s or m/s; null where it is not stated."
-    )
+    max_velocity: Annotated[
+        PositiveMagnitude | None, Graded(ReviewArea.LIMITS, "speed of the jaws' joint", unit="joint/s")
+    ] = Field(None, description="Speed of the joint as the jaws move, rad/s or m/s; null where it is not stated.")
     goal_tolerance: Magnitude = Field(0.0, description="How far the joint may end from its goal, rad or m.")
-    stroke_m: Magnitude = Field(0.0, description="How far its jaws are apart when open.")
+    stroke_m: Annotated[Magnitude, Graded(ReviewArea.DEVICES, "stroke")] = Field(
+        0.0, description="How far its jaws are apart when open."
+    )
     swing: Coordinate | None = Field(
         None, description="Angle between the cranks of its jaws and its fingers when closed; null where jaws slide."
     )

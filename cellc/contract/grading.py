@@ -60,6 +60,8 @@ class Graded(NamedTuple):
 
 UNAVOIDED = "planning no longer avoids all the room that it avoided"
 GRIPPED = "another part may be taken for the right one"
+HARDER = "the fingers close harder, on a part as on a hand"
+OTHER_MASS = "force, payload and motion were chosen for a lighter part"
 STALE = "older data may be used, or a failure goes unseen for longer"
 FURTHER = "the joint may move further or faster than people at the cell expect"
 PLANNED = "planned motion changes"

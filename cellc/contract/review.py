@@ -42,6 +42,9 @@ class ReviewCause(ContractModel):
     lines: int = Field(1, description="How many values of that part are listed as one.")
     values: tuple[ReviewValue, ...] = Field((), description="Those values, where there are several.")
     renamed: bool = Field(False, description="It only has another name.")
+    kept: tuple[str, ...] = Field(
+        (), description="Of another model: what the spec states for the model before, and was left as it was."
+    )
 
 
 class ReviewChange(ContractModel):

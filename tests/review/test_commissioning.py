@@ -31,7 +31,7 @@ def facts(folder: Path, stated: str, *, with_spec: bool) -> Facts:
         ("{velocity: 50 %, acceleration: 50 %, force: 40 N}", "{velocity: 50 %, acceleration: 50 %, force: 50 N}"),
     ],
 )
-def test_larger_cap_is_dangerous_and_a_smaller_one_is_safe(
+def test_larger_cap_is_dangerous_and_a_smaller_one_is_safe_but_that_of_a_grip_is_looked_at(
     smaller: str, larger: str, with_spec: bool, tmp_path: Path
 ) -> None:
     low, high = (
@@ -41,7 +41,9 @@ def test_larger_cap_is_dangerous_and_a_smaller_one_is_safe(
     assert grown
     assert {change.grade for change in grown} == {Grade.DANGEROUS}
     shrunk = [change for change in changes_between(high, low) if change.area.value == "limits"]
-    assert {change.grade for change in shrunk} == {Grade.SAFE}
+    assert {change.grade for change in shrunk if change.quantity != "grip force"} <= {Grade.SAFE}
+    # A part may fall.
+    assert {change.grade for change in shrunk if change.quantity == "grip force"} <= {Grade.REVIEW}
 
 
 def test_stage_that_is_gone_is_dangerous(tmp_path: Path) -> None:

@@ -136,7 +136,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review gates | gates/promotion.md | 1 line (not classified) | - [ ] Measure around each arm. Compare its "
             "floor with the spec: floor, and nothing else within reach. -> - [ ] Measure around each arm. Compare its "
             "walls with the spec: nothing within reach; the nearest is 2 m away.",
-            "review documents | audit.md | 1 line (not classified) | | floor | plane | floor | figures of the spec | "
+            "safe documents | audit.md | 1 line (not classified) | | floor | plane | floor | figures of the spec | "
             "-> | floor | plane | fixture | figures of the spec |",
             "safe documents | table | looks | pose position 0, 0, 0 quaternion 0, 0, 0, 1 geometry size 0.9, 1.2, 0.04 "
             "scene_fixture rgba 0.7, 0.7, 0.7, 1 -> pose position 0, 0, 0 quaternion 0, 0, 0, 1 geometry radius 0.7 "
@@ -179,7 +179,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review devices | camera | device camera.rate_hz | 30 Hz -> 15 Hz | -50 %",
             "review start order | launch/goal.launch.xml | 1 line (not classified) | "
             f"{_first_goal(0.04363323129985824, 2.5)} -> {_first_goal(0.08726646259971647, 2.5)}",
-            f"review documents | audit.md | 2 lines (not classified) | {_ages(41.33)} -> {_ages(74.67, 300)}",
+            f"safe documents | audit.md | 2 lines (not classified) | {_ages(41.33)} -> {_ages(74.67, 300)}",
         ],
     ),
     "limits and where it goes": (
@@ -206,7 +206,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "xyz -133.3 491.9 1114.9 mm, rpy 180 0 -90 deg | moves 721 mm, turns 90 deg",
             "review network | control_pc | ROS_DOMAIN_ID | 42 -> 43 | breaks",
             # A fifth more than 6.055 m/s: 90 deg/s at 1.212, 1.212, 0.787, 0.372 and 0.273 m from the axes.
-            f"review documents | audit.md | 4 lines (not classified) | {_tips(0.61, 1.6, 3.1)} -> "
+            f"safe documents | audit.md | 4 lines (not classified) | {_tips(0.61, 1.6, 3.1)} -> "
             f"{_tips(0.73, 1.9, 3.7)}",
             f"safe limits | {ARM} | acceleration | 143.2394 deg/s^2 -> 114.5916 deg/s^2 | -20 %",
         ],
@@ -242,7 +242,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "more -> <address>10.10.0.10</address>",
             "review network | cell | network discovery | localhost -> multicast",
             "review network | control_pc | variable ROS_AUTOMATIC_DISCOVERY_RANGE | SYSTEM_DEFAULT -> SUBNET",
-            f"review documents | audit.md | 2 lines (not classified) | {_ages(41.33)} -> {_ages(43.33)}",
+            f"safe documents | audit.md | 2 lines (not classified) | {_ages(41.33)} -> {_ages(43.33)}",
         ],
     ),
     "who takes part": (

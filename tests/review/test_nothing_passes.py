@@ -95,7 +95,8 @@ def test_serial_number_that_was_read_ends_no_calibration(repository: Repository,
     found = reviewed(
         main, package_of(repository, repository.commit(edited(("serial: UNKNOWN", "serial: '20225500001'"))))
     )
-    assert {str(change.grade) for change in found.changes} == {"review"}
+    # The line of a document that follows is safe.
+    assert {str(change.grade) for change in found.changes if change.area != "documents"} == {"review"}
 
 
 @pytest.mark.parametrize(

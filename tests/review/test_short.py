@@ -153,10 +153,10 @@ def test_stiffness_of_a_joint_is_dangerous_and_both_safety_and_control_are_asked
     assert not [change.quantity for change in found.changes if "law." in change.quantity]
 
 
-def test_who_is_asked_is_never_cut_and_the_head_counts_what_is_listed() -> None:
+def test_who_is_asked_is_never_cut_and_the_head_counts_as_every_other_form_does() -> None:
     found = review_of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), ("max_age: 200 ms", "max_age: 205 ms"))
     lines = _lines(found)
-    assert lines[0].partition(": ")[2] == "4 changes (4 review)"
+    assert lines[0].partition(": ")[2] == "5 changes (4 review, 1 safe)"
     assert len(found.changes) == 5  # one is a line of a document that follows, which `--all` lists
     owners = "data: metrology and calibration"
     long = found.model_copy(

@@ -14,9 +14,11 @@ from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.change import Change
 from cellc.tools.review.effects import effects
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
+from cellc.tools.review.geometry import place_difference
 from cellc.tools.review.grading import ELSEWHERE, grade, is_reaching
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
+from cellc.tools.review.replaced import PAIRS, with_models
 from cellc.tools.review.rooms import box_difference
 from cellc.tools.review.rows import FOLLOWS, ROWS
 from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
@@ -52,7 +54,7 @@ def merged(found: Sequence[tuple[int | None, Change]], before: Facts, after: Fac
     for cause, change in found:
         alike.setdefault((cause, replace(change, subject="")), []).append(change.subject)
     changes = [_reviewed(change, cause, tuple(subjects), owners) for (cause, change), subjects in alike.items()]
-    return tuple(sorted(changes, key=_order))
+    return tuple(sorted(changes, key=order_of))
 
 
 def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
@@ -64,7 +66,7 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     }
 
 
-def _order(change: ReviewChange) -> tuple[int, int, bool, str, tuple[str, ...]]:
+def order_of(change: ReviewChange) -> tuple[int, int, bool, str, tuple[str, ...]]:
     areas = tuple(ReviewArea)
     is_later = change.quantity.endswith(LATER)
     return (-tuple(Grade).index(change.grade), areas.index(change.area), is_later, change.quantity, change.subjects)
@@ -117,7 +119,7 @@ def reported(before: Facts, after: Facts) -> list[Change]:
     renamed = before.contract.cell != after.contract.cell
     left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
     reported += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
-    return reported or list(_unexplained(before, after))
+    return with_models(reported, before, after) or list(_unexplained(before, after))
 
 
 def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
@@ -299,11 +301,11 @@ def _difference(delta: Delta, unit: str, row: Row, before: Facts, after: Facts) 
         told = box_difference(delta.path, before, after)
         if told:
             return told
+    if delta.path[:1] == ("placement",):
+        told = place_difference(delta.path[1], before, after)
+        if told:
+            return told
     return difference(delta.before, delta.after, unit, share=row.grade.share)
-
-
-PAIRS = ("can now meet", "can no longer meet")
-"""What is said of two links of which a collision is checked that was not, and in the other direction."""
 
 
 def _of_pair(delta: Delta, row: Row, taken: Grade) -> Change:

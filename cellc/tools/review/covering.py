@@ -48,11 +48,11 @@ def _lies_in(shape: Collision, other: Collision) -> bool:
             aside = math.hypot(*place.position[:2]) + shape.geometry.radius <= other.geometry.radius + _SLACK
             ends = abs(place.position[2]) + shape.geometry.length / 2 <= other.geometry.length / 2 + _SLACK
             return aside and ends
-    corners = [*map(place.apply, _corners(shape.geometry))]
+    corners = [*map(place.apply, corners_of(shape.geometry))]
     return bool(corners) and all(_has(other.geometry, corner) for corner in corners)
 
 
-def _corners(geometry: Geometry) -> Iterator[Vector3]:
+def corners_of(geometry: Geometry) -> Iterator[Vector3]:
     """Yield the corners of the box about a shape; of a mesh none, for its file is not read here."""
     if isinstance(geometry, Box):
         x, y, z = geometry.size

@@ -10,6 +10,7 @@ from cellc.tools.review.edges import edge_changes, offers_less
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.geometry import moved_bases, moved_places
 from cellc.tools.review.grading import ELSEWHERE, bases
+from cellc.tools.review.replaced import MASS, measured_of
 from cellc.tools.review.units import difference, shown
 
 
@@ -36,6 +37,12 @@ def effects(before: Facts, after: Facts) -> Iterator[Change]:
             difference(base.before, base.after, ""),
             why=ELSEWHERE,
             approval="safety",
+        )
+    for device, quantity, was, now in measured_of(before, after):
+        unit = "kg" if quantity == MASS else "m"
+        area = ReviewArea.PAYLOAD if quantity == MASS else ReviewArea.MODEL
+        yield Change(
+            area, device, quantity, shown(was, unit), shown(now, unit), Grade.REVIEW, difference(was, now, unit)
         )
     for subject, missed in offers_less(before.contract, after.contract):
         why = "subscribers outside the cell that request the old offer no longer connect"

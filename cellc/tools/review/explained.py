@@ -10,11 +10,12 @@ from cellc.contract.review import ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.causes import State, as_cause, attributed, causes_between, facts_of_document
 from cellc.tools.review.change import Change
-from cellc.tools.review.compare import change_of, changes_between, follows, merged, reported
+from cellc.tools.review.compare import change_of, changes_between, follows, merged, order_of, reported
 from cellc.tools.review.device_folders import by_folders, folder_causes
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.folder_names import facts_with_names, renames_between_folders
-from cellc.tools.review.groups import NAME_OF
+from cellc.tools.review.groups import NAME_OF, only_follows
+from cellc.tools.review.kept import kept_beside
 from cellc.tools.review.leaves import Leaf, Path, Prose, differences, same
 from cellc.tools.review.renames import Names, Rename, names_of, renamed, renames_between
 from cellc.tools.review.sides import Package
@@ -50,8 +51,28 @@ def explained(before: Package, after: Package) -> Explained:
     numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
     numbered += [(None if number is None else number + len(first), change) for number, change in found]
     return Explained(
-        (*first, *map(as_cause, causes), *of_folders), merged(numbered, before.facts, after.facts), renames
+        (
+            *first,
+            *(
+                as_cause(cause).model_copy(update={"kept": kept_beside(cause, was.document, now.document)})
+                for cause in causes
+            ),
+            *of_folders,
+        ),
+        _with_echoes(merged(numbered, before.facts, after.facts)),
+        renames,
     )
+
+
+def _with_echoes(changes: Sequence[ReviewChange]) -> tuple[ReviewChange, ...]:
+    """Return changes in which lines of documents that follow from others of the same line of the spec are safe."""
+    told = {change.cause for change in changes if change.cause is not None and not only_follows(change)}
+    echo = {"grade": Grade.SAFE, "why": "follows from the changes beside it"}
+    after = [
+        change.model_copy(update=echo) if change.cause in told and only_follows(change) else change
+        for change in changes
+    ]
+    return tuple(sorted(after, key=order_of))
 
 
 def _of_folders(before: Package, after: Package) -> Explained:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from cellc.contract.transforms import Pose, apart, climb, identity
 from cellc.robot.description.posture import posture
 from cellc.tools.review.facts import Facts
+from cellc.tools.review.units import motion
 
 _NOTICED = 1e-6
 """m and rad."""
@@ -53,6 +54,42 @@ def moved_bases(before: Facts, after: Facts, bases: Collection[str]) -> Iterator
 
 def _mount(facts: Facts, link: str) -> Pose | None:
     return next((joint.pose for joint in facts.description.joints if joint.child == link), None)
+
+
+def place_difference(frame: str, before: Facts, after: Facts) -> str:
+    """Return how far a frame moves on what carries it, where its parent moves as well; empty where that stays.
+
+    What carries it is the nearest link below it that a joint moves, else the root.
+    """
+    was, now = on_carrier(frame, before), on_carrier(frame, after)
+    old, new = _stated(frame, before), _stated(frame, after)
+    if was is None or now is None or old is None or new is None or was[0] != now[0]:
+        return ""
+    in_parent, whole = apart(old, new), apart(was[1], now[1])
+    if max(abs(one - other) for one, other in zip(in_parent, whole, strict=True)) <= _NOTICED:
+        return ""
+    return f"{motion(*whole) or 'stays'} on {was[0]}; in its parent {motion(*in_parent)}"
+
+
+def _stated(frame: str, facts: Facts) -> Pose | None:
+    stated = facts.contract.frames.get(frame)
+    return _mount(facts, frame) or (None if stated is None or stated.pose is None else stated.pose.pose)
+
+
+def on_carrier(frame: str, facts: Facts) -> tuple[str, Pose] | None:
+    """Return the nearest link that moves, or the root, with the pose of a frame in it."""
+    joints = {joint.child: joint for joint in facts.description.joints}
+    place = identity()
+    for _ in range(len(joints) + len(facts.contract.frames)):
+        pose, joint = _stated(frame, facts), joints.get(frame)
+        if pose is None:
+            return frame, place
+        place = pose @ place
+        frame = facts.contract.frames[frame].parent if joint is None else joint.parent
+        above = joints.get(frame)
+        if above is not None and above.movable:
+            return frame, place
+    return None
 
 
 def _carried(facts: Facts, bases: Collection[str]) -> dict[str, tuple[Pose, Pose]]:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cellc.contract.contract import Contract
 from cellc.contract.grading import UNAVOIDED, Rule
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
+from cellc.robot.description.model import Collision
 from cellc.tools.review.covering import covers
 from cellc.tools.review.facts import Facts
+from cellc.tools.review.geometry import on_carrier
 from cellc.tools.review.leaves import Delta, Leaf, said
 from cellc.tools.review.measured import unmeasured
 from cellc.tools.review.rooms import is_part_of_scene, obstacle_covers
@@ -166,7 +168,23 @@ def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:
         for side in (before, after)
     )
     in_parent = obstacle_covers(delta.path[2], before, after)
-    return Verdict(Grade.REVIEW if (covers(was, now) if in_parent is None else in_parent) else Grade.DANGEROUS)
+    if in_parent is None:
+        was, now = _on_same_carrier(delta.path[2], was, now, before, after)
+        in_parent = covers(was, now)
+    return Verdict(Grade.REVIEW if in_parent else Grade.DANGEROUS)
+
+
+def _on_same_carrier(
+    link: str, was: tuple[Collision, ...], now: tuple[Collision, ...], before: Facts, after: Facts
+) -> tuple[tuple[Collision, ...], tuple[Collision, ...]]:
+    """Return shapes where they are on what carries the link, which may have moved with them; else in the link."""
+    old, new = on_carrier(link, before), on_carrier(link, after)
+    if old is None or new is None or old[0] != new[0]:
+        return was, now
+    return (
+        tuple(replace(shape, pose=old[1] @ shape.pose) for shape in was),
+        tuple(replace(shape, pose=new[1] @ shape.pose) for shape in now),
+    )
 
 
 def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:

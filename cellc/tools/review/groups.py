@@ -10,12 +10,14 @@ from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChang
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.compare import UNCLASSIFIED
 from cellc.tools.review.grading import UNMEASURED
+from cellc.tools.review.replaced import LENGTH, MASS
 from cellc.tools.review.titles import Quote, title_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
+_VALUED = ("stroke", "grip force", "reach", "largest payload", LENGTH, MASS)
+"""Quantities of a model: a heading has their values, before and after."""
 _TELLING = (
-    "reach",
-    "largest payload",
+    *_VALUED,
     "base in its parent",
     "base in the root frame",
     "tip",
@@ -23,7 +25,7 @@ _TELLING = (
     "place in the root frame",
 )
 """Quantities that say the most about a cause with many changes, in this order."""
-_SAID, _HOME = 3, "home"
+_SAID, _HOME = 4, "home"
 NAME_OF = "name of the "
 """How the quantity of another name begins."""
 
@@ -55,12 +57,25 @@ class Group:
         return self._title("" if self.cause is None else self.cause.line, _in_backticks)
 
     def fitting(self, width: int) -> str:
-        """Return the title with as much of the path at its end as there is room for."""
+        """Return the title with its place, else with how much changed, and as much of the path as there is room for."""
+        if self.cause is not None and not self.cause.renamed and len(self.cause.values) < 2 and len(self.title) > width:
+            return self._without_place(width)
         parts = [] if self.cause is None else self.cause.line.split(".")
         while len(parts) > 2 and len(self._title("." * 3 + ".".join(parts))) > width:
             parts = parts[1:]
         is_whole = self.cause is None or len(parts) == len(self.cause.line.split("."))
         return self.title if is_whole else self._title("..." + ".".join(parts))
+
+    def _without_place(self, width: int) -> str:
+        cause = self.cause
+        assert cause is not None
+        sized = next((change.delta for change in self.telling if change.delta), "")
+        tail = f" ({sized})" if sized else ""
+        parts = cause.line.split(".")
+        shown = [".".join(parts), *("..." + ".".join(parts[at:]) for at in range(1, len(parts) - 1))]
+        heads = [title_of(cause, line, str).rpartition(" (")[0] for line in shown]
+        fits = (head + end for end in (tail, "") for head in heads if len(head + end) <= width)
+        return next(fits, heads[0])
 
     def _title(self, line: str, quote: Quote = str) -> str:
         cause = self.cause
@@ -78,9 +93,14 @@ class Group:
         return tuple(dict.fromkeys(told))
 
     @property
+    def kept(self) -> str:
+        """What the spec states for the model before, and was left as it was."""
+        return "" if self.cause is None or not self.cause.kept else f"left as it was: {'; '.join(self.cause.kept)}"
+
+    @property
     def telling(self) -> tuple[ReviewChange, ...]:
         """The changes without the lines of documents that only follow: others of the same cause explain them."""
-        kept = tuple(change for change in self.changes if not _only_follows(change))
+        kept = tuple(change for change in self.changes if not only_follows(change))
         return kept if self.cause is not None and kept else self.changes
 
     @property
@@ -99,16 +119,33 @@ class Group:
     @property
     def asks(self) -> str:
         """Who approves it: area and owner of each change that is not safe."""
-        told = [change for change in self.telling if change.grade is not Grade.SAFE]
-        asked = {change.beside: change.beside_owner for change in told if change.beside is not None}
-        asked |= {change.approval: change.owner for change in told}
-        return ", ".join(f"{area} ({asked[area] or 'no owner'})" for area in _ASKED if area in asked)
+        return asked_of(self.telling)
+
+
+def asked_of(changes: Sequence[ReviewChange]) -> str:
+    """Return who approves changes: area and owner of each that is not safe."""
+    told = [change for change in changes if change.grade is not Grade.SAFE]
+    asked = {change.beside: change.beside_owner for change in told if change.beside is not None}
+    asked |= {change.approval: change.owner for change in told}
+    return ", ".join(f"{area} ({asked[area] or 'no owner'})" for area in _ASKED if area in asked)
+
+
+def broken_by(changes: Sequence[ReviewChange]) -> tuple[str, ...]:
+    """Return what consumers outside the cell know otherwise than it is now: a name, or a quantity of a subject."""
+    told = [
+        change.before or "" if change.quantity.startswith(NAME_OF) else f"{change.quantity} of {change.subjects[0]}"
+        for change in changes
+        if change.breaking
+    ]
+    return tuple(dict.fromkeys(told))
 
 
 def _figure(change: ReviewChange) -> str:
     if change.quantity == "tip":
         return f"tip in {change.subjects[0].partition(' in ')[2]} {change.delta}"
-    return f"{change.quantity if change.quantity in _TELLING[:2] else change.subjects[0]} {change.delta}"
+    if change.quantity in _VALUED and change.before is not None and change.after is not None:
+        return f"{change.quantity} {change.before} -> {change.after} ({change.delta})"
+    return f"{change.subjects[0]} {change.delta.partition('; ')[0]}"
 
 
 def groups_of(review: Review) -> tuple[Group, ...]:
@@ -135,7 +172,8 @@ def _rank(change: ReviewChange) -> int:
     return 0 if change.approval == "safety" else tuple(ReviewArea).index(change.area)
 
 
-def _only_follows(change: ReviewChange) -> bool:
+def only_follows(change: ReviewChange) -> bool:
+    """Tell whether a change is that of lines of a document, which follow what the spec says."""
     return change.area is ReviewArea.DOCUMENTS and change.quantity.endswith(UNCLASSIFIED)
 
 

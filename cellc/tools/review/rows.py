@@ -15,7 +15,7 @@ from cellc.compiler.cell.site import Bringup, Host, Safety
 from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract, ContractController, ContractManager
 from cellc.contract.entities import ContractEndpoint, ContractInterface
-from cellc.contract.grading import FURTHER, PLANNED, SECOND_CLIENT, UNAVOIDED, Graded, Rule
+from cellc.contract.grading import FURTHER, OTHER_MASS, PLANNED, SECOND_CLIENT, UNAVOIDED, Graded, Rule
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.stated import Network
 from cellc.contract.vocabulary import ReviewArea
@@ -65,6 +65,10 @@ ROWS: Sequence[Row] = (
     Row(f"{_LAW} joints {{joint}} ...", Graded(_A.CONTROL, "gain of the joint:", Rule.DANGEROUS, why=_YIELDS)),
     Row(f"{_LAW} unaccounted", Graded(_A.PAYLOAD, "load that gravity compensation leaves out")),
     Row(f"{_LAW} ...", Graded(_A.CONTROL, "control law of the joints:")),
+    Row(
+        "contract frames {frame} grasp mass_kg",
+        Graded(_A.MOTION, "mass of the part to grip", Rule.LOOSER, "kg", why=OTHER_MASS),
+    ),
     *_DECLARED,
     # What stops, and what happens then.
     Row("area {area} {what}", Graded(_A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET)),

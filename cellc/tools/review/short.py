@@ -10,8 +10,11 @@ from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange
-from cellc.tools.review.compare import PAIRS, UNCLASSIFIED, WHOLE
-from cellc.tools.review.groups import NAME_OF, Group, areas_of, groups_of, quantities_of
+from cellc.contract.vocabulary import Grade
+from cellc.tools.review.compare import UNCLASSIFIED, WHOLE
+from cellc.tools.review.grading import UNMEASURED
+from cellc.tools.review.groups import NAME_OF, Group, areas_of, asked_of, broken_by, groups_of, quantities_of
+from cellc.tools.review.replaced import PAIRS
 from cellc.tools.review.text import STYLES, outcomes, summed_up, values_of
 
 MOST_LINES = 25
@@ -48,10 +51,20 @@ def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
 
 
 def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
-    head: _Lines = [summed_up(review, [change for group in groups for change in group.telling]), *_sides(review)]
+    head: _Lines = [summed_up(review), *_sides(review)]
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
+    if folds.titles is _cut:
+        # Not every cause has room for who is asked, and for what breaks.
+        head += [(Styled(text, Style.DIM),) for text in _broken(f"asks {asked_of(_telling_in(groups))}", "  ")]
+        head += (
+            _broken(f"breaks consumers of {', '.join(broken)}", "  ") if (broken := broken_by(review.changes)) else []
+        )
     new, foot = [*_findings(review, folds.findings)], [*_foot(review)]
     return [*head, *new, *_of_groups(groups, most - len(head) - len(new) - len(foot), folds), *foot]
+
+
+def _telling_in(groups: Sequence[Group]) -> list[ReviewChange]:
+    return [change for group in groups for change in group.telling]
 
 
 def _cut(text: str, _: str) -> list[str]:
@@ -115,7 +128,7 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
     left = room - sum(map(len, titles)) - (len(shown) < len(groups))
     for number, (group, title) in enumerate(zip(shown, titles, strict=True)):
         share = max(left // (len(shown) - number), min(left, _FEW))
-        inner = [*_inner(group, share, folds.values)]
+        inner = [*_inner(group, share, folds.values, is_listed=folds.titles is _cut)]
         left -= len(inner)
         yield from title
         yield from inner
@@ -128,24 +141,31 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
 def _title(group: Group, fold: _Fold) -> _Lines:
     grade = group.grade.value
     start = f"{grade}  "
-    text = group.title if fold is _broken else group.fitting(_WIDTH - len(start))
+    text = group.title if fold is _broken else f"{group.fitting(_WIDTH - len(start))}"
     first, *more = fold(start + text, "  ")
     return [(Styled(grade, STYLES[group.grade]), first[len(grade) :]), *more]
 
 
-def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
-    """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for."""
+def _inner(group: Group, most: int, fold: _Fold, *, is_listed: bool) -> Iterator[Line]:
+    """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for.
+
+    Args:
+        is_listed: who approves is listed for all groups together.
+    """
     changes = sorted(group.telling, key=_is_of_lines)
     asked: _Lines = (
-        [(Styled(text, Style.DIM),) for text in _broken(f"  asks {group.asks}", "    ")] if group.asks else []
+        [(Styled(text, Style.DIM),) for text in _broken(f"  asks {group.asks}", "    ")]
+        if group.asks and not is_listed
+        else []
     )
     figures: _Lines = [cut(f"  {text.replace('`', '')}") for text in group.unmeasured]
-    figures += [(Styled(cut(f"  {'; '.join(group.figures)}"), Style.BOLD),)] if group.figures else []
+    figures += [(Styled(line, Style.BOLD),) for line in _broken(f"  {'; '.join(group.figures)}", "    ")]
+    figures += _broken(f"  {group.kept}", "    ")
     worst = _alike([change for change in changes if change.grade is group.grade or change.breaking])
     others = len(changes) - sum(map(len, worst.values()))
     room = min(_FEW, most - len(figures) - len(asked) - (others > 0))
     listed = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
-    lines = [*figures, *(line for text in listed for line in fold(_line(text, worst[text]), "    "))]
+    lines = [*figures, *(line for text in listed for line in _values(_line(text, worst[text]), worst[text], fold))]
     rest = [change for change in changes if not any(change in worst[text] for text in listed)]
     if rest:
         lines.append((Styled(cut(_rest(rest, group, is_whole=not listed)), Style.DIM),))
@@ -155,6 +175,19 @@ def _inner(group: Group, most: int, fold: _Fold) -> Iterator[Line]:
 def _is_of_lines(change: ReviewChange) -> bool:
     """Tell whether a change is that of a file: what its values say is read first."""
     return change.quantity.endswith(UNCLASSIFIED) or change.quantity.startswith("file ")
+
+
+def _values(line: str, changes: Sequence[ReviewChange], fold: _Fold) -> list[str]:
+    """Return a change with what it means where there is room for that; how much it changed is never cut."""
+    change = changes[0]
+    if fold is _broken:
+        why = "" if change.why.startswith(UNMEASURED) else change.why.partition(", before ")[0].replace("`", "")
+        why = why if change.grade is Grade.DANGEROUS and not change.breaking else ""
+        return [*fold(line, "    "), *(fold(f"    {why}", "      ") if why else [])]
+    delta = f" ({change.delta})" if change.delta else ""
+    head = line.partition(delta)[0] if delta and delta in line else line
+    is_cut = delta and head != line and len(escaped(line)) > _WIDTH
+    return [cut(head, _WIDTH - len(escaped(delta))) + escaped(delta)] if is_cut else fold(line, "    ")
 
 
 def _rest(rest: Sequence[ReviewChange], group: Group, *, is_whole: bool) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
@@ -38,17 +38,13 @@ def render_review(review: Review) -> Iterator[Line]:
         yield from (f"  {gate_line(gate)}" for gate in review.gates)
 
 
-def summed_up(review: Review, listed_alone: Sequence[ReviewChange] | None = None) -> str:
-    """Return one line: how many changes of each grade.
-
-    Args:
-        listed_alone: changes that are listed, where those that only follow are not.
-    """
+def summed_up(review: Review) -> str:
+    """Return one line: how many changes of each grade."""
     if not review.changes:
         differing = len(review.files)
         text = f"; {differing} files differ only in order or spelling" if differing else ""
         return f"{review.after.name}: no change{text}"
-    changes = review.changes if listed_alone is None else listed_alone
+    changes = review.changes
     counts = ((sum(change.grade is grade for change in changes), grade) for grade in reversed(Grade))
     listed = ", ".join(f"{number} {grade}" for number, grade in counts if number)
     breaking = sum(change.breaking for change in review.changes)

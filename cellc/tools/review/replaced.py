@@ -1,0 +1,171 @@
+"""A device that another model replaces: its parts follow the model, and what counts of the model is measured.
+
+Joints and links that only one of the two models has are one change, not one each: nothing of them was left without
+limits or shapes, and no other client commands them.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+
+from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.robot.description.model import Description
+from cellc.robot.description.posture import posture
+from cellc.tools.review.change import Change
+from cellc.tools.review.covering import corners_of
+from cellc.tools.review.facts import Facts
+from cellc.tools.review.grading import is_reaching
+
+_FEW = 3
+_APART = re.compile(r"[\s/.,]+")
+MASS, LENGTH = "mass in the description", "length from the mount"
+PAIRS = ("can now meet", "can no longer meet")
+"""What is said of two links of which a collision is checked that was not, and in the other direction."""
+CLAIM, PARTS = "controller that claims it", "links and joints"
+_OF_BODY = ("collision shapes added", "collision shapes removed", "mass and inertia added", "mass and inertia removed")
+
+
+@dataclass(frozen=True, slots=True)
+class Replaced:
+    """A device with another model.
+
+    Attributes:
+        links: of either model.
+        bare: those of them that collide on one side alone.
+        gone: links and joints of the model before alone.
+        come: links and joints of the model after alone.
+    """
+
+    device: str
+    links: frozenset[str]
+    bare: frozenset[str]
+    gone: frozenset[str]
+    come: frozenset[str]
+
+
+def replaced(before: Facts, after: Facts) -> Iterator[Replaced]:
+    """Yield the devices that have another model."""
+    for name, was in before.contract.devices.items():
+        now = after.contract.devices.get(name)
+        if now is None or now.model == was.model:
+            continue
+        (old_links, old_joints), (new_links, new_joints) = (_body(name, side) for side in (before, after))
+        gone = (old_links | old_joints) - _names(after.description)
+        come = (new_links | new_joints) - _names(before.description)
+        links = old_links | new_links
+        yield Replaced(name, links, links & (_colliding(before) ^ _colliding(after)), gone, come)
+
+
+def _colliding(facts: Facts) -> frozenset[str]:
+    return frozenset(link.name for link in facts.description.links if link.collisions)
+
+
+def _names(body: Description) -> frozenset[str]:
+    return frozenset((*(link.name for link in body.links), *(joint.name for joint in body.joints)))
+
+
+def _body(device: str, facts: Facts) -> tuple[frozenset[str], frozenset[str]]:
+    """Return the links and the joints of a device, without what is mounted on it."""
+    others = {each.root_link for name, each in facts.contract.devices.items() if name != device}
+    links, joints = {facts.contract.devices[device].root_link}, set[str]()
+    for _ in facts.description.joints:
+        below = [each for each in facts.description.joints if each.parent in links and each.child not in links | others]
+        if not below:
+            break
+        links |= {each.child for each in below}
+        joints |= {each.name for each in below}
+    return frozenset(links), frozenset(joints)
+
+
+def measured_of(before: Facts, after: Facts) -> Iterator[tuple[str, str, float, float]]:
+    """Yield device, quantity and values, in kg and m, of what the links of two models weigh and how far they reach."""
+    for each in replaced(before, after):
+        sides = [(facts, _body(each.device, facts)[0]) for facts in (before, after)]
+        masses = [_mass(facts.description, links) for facts, links in sides]
+        lengths = [_length(facts, each.device, links) for facts, links in sides]
+        if all(masses) and abs(masses[0] - masses[1]) > _NOTICED:
+            yield each.device, MASS, round(masses[0], 3), round(masses[1], 3)
+        is_tool = not is_reaching(before.contract, each.device)
+        if is_tool and all(lengths) and abs(lengths[0] - lengths[1]) > _NOTICED:
+            yield each.device, LENGTH, round(lengths[0], 4), round(lengths[1], 4)
+
+
+_NOTICED = 1e-4
+"""kg and m."""
+
+
+def _mass(body: Description, links: Collection[str]) -> float:
+    return sum(link.inertial.mass for link in body.links if link.name in links and link.inertial is not None)
+
+
+def _length(facts: Facts, device: str, links: Collection[str]) -> float:
+    """Return how far shapes get from where a device is mounted, with joints at zero; 0 where a mesh is among them."""
+    places = posture(facts.description, {})
+    root = places.get(facts.contract.devices[device].root_link)
+    farthest = 0.0
+    for link in facts.description.links:
+        if root is None or link.name not in links or link.name not in places:
+            continue
+        for shape in link.collisions:
+            corners = [*corners_of(shape.geometry)]
+            if not corners:
+                return 0.0
+            place = root.inverse() @ places[link.name] @ shape.pose
+            farthest = max(farthest, *(math.hypot(*place.apply(corner)) for corner in corners))
+    return farthest
+
+
+def with_models(changes: Sequence[Change], before: Facts, after: Facts) -> list[Change]:
+    """Return changes with those of parts that follow from another model as one for each device."""
+    left = list(changes)
+    edited = before.edited | after.edited
+    for each in replaced(before, after):
+        held = {change.before for change in left if change.quantity == CLAIM and change.before is not None}
+        following = [change for change in left if _follows(change, each, held, edited)]
+        if following and (each.gone or each.come):
+            left = [change for change in left if change not in following]
+            left.append(_parts(each, following))
+    return left
+
+
+def _parts(each: Replaced, following: Sequence[Change]) -> Change:
+    breaking = any(change.breaking for change in following)
+    return Change(
+        ReviewArea.FRAMES if breaking else ReviewArea.MODEL,
+        each.device,
+        PARTS,
+        _listed(each.gone),
+        _listed(each.come),
+        Grade.REVIEW,
+        breaking=breaking,
+        why="consumers outside the cell know the frames of the links by name" if breaking else "",
+    )
+
+
+def _listed(names: Collection[str]) -> str | None:
+    more = f" and {len(names) - _FEW} more" if len(names) > _FEW else ""
+    return f"{', '.join(sorted(names)[:_FEW])}{more}" if names else None
+
+
+def _follows(change: Change, each: Replaced, held: Collection[str | None], edited: Collection[str]) -> bool:
+    if change.quantity == CLAIM:
+        return bool(_parted(change.subject) & (each.gone | each.come)) and change.after in (None, *held)
+    if change.area is ReviewArea.MODEL and change.subject in ("urdf/real", "urdf/mock"):
+        return not edited
+    if change.quantity in PAIRS:
+        return not each.bare.isdisjoint(change.subject.split(" with "))
+    if change.quantity in _OF_BODY:
+        return change.subject in each.links
+    was, now = _parted(change.before), _parted(change.after)
+    if was - now and now - was:
+        return was - now <= each.gone and now - was <= each.come
+    named = _parted(f"{change.subject} {change.quantity}")
+    return bool(named & (each.gone | each.come))
+
+
+def _parted(text: str | None) -> set[str]:
+    """Return the names that a text holds; what a joint's interface is called is no name."""
+    return {part for part in _APART.split(text or "") if part} - {"position", "velocity", "effort", "acceleration"}
