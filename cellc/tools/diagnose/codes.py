@@ -10,7 +10,7 @@ from typing import Annotated
 from pydantic import Field
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text
-from cellc.tools.diagnose.symptoms import Pattern, read_table
+from cellc.tools.diagnose.symptoms import Pattern, read_table, small_letters
 
 _AT_MOST = 4
 
@@ -66,7 +66,7 @@ def codes() -> Codes:
 
 def codes_in(text: str) -> tuple[str, ...]:
     """Return what the numbers of a text mean, one line each: ``-4``, MoveItErrorCodes: CONTROL_FAILED …."""
-    small = " ".join(text.casefold().split())
+    small = small_letters(text)
     found = (
         f"`{code}`, {family.family}: {meaning}"
         for family in codes().families

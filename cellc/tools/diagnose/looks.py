@@ -17,7 +17,7 @@ from pydantic import Field
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text, Token
 from cellc.tools.diagnose.fields import Scope
-from cellc.tools.diagnose.symptoms import Action, read_table
+from cellc.tools.diagnose.symptoms import Action, read_table, small_letters
 
 _AT_MOST, _OF_ONE_PART = 4, 3
 _OF_PART, _MOST_NAMED = 1.5, 3.0
@@ -81,13 +81,13 @@ def looks() -> Looks:
 
 def kinds_of(text: str) -> frozenset[str]:
     """Return the kinds of trouble that a text states."""
-    small = _small(text)
+    small = small_letters(text)
     return frozenset(kind for kind, patterns in looks().kinds.items() if _words(patterns, small))
 
 
 def first_looks(text: str) -> tuple[Chosen, ...]:
     """Return up to four causes, the likeliest first: by what the text names, not by what it is like."""
-    small, kinds = _small(text), kinds_of(text)
+    small, kinds = small_letters(text), kinds_of(text)
     found = sorted(_weighed(small, kinds), key=lambda each: -each.points)
     chosen: list[Chosen] = []
     for each in found:
@@ -137,7 +137,3 @@ def _rarity(word: str, of_parts: bool) -> float:
 def _compiled(pattern: str) -> re.Pattern[str]:
     """Return a pattern on whole words, their plurals too; an underscore ends a word."""
     return re.compile(rf"(?:(?<![^\W_])|(?!\w))(?:{pattern})(?:e?s)?(?:(?![^\W_])|(?<!\w))")
-
-
-def _small(text: str) -> str:
-    return " ".join(text.casefold().replace("’", "'").split())

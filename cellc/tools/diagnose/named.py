@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text
 from cellc.contract.vocabulary import InterfaceKind
-from cellc.tools.diagnose.symptoms import Pattern, read_table
+from cellc.tools.diagnose.symptoms import Pattern, read_table, small_letters
 
 if TYPE_CHECKING:
     from cellc.compiler.cell.cell import Cell
@@ -48,7 +48,7 @@ def names() -> Names:
 
 def named_in(text: str, cell: Cell | None) -> tuple[str, ...]:
     """Return what the names of a text are, one line each, those of the cell first."""
-    small = " ".join(text.casefold().split())
+    small = small_letters(text)
     of_cell = [] if cell is None else list(dict.fromkeys(_of_cell(text, cell)))
     so_far = " ".join(of_cell)
     known = [

@@ -315,6 +315,11 @@ def system_errors() -> SystemErrors:
     return read_table("symptoms/errors.yaml", SystemErrors)
 
 
+def small_letters(text: str) -> str:
+    """Return a text in small letters on one line, with straight apostrophes, as the patterns of the tables have it."""
+    return " ".join(text.casefold().replace("’", "'").split())
+
+
 def read_table(file: str, model: type[_ModelT]) -> _ModelT:
     """Return a file of the catalog.
 

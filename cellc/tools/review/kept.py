@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from cellc.compiler.source.document import Child, SourceDocument
+from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.vocabulary import UNKNOWN
 from cellc.tools.review.causes import Cause, flow_of
@@ -24,8 +24,8 @@ def kept_beside(cause: Cause, before: SourceDocument, after: SourceDocument) -> 
     told = [
         f"{'.'.join(map(str, path))} {flow_of(now)}"
         for path in paths
-        if (now := _at(after, path)) is not None
-        and (was := _at(before, path)) is not None
+        if (now := after.child(path)) is not None
+        and (was := before.child(path)) is not None
         and was.node.data == now.node.data != UNKNOWN
     ]
     more = (f"{len(told) - _MOST} more",) if len(told) > _MOST else ()
@@ -38,20 +38,20 @@ def _belonging(device: str, document: SourceDocument) -> Iterator[YamlPath]:
         yield from (("devices", carrier, key) for key in _OF_CARRIER)
     yield from (("devices", device, key) for key in _OF_DEVICE)
     for frame in _names(document, ("frames",)):
-        parent = _text(document, ("frames", frame, "parent"))
+        parent = document.text_at(("frames", frame, "parent"))
         if parent.partition("/")[0] == device:
             yield from (("frames", frame, key) for key in _PLACES)
     if _carries_tip(device, document):
         for frame in _names(document, ("frames",)):
             yield "frames", frame, "grasp", "width"
     for other in _names(document, ("devices",)):
-        if _text(document, ("devices", other, "mount", "parent")).partition("/")[0] == device:
+        if document.text_at(("devices", other, "mount", "parent")).partition("/")[0] == device:
             yield from (("devices", other, "mount", key) for key in _PLACES)
     for pose in _names(document, ("motion", "poses")):
         yield from (
             ("motion", "poses", pose, group)
             for group in _names(document, ("motion", "poses", pose))
-            if _text(document, ("motion", "groups", str(group), "base")).partition("/")[0] == device
+            if document.text_at(("motion", "groups", str(group), "base")).partition("/")[0] == device
         )
     yield from (("devices", device, "mount", key) for key in _PLACES)
 
@@ -59,37 +59,22 @@ def _belonging(device: str, document: SourceDocument) -> Iterator[YamlPath]:
 def _carries_tip(device: str, document: SourceDocument) -> bool:
     """Tell whether the tip of a planning group is on a device: it meets the parts."""
     tips = {
-        _text(document, ("motion", "groups", str(group), "tip")) for group in _names(document, ("motion", "groups"))
+        document.text_at(("motion", "groups", str(group), "tip")) for group in _names(document, ("motion", "groups"))
     }
-    return any(_text(document, ("frames", tip, "parent")).partition("/")[0] == device for tip in tips)
+    return any(document.text_at(("frames", tip, "parent")).partition("/")[0] == device for tip in tips)
 
 
 def _carriers(device: str, document: SourceDocument) -> Iterator[str]:
     """Yield what carries a device, the nearest first."""
     seen = {device}
     while True:
-        device = _text(document, ("devices", device, "mount", "parent")).partition("/")[0]
-        if device in seen or _at(document, ("devices", device)) is None:
+        device = document.text_at(("devices", device, "mount", "parent")).partition("/")[0]
+        if device in seen or document.child(("devices", device)) is None:
             return
         seen.add(device)
         yield device
 
 
 def _names(document: SourceDocument, path: YamlPath) -> Sequence[str | int]:
-    child = _at(document, path)
+    child = document.child(path)
     return () if child is None else tuple(child.node.children)
-
-
-def _text(document: SourceDocument, path: YamlPath) -> str:
-    child = _at(document, path)
-    return "" if child is None else child.node.text
-
-
-def _at(document: SourceDocument, path: YamlPath) -> Child | None:
-    node, child = document.root, None
-    for key in path:
-        child = node.children.get(key)
-        if child is None:
-            return None
-        node = child.node
-    return child
