@@ -1,5 +1,5 @@
 // Each cell of a table knows its column, for the width of a phone where a row is a card; a long path breaks at its parts.
-for (const table of document.querySelectorAll(".rst-content table")) {
+for (const table of document.querySelectorAll("[role=main] table")) {
   const names = [...table.querySelectorAll("thead th")].map((each) => each.textContent);
   for (const row of table.querySelectorAll("tbody tr")) {
     [...row.children].forEach((cell, at) => cell.setAttribute("data-name", names[at] || ""));
@@ -11,3 +11,6 @@ for (const table of document.querySelectorAll(".rst-content table")) {
     text.replaceWith(...parts.flatMap((part, at) => (at ? [document.createElement("wbr"), part] : [part])));
   }
 }
+// A block of code that scrolls is reached by the keyboard; the bar above is found by a screen reader.
+for (const block of document.querySelectorAll("pre")) block.tabIndex = 0;
+document.querySelector(".navbar").setAttribute("role", "navigation");

@@ -76,5 +76,5 @@ def test_a_block_that_shows_what_it_states_is_written(tmp_path: Path) -> None:
 
 
 def test_tutorial_has_ten_steps() -> None:
-    steps = re.findall(r"^## (\d+)\. ", (ROOT / "docs/tutorial.md").read_text(encoding="utf-8"), re.MULTILINE)
+    steps = re.findall(r"^## Step (\d+): ", (ROOT / "docs/tutorial.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert steps == [str(number) for number in range(1, 11)]

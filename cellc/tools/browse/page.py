@@ -48,8 +48,8 @@ def page(entry: CatalogDevice, picture_file: str | None = None) -> str:
     model = entry.model
     sections: dict[str, str] = {
         "Joints": table(("joint", "type", "range", "velocity", "effort", "home"), _joints(entry)),
-        "Frames": table(("name in a spec", "link", ""), _frames(model)),
-        "States": table(("state", "outputs that set it", "sensors that report it", ""), _states(model)),
+        "Frames": table(("name in a spec", "link", "remark"), _frames(model)),
+        "States": table(("state", "outputs that set it", "sensors that report it", "remark"), _states(model)),
         "Packages": table(("part", "ROS 2", "versions", "source"), releases(model)),
         "What the real robot does": table(BEHAVIOR, behavior(model) if model.kind == "arm" else ()),
         "What it does": table(("moment", "what moves", "what happens", "source"), _effects(model)),
