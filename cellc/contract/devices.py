@@ -8,7 +8,7 @@ from pydantic import Field
 from cellc.contract.base import ContractModel
 from cellc.contract.control_law import ControlLaw
 from cellc.contract.entities import HardwareState
-from cellc.contract.grading import HARDER, SECOND_CLIENT, STALE, Graded, Rule
+from cellc.contract.grading import DEVIATES, HARDER, SECOND_CLIENT, STALE, Graded, Rule
 from cellc.contract.quantities import (
     Coordinate,
     Magnitude,
@@ -180,9 +180,11 @@ class ContractAdapter(ContractModel):
     stop_time_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "time to stop", Rule.LOOSER)] = Field(
         description="Longest time from a hold to standstill.", gt=0.0
     )
-    goal_time_s: Seconds = Field(description="Time past the end of a trajectory until standstill.", gt=0.0)
-    path_tolerance: Annotated[PositiveMagnitude, Graded(ReviewArea.CONTROL, rule=Rule.LOOSER)] = Field(
-        description="Distance from the command that ends a goal, rad or m.", gt=0.0
+    goal_time_s: Annotated[Seconds, Graded(ReviewArea.CONTROL, "time past the end", Rule.LOOSER, why=STALE)] = Field(
+        description="Time past the end of a trajectory until standstill.", gt=0.0
+    )
+    path_tolerance: Annotated[PositiveMagnitude, Graded(ReviewArea.CONTROL, "", Rule.LOOSER, "joint", why=DEVIATES)] = (
+        Field(description="Distance from the command that ends a goal, rad or m.", gt=0.0)
     )
     start_positions: tuple[Coordinate, ...] = Field(description="Where the mock's joints stand at first, rad or m.")
 

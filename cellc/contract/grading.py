@@ -28,6 +28,7 @@ class Rule(Enum):
     MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
     PLACED = "dangerous for the base of an arm, of an obstacle, and without a new calibration; else review"
     COVERED = "dangerous where it no longer takes up all the room that it took, else review"
+    APART = "dangerous where arms may meet in more room than before, else review"
     CLAIM = "dangerous where another claims it than before, else review"
     LOST = "dangerous where something of it is lost, else review"
     COMPARED = "dangerous where something of it is compared nowhere any more, else review"
@@ -38,8 +39,9 @@ class Graded(NamedTuple):
 
     Args:
         quantity: what changed, as people read it: `bound of its offset`; the name of the field where it is empty.
-        unit: SI unit of the value, for people: `m` is shown in mm, `rad` in degrees; `joint` is either, and
-            `effort` N or N m. A unit that the name of the field ends in needs no word.
+        unit: SI unit of the value, for people: `m` is shown in mm, `rad` in degrees; `joint` is either,
+            `effort` N or N m, `stiffness` and `damping` in the same way. A unit that the name of the field ends in is
+            known.
         breaking: a consumer outside of the cell breaks.
         ordered: whether the order of a list says something.
         why: what the change means, beside the rule.
@@ -65,5 +67,6 @@ OTHER_MASS = "force, payload and motion were chosen for a lighter part"
 STALE = "older data may be used, or a failure goes unseen for longer"
 FURTHER = "the joint may move further or faster than people at the cell expect"
 PLANNED = "planned motion changes"
+DEVIATES = "the joint may deviate further before it stops"
 SECOND_CLIENT = "another client commands the joints"
 """What changes of several fields mean."""

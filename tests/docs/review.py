@@ -62,10 +62,10 @@ get from the mount, and what its links weigh in the description. Joints and link
 change. What the spec states for the model before and was left (the payload of the arm that carries it, frames on it,
 its mount, poses, the width of parts) is listed as left as it was.
 
-A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line, with how many
-names follow and which of those break consumers. What else changed is compared under the new names. A namespace is a
-name too. A finding that says another figure of the same thing, or the same of a part with another name, is neither new
-nor resolved.
+A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line with what it
+names, with how many names follow and which of those break consumers. What else changed is compared under the new
+names. A namespace is a name too. A finding that says another figure of the same thing, or the same of a part with
+another name, is neither new nor resolved.
 
 ## Another distribution
 
@@ -89,13 +89,17 @@ A change that fits no row below is graded `review`, so that nothing is missed. A
 listed change explains is listed with its file. Zero is not a bound:
 ros2_control skips the check of a tolerance or time of zero.
 
+A new measurement is one cause: its lines in `calibrations`, and the poses of frames and mounts that it measured.
+
 A measured transform changes only with a new measurement: a changed pose of a calibrated frame is dangerous unless
 the calibration has a new revision. So is another model, serial number, mount or day of mounting of a device that a
 calibration measured: the device of the frame, and those that carry it, up to the next joint that moves.
 
 Collision shapes are compared by the room that they take up. One that shrank or lies elsewhere is dangerous, as is one
 that is gone: planning no longer avoids where it was. One that grew is graded `review`. Of an obstacle, pose and size
-count together. A box, also that of a shared area, says what it loses and gains on each side.
+count together. A box, also that of a shared area, says what it loses and gains on each side. One arm at a time is in
+a shared area: a larger one keeps arms apart in more room and is graded `review`, for what grants access must be set to
+the same box; one that loses room is dangerous. Of an area that is released to several arms, a larger one is dangerous.
 
 An arm whose base is elsewhere in the root frame is dangerous, whatever moved it: its mount, or what carries it.
 

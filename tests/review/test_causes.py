@@ -61,22 +61,24 @@ def test_another_model_of_a_robot_is_one_group_whose_first_line_says_what_it_mea
 
 
 @pytest.mark.parametrize(
-    ("cell", "old", "new"),
+    ("cell", "noun", "old", "new"),
     [
-        ("ur5e_pick", "arm", "robot"),
-        ("ur5e_pick", "arm_trajectory", "motion_ctl"),
-        ("ur5e_pick", "hand_eye", "wrist_eye"),
-        ("ur5e_pick", "fixture_A", "fixture_B"),
-        ("ur5e_pick", "control_pc", "ipc"),
-        ("dual_ur", "loader", "feeder"),
-        ("dual_ur", "/loading", "/intake"),
-        ("hybrid_sdk", "arm", "manip"),
+        ("ur5e_pick", "device", "arm", "robot"),
+        ("ur5e_pick", "controller", "arm_trajectory", "motion_ctl"),
+        ("ur5e_pick", "calibration", "hand_eye", "wrist_eye"),
+        ("ur5e_pick", "frame", "fixture_A", "fixture_B"),
+        ("ur5e_pick", "host", "control_pc", "ipc"),
+        ("ur5e_pick", "goal", "place", "place_part"),  # the new name begins with the old one
+        ("dual_ur", "device", "loader", "feeder"),
+        ("dual_ur", "namespace", "/loading", "/intake"),
+        ("dual_ur", "shared area", "over_nest", "nest_room"),
+        ("hybrid_sdk", "device", "arm", "manip"),
     ],
 )
-def test_another_name_is_one_line(cell: str, old: str, new: str) -> None:
+def test_another_name_is_one_line_with_what_it_names(cell: str, noun: str, old: str, new: str) -> None:
     found = _renamed(cell, {old: new})
     (title,) = _titles(found)
-    assert title.startswith(f"review renamed: {old} -> {new}")
+    assert title.startswith(f"review renamed: {noun} {old} -> {new}")
     assert len(found.changes) == 1
     assert not found.new_findings
     assert not found.gone_findings
@@ -87,8 +89,49 @@ def test_what_else_changed_is_told_beside_another_name() -> None:
     text = re.sub(r"(?<![\w-])loader(?![\w-])", "feeder", text)
     text = text.replace("PUT", "put: {group: load, frame: nest, rpy: 180 0 0 deg, xyz: 0 0 30 mm")
     renamed, moved = _titles(review_of_text("dual_ur", text))
-    assert renamed.startswith("review renamed: loader -> feeder (27 names follow)")
+    assert renamed.startswith("review renamed: device loader -> feeder (27 names follow)")
     assert moved.startswith("review motion.goals.put.xyz: 0 0 20 mm -> 0 0 30 mm (cell.yaml:")
+
+
+def test_names_that_others_hold_are_found_with_them() -> None:
+    # Of the pose nothing else is left by which to know it: its one key is the name of the group.
+    found = _renamed("ur5e_pick", {"manipulator": "arm6", "home": "start", "hand_eye": "wrist_eye"})
+    assert sorted(_titles(found)) == [
+        "review renamed: calibration hand_eye -> wrist_eye",
+        "review renamed: named pose home -> start",
+        "review renamed: planning group manipulator -> arm6",
+    ]
+
+
+def test_a_new_measurement_is_one_cause_with_what_it_measured() -> None:
+    found = review_of(
+        "ur5e_pick",
+        ("xyz: 0 -70 30 mm, rpy: 0 -75 -90 deg", "xyz: 1 -71 30.5 mm, rpy: 0.2 -75.1 -90 deg"),
+        (
+            "hand_eye: {revision: 4, measured: 2026-07-01, method: charuco, samples: 40",
+            "hand_eye: {revision: 5, measured: 2026-11-20, method: charuco, samples: 45",
+        ),
+    )
+    (group,) = groups_of(found)
+    assert group.title.startswith("calibrations.hand_eye (cell.yaml:59, 50): revision 4 -> 5, ")
+    # By hand: sqrt(1 + 1 + 0.25) mm, and of two turns of 0.2 and 0.1 deg about axes at right angles 0.224 deg.
+    assert group.figures == ("camera_bottom_screw_frame moves 1.5 mm, turns 0.2236 deg",)
+    assert {change.area.value for change in group.changes} == {"frames", "calibration"}
+
+
+def test_place_and_turn_without_a_measurement_are_one_cause() -> None:
+    edit = ("xyz: 0 0 11 mm, rpy: 0 0 90 deg", "xyz: 0 0 12 mm, rpy: 0 0 91 deg")
+    (group,) = groups_of(review_of("ur5e_pick", edit))
+    assert group.title.startswith("devices.gripper.mount (cell.yaml:42): xyz 0 0 11 mm -> 0 0 12 mm, rpy ")
+
+
+def test_what_an_adapter_is_given_is_told_once() -> None:
+    for old, new, told in (
+        ("command_timeout: 20 ms", "command_timeout: 40 ms", "watchdog"),
+        ("stop_time: 200 ms", "stop_time: 300 ms", "time to stop"),
+        ("path_tolerance: 0.1 rad", "path_tolerance: 0.2 rad", "path tolerance"),
+    ):
+        assert [change.quantity for change in review_of("hybrid_sdk", (old, new)).changes] == [told]
 
 
 def test_consumers_of_names_that_changed_break() -> None:
@@ -159,11 +202,8 @@ def test_a_fresh_calibration_is_not_dangerous() -> None:
         ("xyz: 450 100 850 mm", "xyz: 450.2 99.9 850.1 mm"),
     )
     assert {str(change.grade) for change in found.changes} == {"review"}
-    assert [re.sub(r" \(.*", "", title) for title in _titles(found)] == [
-        "review frames.fixture_A.xyz: 450 100 850 mm -> 450.2 99.9 850.1 mm",
-        "review calibrations.fixture_a",
-    ]
-    assert "revision, measured, residual" in {cause.after for cause in found.causes}
+    assert [re.sub(r" \(.*", "", title) for title in _titles(found)] == ["review calibrations.fixture_a"]
+    assert [cause.after for cause in found.causes] == ["revision, frames.fixture_A.xyz, measured, residual"]
 
 
 @pytest.mark.parametrize(
@@ -190,7 +230,7 @@ def test_a_pin_is_told_once_with_what_the_matrix_says() -> None:
     found = review_of("ur5e_pick", ("ur_robot_driver 3.8.0", "ur_robot_driver 3.7.0"))
     (change,) = [change for change in found.changes if change.area == "versions"]
     assert (str(change.grade), change.after) == ("dangerous", "ur_robot_driver 3.7.0")
-    assert change.why.startswith("by the compatibility matrix UNKNOWN")
+    assert change.why.startswith("the compatibility matrix says UNKNOWN")
 
 
 def _finding(message: str, severity: str = "warning") -> ReviewFinding:

@@ -45,7 +45,7 @@ def test_a_diff_ends_with_one_and_begins_with_its_sum() -> None:
         f"dangerous  {cause}",
         "  (cell.yaml:16)",
         f"  control  {told} (+100 %): arm_trajectory",
-        "    older data may be used, or a failure goes unseen for longer",
+        "    because older data may be used, or a failure goes unseen for longer",
         "  asks controller (UNKNOWN)",
         "gates to repeat: G2, G3, G4, G5, G6, G7, L6",
         "--all prints every value, finding and gate",

@@ -57,8 +57,8 @@ def _titles(found: Review) -> list[str]:
 def test_a_frame_and_a_node_with_another_name_are_a_line_each() -> None:
     found = _renamed("ur5e_pick", {"fixture_A": "fixture_B", "task": "picker"})
     assert _titles(found) == [
-        "review renamed: task -> picker",
-        "review renamed: fixture_A -> fixture_B (1 name follows)",
+        "review renamed: node task -> picker",
+        "review renamed: frame fixture_A -> fixture_B (1 name follows)",
     ]
     assert [change.breaking for change in found.changes] == [False, True]
 
@@ -66,7 +66,7 @@ def test_a_frame_and_a_node_with_another_name_are_a_line_each() -> None:
 def test_a_device_takes_its_links_joints_and_controllers_with_it() -> None:
     # The link `arm_upper_arm_link` has the name of the device twice, of which one is the word for a limb.
     found = _renamed("ur5e_pick", {"arm": "robot"})
-    assert _titles(found) == ["review renamed: arm -> robot (27 names follow)"]
+    assert _titles(found) == ["review renamed: device arm -> robot (27 names follow)"]
 
 
 def test_what_else_changed_is_compared_under_the_new_names() -> None:

@@ -20,7 +20,7 @@ from cellc.tools.review.short import MOST_LINES, render_short
 from cellc.tools.review.sides import Package, package_of
 from cellc.tools.review.steps import with_step_names
 from cellc.tools.review.units import difference
-from tests.cells import spec_text
+from tests.cells import spec_of, spec_text
 from tests.review.edits import review_of
 from tests.review.revisions import Edit, edited
 
@@ -105,6 +105,32 @@ def test_a_shared_area_says_what_it_loses_and_gains_on_each_side() -> None:
     assert _titles(found) == ["dangerous areas.over_nest"]
 
 
+@pytest.mark.parametrize(
+    ("area", "grade"),
+    [
+        ("xyz: 0 0 250 mm, box: 700 600 500 mm", Grade.REVIEW),  # apart in more room
+        ("xyz: 0 0 275 mm, box: 500 400 550 mm", Grade.REVIEW),  # from the bottom as before to 550 mm
+        ("xyz: 0 0 250 mm, box: 500 400 400 mm", Grade.DANGEROUS),
+        ("xyz: 0 100 250 mm, box: 500 400 500 mm", Grade.DANGEROUS),
+        ("xyz: 0 0 250 mm, released: hand-over at 50 mm/s, box: 500 400 500 mm", Grade.DANGEROUS),
+    ],
+)
+def test_a_shared_area_is_graded_by_where_arms_may_meet(area: str, grade: Grade) -> None:
+    found = review_of("dual_ur", ("xyz: 0 0 250 mm, box: 500 400 500 mm", area))
+    assert found.worst() is grade
+    assert all(change.why for change in found.changes if change.area == "safety")
+
+
+@pytest.mark.parametrize(("box", "grade"), [("600 400 500 mm", Grade.DANGEROUS), ("400 400 500 mm", Grade.REVIEW)])
+def test_of_a_released_area_a_larger_one_is_dangerous(box: str, grade: Grade) -> None:
+    area = "xyz: 0 0 250 mm, box: 500 400 500 mm, granted_by: safety_plc"
+    released = edited((area, f"{area}, released: hand-over at 50 mm/s"), cell="dual_ur")
+    file = spec_of("dual_ur").as_posix()
+    was, now = (check(file, {file: text}) for text in (released, released.replace("500 400 500 mm", box)))
+    (change,) = review(package_of("was", was), package_of("now", now)).changes
+    assert change.grade is grade
+
+
 def test_another_alternative_is_one_cause() -> None:
     found = review_of("ur5e_pick", ("{open: {person: integration, date: 2026-12-15}}", "{none: checked on site}"))
     assert _titles(found) == [
@@ -120,7 +146,9 @@ def test_another_alternative_is_one_cause() -> None:
         ("-5 5 46 mm", "5 -5 46 mm", "moves 14.1 mm"),
         ("0 0 46 mm", "0 0 0.05 m", "moves 4 mm"),
         ("1.0 kg", "800 mm", ""),
-        ("0 kg", "800 g", ""),
+        ("0 kg", "800 g", "+0.8 kg"),
+        ("10 deg", "-5 deg", "-15 deg"),
+        ("0 %", "10 %", ""),
     ],
 )
 def test_quantities_in_other_units_have_a_difference(before: str, after: str, told: str) -> None:

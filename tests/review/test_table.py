@@ -63,6 +63,12 @@ def test_no_two_rows_have_one_pattern() -> None:
         assert len(table) == len(set(table))
 
 
+def test_every_danger_has_its_reason() -> None:
+    never = (Rule.SAFE, Rule.REVIEW, Rule.PLACED)  # of a place the verdict says why
+    assert not [row.pattern for row in ROWS if row.grade.rule not in never and not row.grade.why]
+    assert not [thing.pattern for thing in THINGS if _D in (thing.added, thing.removed) and not thing.why]
+
+
 def test_every_area_has_an_approval_and_its_gates() -> None:
     assert set(APPROVAL) == set(REPEATED) == set(ReviewArea)
 

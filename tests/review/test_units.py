@@ -54,7 +54,10 @@ def test_value_with_its_unit(value: Leaf, unit: str, text: str) -> None:
     [
         (1.0, 1.5, "m", "+50 %"),
         (2.0, 1.0, "s", "-50 %"),
-        (-2.0, -1.0, "kg", "+50 %"),
+        (-2.0, -1.0, "kg", "+1 kg"),  # a negative value has no share
+        (2.0, -1.0, "kg", "-3 kg"),
+        (-0.5, 0.5, "s", "+1 s"),
+        (0.0, 2.0, "kg", "+2 kg"),
         (-1.0, -0.5, "m", "+500 mm"),  # a place has no share of a negative one
         (0.1, 0.0, "m", "-100 mm"),
         (0.0, math.pi / 6, "rad", "+30 deg"),

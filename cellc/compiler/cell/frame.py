@@ -31,7 +31,7 @@ class FrameKind(str, Enum):
     DYNAMIC = "dynamic"  # published by a node while the cell runs
 
 
-_MEET = "arms may meet in it"
+_MEET, _LESS = "arms may meet in it", "arms may meet where they were kept apart"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -102,12 +102,10 @@ class SharedArea(Entity):
     """
 
     parent: str
-    transform_to_parent: Annotated[
-        Pose, Graded(ReviewArea.SAFETY, "pose of the shared area", Rule.DANGEROUS, why=_MEET)
-    ]
-    size: Annotated[Vector3, Graded(ReviewArea.SAFETY, "size of the shared area", Rule.DANGEROUS, "m", why=_MEET)]
+    transform_to_parent: Annotated[Pose, Graded(ReviewArea.SAFETY, "pose of the shared area", Rule.APART, why=_LESS)]
+    size: Annotated[Vector3, Graded(ReviewArea.SAFETY, "size of the shared area", Rule.APART, "m", why=_LESS)]
     granted_by: Annotated[str, Graded(ReviewArea.SAFETY, "who grants access", Rule.DANGEROUS, why=_MEET)]
-    released: str
+    released: Annotated[str, Graded(ReviewArea.SAFETY, "why arms may be in it together", Rule.APART, why=_MEET)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -25,6 +25,9 @@ _TOGETHER = 3
 """Values of one mapping that are listed as one: of a calibration, its revision, its day and its residual."""
 _AS_ONE = ("payload",)
 """Mappings whose values are listed as one however few they are: a mass and where it is."""
+_POSE = ("xyz", "rpy")
+"""Keys of a place: where something is and how it is turned count together."""
+_MEASURED, _REVISION, _CALIBRATION = ("calibrations",), "revision", "calibration"
 _ROOMS, _PLACED = ("scene", "areas"), 3
 """Sections whose entries take up room: where it is and how large count together."""
 _LONGEST = 60
@@ -50,18 +53,41 @@ class _Trial:
 
 
 def causes_between(before: SourceDocument, after: SourceDocument) -> tuple[Cause, ...]:
-    """Return the edits between two states of a spec, those of one part as one where there are many."""
+    """Return the edits between two states of a spec, those of one part as one where there are many.
+
+    What a new measurement found is one with it: the calibration, and the poses that it measured.
+    """
     edits = spec_edits(before, after)
+    renewed = {edit.path[1] for edit in edits if edit.path[:1] == _MEASURED and len(edit.path) > len(_MEASURED) + 1}
     beside = Counter(edit.path[:-1] for edit in edits)
-    causes = _grouped(edits, [edit.path[:-1] if _is_together(edit.path, beside) else edit.path for edit in edits])
+    causes = _grouped(edits, [_part(edit.path, beside, after, renewed) for edit in edits])
+    causes = tuple(tuple(sorted(cause, key=_place_in_measurement)) for cause in causes)
     for depth in (3, 2, 1):
         if len(causes) > _MOST:
             causes = _grouped(edits, [edit.path[:depth] for edit in edits])
     return causes
 
 
+def _part(
+    path: YamlPath, beside: Mapping[YamlPath, int], after: SourceDocument, renewed: Collection[object]
+) -> YamlPath:
+    """Return the part of the spec that an edit is listed with: itself where it is listed alone."""
+    if path[-1] in _POSE and (name := after.text_at((*path[:-1], _CALIBRATION))) in renewed:
+        return *_MEASURED, name
+    if path[:1] == _MEASURED and path[1] in renewed:
+        return path[:2]
+    return path[:-1] if _is_together(path, beside) else path
+
+
+def _place_in_measurement(edit: SpecEdit) -> int:
+    """Return which edit of a new measurement is first: its revision, then what it moved, then the rest of it."""
+    if edit.path[:1] != _MEASURED:
+        return 1
+    return 0 if edit.path[-1] == _REVISION else 2
+
+
 def _is_together(path: YamlPath, beside: Mapping[YamlPath, int]) -> bool:
-    is_one = (path[-2:-1] and path[-2] in _AS_ONE) or (len(path) == _PLACED and path[0] in _ROOMS)
+    is_one = path[-1] in _POSE or (path[-2:-1] and path[-2] in _AS_ONE) or (len(path) == _PLACED and path[0] in _ROOMS)
     return beside[path[:-1]] >= (2 if is_one else _TOGETHER)
 
 
@@ -148,10 +174,10 @@ def as_cause(cause: Cause) -> ReviewCause:
     if len(cause) == 1:
         before, after = _text(first.before), _text(first.after)
         return ReviewCause(line=_dotted(first.path), before=before, after=after, place=str(first.place))
-    common = _common(cause)
+    common = first.path[:2] if first.path[:1] == _MEASURED else _common(cause)
     values = tuple(
         ReviewValue(
-            line=_dotted(edit.path[len(common) :]),
+            line=_dotted(edit.path[len(common) if edit.path[: len(common)] == common else 0 :]),
             before=_text(edit.before),
             after=_text(edit.after),
             place=str(edit.place),

@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import Grade, ReviewArea
 
+PRESENT = "present"
+"""Value of what is there as a whole."""
+
 
 @dataclass(frozen=True, slots=True)
 class Change:

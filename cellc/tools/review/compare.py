@@ -11,7 +11,7 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.grading import Graded, Rule
 from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
-from cellc.tools.review.change import Change
+from cellc.tools.review.change import PRESENT, Change
 from cellc.tools.review.effects import effects
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import place_difference
@@ -37,6 +37,8 @@ UNCLASSIFIED = "(not classified)"
 """How the quantity of lines ends that no row of the table explains."""
 WHOLE = "cell"
 """Subject of what belongs to the cell itself."""
+_OF_JOINTS = {"effort": ("N", "N m"), "stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad")}
+"""Units of what differs between joints that are straight and joints that turn."""
 _PINNED = ("contract", "version_tuple")
 _SHOWS = ("graph/", "README.md", "sim/")
 """Files that show people and simulators what the others say: they are reported where a hand edited them."""
@@ -220,7 +222,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) ->
     fit = fits(thing.parts, path)
     names = () if fit is None else fit.subject
     shown_leaf = next((delta for delta in inner if delta.path == (*path, thing.shown)), None)
-    value = "present" if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
+    value = PRESENT if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
     compares = added and any(delta.path[-2:] == ("request", "kind") and delta.after == _COMPARES for delta in inner)
     taken = thing.removed if not added else Grade.REVIEW if compares else thing.added
     reaches = added and path[:2] == ("contract", "devices") and is_reaching(after.contract, path[2])
@@ -253,7 +255,7 @@ def _with_matrix(change: Change, pins: Mapping[str, Delta], before: Facts, after
     verdict = grade(Rule.MATRIX, delta, before, after)
     worse = max(change.grade, verdict.grade, key=tuple(Grade).index)
     was, now = (shown(leaf, "") or "nothing" for leaf in (delta.before, delta.after))
-    said = f"by the compatibility matrix {now}, before {was}"
+    said = f"the compatibility matrix says {now}, before {was}"
     known = change.words | {*words(delta.before), *words(delta.after)}
     return replace(change, grade=worse, why="; ".join(filter(None, (change.why, said))), words=known)
 
@@ -340,14 +342,14 @@ def area_of_file(file: str) -> ReviewArea:
 
 def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:
     """Return the unit of a value of a joint, or of the joints of a group: those of a gripper may be lengths."""
-    if not unit.startswith(("joint", "effort")):
+    if not unit.startswith(("joint", *_OF_JOINTS)):
         return unit
     groups = (side.contract.groups.get(name) for side in (after, before) for name in names)
     wanted = {*names, *(joint for group in groups if group is not None for joint in group.joints)}
     joints = (joint for side in (after, before) for joint in side.description.joints if joint.name in wanted)
     is_straight = any(joint.type == "prismatic" for joint in joints)
-    if unit == "effort":
-        return "N" if is_straight else "N m"
+    if unit in _OF_JOINTS:
+        return _OF_JOINTS[unit][not is_straight]
     return unit.replace("joint", "m" if is_straight else "rad")
 
 

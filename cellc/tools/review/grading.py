@@ -14,7 +14,7 @@ from cellc.tools.review.facts import Facts
 from cellc.tools.review.geometry import on_carrier
 from cellc.tools.review.leaves import Delta, Leaf, said
 from cellc.tools.review.measured import unmeasured
-from cellc.tools.review.rooms import is_part_of_scene, obstacle_covers
+from cellc.tools.review.rooms import is_part_of_scene, keeps_apart, obstacle_covers
 from cellc.tools.review.rules import approval_of
 
 
@@ -46,6 +46,9 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return _of_placement(delta, before, after)
     if rule is Rule.COVERED:
         return _of_shapes(delta, before, after)
+    if rule is Rule.APART:
+        # A larger one keeps arms apart in more room, and stops none that is in it from leaving.
+        return Verdict(Grade.REVIEW, _APART) if keeps_apart(delta.path[1], before, after) else Verdict(Grade.DANGEROUS)
     if rule is Rule.COMPARED:
         return Verdict(_compared(delta, after))
     if rule is Rule.MEASURED:
@@ -195,6 +198,7 @@ def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:
     return Verdict(_looser(delta.before, delta.after))
 
 
+_APART = "arms meet in no more room than before; what grants access must be set to the same area"
 ELSEWHERE = "the arm reaches where people at the cell do not expect it"
 _REACHING = ("arm", "axis")
 """Kinds of devices that carry what they hold to other places."""

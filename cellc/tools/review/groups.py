@@ -82,8 +82,10 @@ class Group:
         if cause is None:
             return self.changes[0].area.value
         if cause.renamed:
-            follow = next((change.delta for change in self.changes if change.quantity.startswith(NAME_OF)), "")
-            return f"renamed: {cause.before} -> {cause.after}{f' ({follow})' if follow else ''}"
+            named = next((change for change in self.changes if change.quantity.startswith(NAME_OF)), None)
+            noun, follow = ("", "") if named is None else (named.quantity.removeprefix(NAME_OF), named.delta)
+            names = f"{quote(cause.before or '')} -> {quote(cause.after or '')}"
+            return f"renamed: {noun} {names}{f' ({follow})' if follow else ''}"
         return title_of(cause, line, quote)
 
     @property

@@ -167,5 +167,10 @@ def words(leaf: Leaf | None) -> Sequence[str]:
     if isinstance(leaf, Pose):
         return [word for number in (*leaf.position, *leaf.rpy(), *leaf.quaternion) for word in tokens(f"{number:.12f}")]
     if isinstance(leaf, tuple):
-        return [word for item in leaf for word in tokens(said(item))]
-    return list(tokens(said(leaf) if isinstance(leaf, (str, int, float)) else leaf.text))
+        return [word for item in leaf for word in tokens(_whole(item))]
+    return list(tokens(_whole(leaf) if isinstance(leaf, (str, int, float)) else leaf.text))
+
+
+def _whole(item: Item) -> str:
+    """Return an entry with all of its digits: what is rounded twice is another figure than what is rounded once."""
+    return f"{item:.15g}" if isinstance(item, float) else said(item)

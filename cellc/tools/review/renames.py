@@ -67,7 +67,7 @@ class Names:
 
     def readings(self, text: str) -> Iterator[str]:
         """Yield a text with the names that the parts have now, then with fewer of them: others only look alike."""
-        places = list(self.pattern.finditer(text))
+        places = [found for found in self.pattern.finditer(text) if self.by_name[found[0]] != found[0]]
         few = len(places) <= _MOST_PLACES
         for taken in product((True, False), repeat=len(places)) if few else ((True,) * len(places),):
             read, end = "", 0
@@ -83,14 +83,21 @@ def names_of(renames: Sequence[Rename], inside: str = r"[\w-]") -> Names:
     Args:
         inside: characters that a name goes on with: ``arm`` is no word of ``arm_2`` unless an underscore ends it.
     """
-    by_name = {rename.before: rename.after for rename in renames}
+    # The new name stays as it is: it may go on where the old one ends, as `pick_up` does.
+    by_name = {rename.after: rename.after for rename in renames} | {rename.before: rename.after for rename in renames}
     words = "|".join(re.escape(name) for name in sorted(by_name, key=len, reverse=True))
     return Names(by_name, re.compile(rf"(?<!{inside})(?:{words or '(?!)'})(?!{inside})"))
 
 
 def renames_between(before: SourceDocument, after: SourceDocument) -> tuple[Rename, ...]:
-    """Return the parts that have another name and say the same otherwise, or nearly."""
-    return tuple(_in_mapping(before.root, after.root, ()))
+    """Return the parts that have another name and say the same otherwise, or nearly, by the new names of others."""
+    found: tuple[Rename, ...] = ()
+    for _ in SECTIONS:
+        more = tuple(_in_mapping(before.root, after.root, (), found))
+        if len(more) <= len(found):
+            break
+        found = more
+    return found
 
 
 def renamed(before: SourceDocument, after: SourceDocument, renames: Sequence[Rename]) -> SourceDocument:
@@ -99,11 +106,11 @@ def renamed(before: SourceDocument, after: SourceDocument, renames: Sequence[Ren
     return before.with_root(_renamed(before.root, after.root, (), keys, names_of(renames)))
 
 
-def _in_mapping(before: Node, after: Node, path: YamlPath) -> Iterator[Rename]:
+def _in_mapping(before: Node, after: Node, path: YamlPath, known: Sequence[Rename]) -> Iterator[Rename]:
     both = [key for key in before.children if key in after.children]
     for key in both:
         was, now = before.children[key].node, after.children[key].node
-        yield from _in_mapping(was, now, (*path, key))
+        yield from _in_mapping(was, now, (*path, key), known)
         if key == _NAMESPACE and was.text != now.text and was.text.strip("/") and now.text.strip("/"):
             yield Rename((*path, key), was.text, now.text, _A.CONTROL, _NAMESPACE)
     held = named_in(path)
@@ -114,16 +121,17 @@ def _in_mapping(before: Node, after: Node, path: YamlPath) -> Iterator[Rename]:
     if len(gone) * len(come) > _MOST_PAIRS:
         return
     scored = [
-        (_likeness(before.children[old].node.data, after.children[new].node.data, str(old), str(new)), old, new)
+        (_likeness(before.children[old].node.data, after.children[new].node.data, names), old, new)
         for old in gone
         for new in come
+        for names in [names_of([*known, Rename((), str(old), str(new), _A.DOCUMENTS, "")])]
     ]
     taken = set[str | int]()
     for likeness, old, new in sorted(scored, key=lambda pair: -pair[0]):
         if likeness >= _ALIKE and old not in taken and new not in taken:
             taken |= {old, new}
             yield Rename(path, str(old), str(new), *held)
-            yield from _in_mapping(before.children[old].node, after.children[new].node, (*path, old))
+            yield from _in_mapping(before.children[old].node, after.children[new].node, (*path, old), known)
 
 
 def named_in(path: YamlPath) -> tuple[ReviewArea, str] | None:
@@ -135,9 +143,8 @@ def _is_at(section: tuple[str, ...], path: YamlPath) -> bool:
     return len(section) == len(path) and all(part in ("*", key) for part, key in zip(section, path, strict=True))
 
 
-def _likeness(before: Plain, after: Plain, old: str, new: str) -> float:
-    """Return the share of values that are the same, but for the name itself."""
-    names = names_of([Rename((), old, new, _A.DOCUMENTS, "")])
+def _likeness(before: Plain, after: Plain, names: Names) -> float:
+    """Return the share of values that are the same, but for the names."""
     # A text with the name may speak of the part itself, or of another one that keeps its name.
     was = {tuple(map(names.in_text, path)): (text, names.in_text(text)) for path, text in texts_of(before)}
     now = dict(texts_of(after))

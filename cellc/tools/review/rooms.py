@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.frame import SharedArea
 from cellc.contract.transforms import Pose, Vector3, apart
 from cellc.robot.description.model import Box, Collision
 from cellc.tools.review.covering import covers, is_obstacle
@@ -23,6 +24,20 @@ def obstacle_covers(link: str, before: Facts, after: Facts) -> bool | None:
     if was is None or now is None or was[0] != now[0]:
         return None
     return covers(was[1], now[1])
+
+
+def keeps_apart(name: str, before: Facts, after: Facts) -> bool:
+    """Tell whether arms are kept apart in all the room of a shared area in which they were.
+
+    One arm at a time is in it, unless it is released: of a released one, arms may meet in no more room than before.
+    """
+    was, now = (_shared(name, facts.cell) for facts in (before, after))
+    if was is None or now is None or was.parent != now.parent:
+        return False
+    old, new = ((Collision(None, area.transform_to_parent, Box(area.size)),) for area in (was, now))
+    if now.released:
+        return now.released == was.released and covers(new, old)
+    return bool(was.released) or covers(old, new)
 
 
 def box_difference(path: Path, before: Facts, after: Facts) -> str:
@@ -68,9 +83,12 @@ def _box(link: str, facts: Facts) -> _Placed | None:
 
 
 def _area(name: str, cell: Cell | None) -> _Placed | None:
-    areas = () if cell is None else cell.areas
-    area = next((each for each in areas if each.name == name), None)
+    area = _shared(name, cell)
     return None if area is None else (area.parent, area.transform_to_parent, area.size)
+
+
+def _shared(name: str, cell: Cell | None) -> SharedArea | None:
+    return next((each for each in (() if cell is None else cell.areas) if each.name == name), None)
 
 
 def _sides(pose: Pose, size: Vector3, new_pose: Pose, new_size: Vector3) -> tuple[str, ...]:

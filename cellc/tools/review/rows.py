@@ -15,11 +15,12 @@ from cellc.compiler.cell.site import Bringup, Host, Safety
 from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract, ContractController, ContractManager
 from cellc.contract.entities import ContractEndpoint, ContractInterface
-from cellc.contract.grading import FURTHER, OTHER_MASS, PLANNED, SECOND_CLIENT, UNAVOIDED, Graded, Rule
+from cellc.contract.grading import DEVIATES, FURTHER, OTHER_MASS, PLANNED, SECOND_CLIENT, UNAVOIDED, Graded, Rule
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.stated import Network
 from cellc.contract.vocabulary import ReviewArea
 from cellc.tools.review.graded import rows_of
+from cellc.tools.review.reasons import with_reason
 from cellc.tools.review.rules import Row
 
 _A = ReviewArea
@@ -56,12 +57,16 @@ _DECLARED: Sequence[Row] = tuple(
 )
 """What fields declare beside their meaning: `Graded` in the models of contract/ and the entities of a cell."""
 
-ROWS: Sequence[Row] = (
+_ALL: Sequence[Row] = (
     Row("contract approvals safety", Graded(_A.SAFETY, "approver of safety changes", Rule.DANGEROUS)),
     Row(
-        f"{_LAW} joints {{joint}} stiffness", Graded(_A.CONTROL, "stiffness of the joint", Rule.DANGEROUS, why=_YIELDS)
+        f"{_LAW} joints {{joint}} stiffness",
+        Graded(_A.CONTROL, "stiffness of the joint", Rule.DANGEROUS, "stiffness", why=_YIELDS),
     ),
-    Row(f"{_LAW} joints {{joint}} damping", Graded(_A.CONTROL, "damping of the joint", Rule.DANGEROUS, why=_YIELDS)),
+    Row(
+        f"{_LAW} joints {{joint}} damping",
+        Graded(_A.CONTROL, "damping of the joint", Rule.DANGEROUS, "damping", why=_YIELDS),
+    ),
     Row(f"{_LAW} joints {{joint}} ...", Graded(_A.CONTROL, "gain of the joint:", Rule.DANGEROUS, why=_YIELDS)),
     Row(f"{_LAW} unaccounted", Graded(_A.PAYLOAD, "load that gravity compensation leaves out")),
     Row(f"{_LAW} ...", Graded(_A.CONTROL, "control law of the joints:")),
@@ -69,10 +74,17 @@ ROWS: Sequence[Row] = (
         "contract frames {frame} grasp mass_kg",
         Graded(_A.MOTION, "mass of the part to grip", Rule.LOOSER, "kg", why=OTHER_MASS),
     ),
+    *(
+        Row(f"spec safety stop {name}", Graded(_A.SAFETY, quantity, Rule.LOST, ordered=False))
+        for name, quantity in (
+            ("independent_of", "what the stop is independent of"),
+            ("evidence", "evidence of the stop"),
+        )
+    ),
     *_DECLARED,
     # What stops, and what happens then.
     Row("area {area} {what}", Graded(_A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET)),
-    Row("watch {watch} ...", Graded(_A.SAFETY, "watch that deactivates controllers", Rule.DANGEROUS)),
+    Row("watch {watch} ...", Graded(_A.SAFETY, "watch that deactivates controllers", Rule.DANGEROUS, ordered=False)),
     Row("check payload {device} {what}", Graded(_A.PAYLOAD, "robot payload", Rule.DANGEROUS, why="the arm may sag")),
     Row("check tcp {device} {what}", Graded(_A.PAYLOAD, "robot TCP", Rule.DANGEROUS, why="the TCP moves")),
     Row("check thresholds {device}", Graded(_A.SAFETY, "collision thresholds set in the robot", Rule.DANGEROUS)),
@@ -109,7 +121,7 @@ ROWS: Sequence[Row] = (
     Row("manager {manager} {what}", Graded(_A.CONTROL, "controller manager")),
     Row(
         "parameters {_} {node} ros__parameters constraints {joint} trajectory",
-        Graded(_A.CONTROL, "path tolerance", Rule.LOOSER, "joint", why="the joint may deviate further before it stops"),
+        Graded(_A.CONTROL, "path tolerance", Rule.LOOSER, "joint", why=DEVIATES),
     ),
     Row(
         "parameters {_} {node} ros__parameters constraints {joint} goal",
@@ -208,6 +220,7 @@ ROWS: Sequence[Row] = (
     Row("file {_} {node} ros__parameters ...", Graded(_A.CONTROL, "parameter")),
     Row("manifest cellc_version", Graded(_A.VERSIONS, "cellc")),
 )
+ROWS = tuple(map(with_reason, _ALL))
 """What no row fits is `review`, in the area of its file."""
 
 FOLLOWS: Sequence[str] = (
@@ -218,6 +231,10 @@ FOLLOWS: Sequence[str] = (
     "controller {controller} command_interfaces",
     "controller {controller} full_name",
     "parameters {_} {node} ros__parameters constraints goal_time",
+    *(
+        f"parameters nodes {{adapter}} ros__parameters {name}"
+        for name in ("command_timeout", "stop_time", "goal_time", "path_tolerance")
+    ),
     "parameters {_} {node} ros__parameters update_rate",
     "parameters {_} {node} ros__parameters joints",
     "parameters {_} {node} ros__parameters {controller} type",

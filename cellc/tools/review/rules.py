@@ -64,10 +64,16 @@ class Thing:
 
 _S, _R, _D = Grade.SAFE, Grade.REVIEW, Grade.DANGEROUS
 
+_UNMEASURED = "its frames rest on no measurement"
+_UNHELD = "the joints that it held have no controller"
+_UNCOMPARED = "what is set in the robot is no longer compared"
+
 THINGS: Sequence[Thing] = (
     Thing("contract frames {frame}", _A.FRAMES, "frame", _R, _R, breaking=True, shown="parent"),
     Thing("placement {frame}", _A.FRAMES, "pose", _R, _R, follows=True),
-    Thing("contract calibrations {calibration}", _A.CALIBRATION, "calibration", _R, _D, shown="revision"),
+    Thing(
+        "contract calibrations {calibration}", _A.CALIBRATION, "calibration", _R, _D, shown="revision", why=_UNMEASURED
+    ),
     Thing("interface {interface}", _A.INTERFACES, "interface", _R, _R, breaking=True, shown="type"),
     Thing("interface {interface} publishers {node}", _A.INTERFACES, "publisher", _R, _R, breaking=True),
     Thing("interface {interface} subscribers {node}", _A.INTERFACES, "subscriber", _S, _R),
@@ -83,12 +89,12 @@ THINGS: Sequence[Thing] = (
     Thing(
         "interface {interface} clients {node}", _A.CONTROL, "client", _D, _R, why="another client may request motion"
     ),
-    Thing("controller {controller}", _A.CONTROL, "controller", _R, _D, shown="plugin"),
+    Thing("controller {controller}", _A.CONTROL, "controller", _R, _D, shown="plugin", why=_UNHELD),
     Thing("manager {manager} switches {switch}", _A.CONTROL, "controller switch", _R, _R),
-    Thing("manager {manager}", _A.CONTROL, "controller manager", _R, _D),
+    Thing("manager {manager}", _A.CONTROL, "controller manager", _R, _D, why=_UNHELD),
     Thing("contract clocks {clock}", _A.TIME, "clock", _R, _R),
     Thing("contract devices {device}", _A.DEVICES, "device", _R, _R, shown="model"),
-    Thing("contract adapters {device}", _A.CONTROL, "adapter", _R, _D),
+    Thing("contract adapters {device}", _A.CONTROL, "adapter", _R, _D, why="nothing bounds the commands of the device"),
     Thing("contract joint_limits {joint}", _A.LIMITS, "limits", _R, _D, why="the joint no longer has limits"),
     Thing("stage {stage}", _A.LIMITS, "stage of commissioning", _R, _D, why="planned motion has one stage fewer"),
     Thing("contract groups {group}", _A.MOTION, "planning group", _R, _R),
@@ -103,16 +109,40 @@ THINGS: Sequence[Thing] = (
         shown="expect",
         why="this behavior is no longer rehearsed",
     ),
-    Thing("step real {step}", _A.START_ORDER, "hardware startup step", _D, _D, shown="phase"),
+    Thing(
+        "step real {step}",
+        _A.START_ORDER,
+        "hardware startup step",
+        _D,
+        _D,
+        shown="phase",
+        why="hardware starts in another way",
+    ),
     Thing("step mock {step}", _A.START_ORDER, "mock startup step", _R, _R, shown="phase", follows=True),
-    Thing("watch {watch}", _A.SAFETY, "watch that deactivates controllers", _S, _D),
-    Thing("check payload {device}", _A.PAYLOAD, "payload to set in the robot", _R, _D, shown="mass"),
-    Thing("check tcp {device}", _A.PAYLOAD, "TCP to set in the robot", _R, _D),
-    Thing("check load {device}", _A.PAYLOAD, "load to set in the robot", _R, _D),
-    Thing("check joint_impedance {device}", _A.SAFETY, "impedance of the joints", _R, _D),
-    Thing("check tool_impedance {device}", _A.SAFETY, "impedance at the tool", _R, _D),
-    Thing("check tool_voltage {device}", _A.SAFETY, "voltage of the tool connector", _D, _R),
-    Thing("check thresholds {device}", _A.SAFETY, "collision thresholds of the robot", _R, _D),
+    Thing(
+        "watch {watch}",
+        _A.SAFETY,
+        "watch that deactivates controllers",
+        _S,
+        _D,
+        why="controllers may stay active though their device stopped",
+    ),
+    Thing(
+        "check payload {device}", _A.PAYLOAD, "payload to set in the robot", _R, _D, shown="mass", why="the arm may sag"
+    ),
+    Thing("check tcp {device}", _A.PAYLOAD, "TCP to set in the robot", _R, _D, why=_UNCOMPARED),
+    Thing("check load {device}", _A.PAYLOAD, "load to set in the robot", _R, _D, why="the arm may sag"),
+    Thing("check joint_impedance {device}", _A.SAFETY, "impedance of the joints", _R, _D, why=_UNCOMPARED),
+    Thing("check tool_impedance {device}", _A.SAFETY, "impedance at the tool", _R, _D, why=_UNCOMPARED),
+    Thing(
+        "check tool_voltage {device}",
+        _A.SAFETY,
+        "voltage of the tool connector",
+        _D,
+        _R,
+        why="a tool with a lower rating is destroyed",
+    ),
+    Thing("check thresholds {device}", _A.SAFETY, "collision thresholds of the robot", _R, _D, why=_UNCOMPARED),
     Thing("area {area}", _A.SAFETY, "shared area", _R, _D, why="arms may meet in it"),
     Thing("excused blocker {finding}", _A.GATES, "excuse of a blocker", _D, _S, why="the finding no longer blocks"),
     Thing("excused {_} {finding}", _A.GATES, "excuse of a finding", _R, _S),
@@ -127,10 +157,26 @@ THINGS: Sequence[Thing] = (
     ),
     Thing("real inertia {link}", _A.MODEL, "mass and inertia", _R, _R, follows=True),
     Thing("real joint {joint}", _A.MODEL, "joint", _R, _R, shown="type"),
-    Thing("real hardware {component}", _A.CONTROL, "hardware component", _R, _D, shown="plugin"),
+    Thing(
+        "real hardware {component}",
+        _A.CONTROL,
+        "hardware component",
+        _R,
+        _D,
+        shown="plugin",
+        why="nothing drives its joints",
+    ),
     Thing("parameters {_} {node}", _A.CONTROL, "parameters of a node", _R, _R, follows=True),
     Thing("spec nodes {node}", _A.CONTROL, "node", _R, _R, shown="package"),
-    Thing("file config/frames.yaml calibrations {calibration}", _A.CALIBRATION, "measurement", _R, _D, follows=True),
+    Thing(
+        "file config/frames.yaml calibrations {calibration}",
+        _A.CALIBRATION,
+        "measurement",
+        _R,
+        _D,
+        why=_UNMEASURED,
+        follows=True,
+    ),
     Thing("file config/recording_qos.yaml {topic}", _A.FIGURES, "recording", _R, _R, follows=True),
     Thing(
         "file config/uncertainty.json quantities {quantity}",

@@ -182,8 +182,8 @@ def _values(line: str, changes: Sequence[ReviewChange], fold: _Fold) -> list[str
     change = changes[0]
     if fold is _broken:
         why = "" if change.why.startswith(UNMEASURED) else change.why.partition(", before ")[0].replace("`", "")
-        why = why if change.grade is Grade.DANGEROUS and not change.breaking else ""
-        return [*fold(line, "    "), *(fold(f"    {why}", "      ") if why else [])]
+        why = why if change.grade is not Grade.SAFE and not change.breaking else ""
+        return [*fold(line, "    "), *(fold(f"    because {why}", "      ") if why else [])]
     delta = f" ({change.delta})" if change.delta else ""
     head = line.partition(delta)[0] if delta and delta in line else line
     is_cut = delta and head != line and len(escaped(line)) > _WIDTH
@@ -211,7 +211,7 @@ def _said(change: ReviewChange) -> str:
         return f"breaks {change.why}" if change.breaking else "no consumer outside the cell knows it"
     breaks = ", breaks consumers" if change.breaking else ""
     values = change.delta if change.delta and len(values_of(change)) > _LONG else values_of(change)
-    return f"{change.area}  {change.quantity} {values}{breaks}"
+    return f"{change.area}  {change.quantity} {values}".rstrip() + breaks
 
 
 def _line(text: str, changes: Sequence[ReviewChange]) -> str:

@@ -8,10 +8,13 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal
 from cellc.contract.vocabulary import Grade
+from cellc.tools.review.change import PRESENT
 from cellc.tools.review.groups import groups_of
 
 STYLES = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
 _FEW = 4
+_WHOLE = (" added", " removed")
+"""How the quantity of what was added or removed as a whole ends."""
 
 
 def render_review(review: Review) -> Iterator[Line]:
@@ -60,8 +63,10 @@ def subjects_of(change: ReviewChange, few: int = _FEW) -> str:
 
 
 def values_of(change: ReviewChange) -> str:
-    """Return the values before and after, with the difference where it has a size."""
-    values = f"{change.before or 'nothing'} -> {change.after or 'nothing'}"
+    """Return the values before and after, with a difference that has a size; of what is added or removed, that."""
+    if change.quantity.endswith(_WHOLE):
+        return "" if PRESENT in (change.before, change.after) else change.after or change.before or ""
+    values = f"{change.before or 'not stated'} -> {change.after or 'not stated'}"
     return f"{values} ({change.delta})" if change.delta else values
 
 
@@ -90,7 +95,7 @@ def _change(change: ReviewChange) -> Iterator[Line]:
     breaking: tuple[str | Styled, ...] = ("  ", Styled("breaks consumers", Style.RED)) if change.breaking else ()
     grade = Styled(change.grade.value, STYLES[change.grade])
     yield ("  ", grade, f" {change.area}  {subjects_of(change)}: {change.quantity}", *breaking)
-    yield f"      {values_of(change)}"
+    yield from (f"      {values}" for values in [values_of(change)] if values)
     said = "; ".join(part for part in (change.why, approved_by(change)) if part)
     if said:
         yield ("      ", Styled(said, Style.DIM))

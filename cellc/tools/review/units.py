@@ -96,8 +96,8 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: boo
         return ""
     if isinstance(before, int) and isinstance(after, int):
         return ""
-    if share and before and (unit not in ("m", "rad") or before > 0.0 < after):
-        return f"{_rounded(100.0 * (after - before) / abs(before)):+.10g} %"
+    if share and before > 0.0 <= after and (after or unit not in ("m", "rad")):
+        return f"{_rounded(100.0 * (after - before) / before):+.10g} %"
     sign = "+" if after > before else ""
     return sign + _with_unit(after - before, unit)
 
@@ -109,9 +109,15 @@ def _of_quantities(before: str, after: str) -> str:
         return ""
     if len(was) == _PLACE and kind == "length":
         return motion(math.dist(was, now), 0.0)
-    if len(was) != 1 or not was[0] or not now[0] >= 0.0 <= was[0]:
+    if len(was) != 1:
         return ""
-    return f"{_rounded(100.0 * (now[0] - was[0]) / was[0]):+.10g} %"
+    if was[0] > 0.0 <= now[0]:
+        return f"{_rounded(100.0 * (now[0] - was[0]) / was[0]):+.10g} %"
+    unit = _SI.get(kind)
+    return "" if unit is None else f"{'+' * (now[0] > was[0])}{_with_unit(now[0] - was[0], unit)}"
+
+
+_SI = {kind: unit for unit, (kind, factor) in UNITS.items() if factor == 1.0}
 
 
 def _quantity(text: str) -> tuple[tuple[float, ...], str]:
