@@ -43,6 +43,7 @@ FOLDERS = {
     "importing": "foreign cli",
     "limits.py": "description source",
     "link": "link corpus",
+    "physics": "mock/physics",
     "pins.py": "link",
     "pipeline.py": "cli project/test_package.py",
     "printing.py": "printing",

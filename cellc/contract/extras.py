@@ -41,7 +41,7 @@ LSP = Extra("lsp", "`cellc lsp`", ("pygls", "lsprotocol"), ("pygls>=2.1",))
 CLUSTER = Extra("cluster", "`--cluster`", ("distributed", "dask"), ("distributed>=2026.8",))
 LIVE = Extra("live", "`--live`", ("foxglove", "mcap"), ("foxglove-sdk>=0.30", "mcap>=1.1"))
 BAGS = Extra("bags", "reading a bag", ("rosbags", "mcap"), ("rosbags>=0.11.0", "mcap>=1.1"))
-PHYSICS = Extra("physics", "reading `sim/scene.xml` back", ("mujoco",), ("mujoco>=3.3",))
+PHYSICS = Extra("physics", "`--physics`", ("mujoco",), ("mujoco>=3.3",))
 EXTRAS = (EVIDENCE, LSP, CLUSTER, LIVE, BAGS, PHYSICS)
 
 

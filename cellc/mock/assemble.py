@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from math import inf
 
@@ -39,6 +39,8 @@ from cellc.mock.nodes.perception import (
 from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.parts import Parts
+from cellc.mock.physics.dynamics import Dynamics
+from cellc.mock.physics.reading import planned_contacts
 from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.real_bring_up import played
 from cellc.mock.real_start import RealStart
@@ -157,7 +159,7 @@ def assemble(
     published = RobotStatePublisher(memory.model.links, feeds, PUBLISH_FREQUENCY_HZ, horizon_s, clocks, tf_edge)
     stops, watches = Stops(control), ClaimWatches(contract, folder.watches, control, simulation)
     effects = Effects(devices, stops, watches, simulation)
-    world = World(memory.model.links.displaced(reality.links), control.histories.values())
+    world = World(memory.model.links.displaced(reality.links), control.histories.values(), control.dynamics)
     plant = Plant(
         contract=contract,
         bring_up=folder.bring_up if bring_up == "mock" else played(folder.real_bring_up, folder.bring_up, contract),
@@ -171,7 +173,7 @@ def assemble(
         start=RealStart(devices, effects, simulation),
         loads=Loads(contract, control, memory.model.robot, memory.model.links),
         world=world,
-        parts=Parts(contract, control, world, dict(_boxes(folder))),
+        parts=Parts(contract, control, world, dict(_boxes(folder)), control.dynamics),
         switches=Switches(contract),
         robot_state_publisher=published,
         planner=MotionPlanner(memory, seed),
@@ -183,11 +185,20 @@ def assemble(
     if bring_up == "real":
         plant.start.bring_up(folder.real_bring_up)
     clocks.listen(partial(_note_jump, plant))
-    _add_objects(plant, _add_cameras(plant), reality)
+    _add_objects(plant, _add_cameras(plant), reality, anew=standing is None)
     return plant
 
 
-def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality) -> None:
+def _lay(plant: Plant, dynamics: Dynamics, names: Iterable[str]) -> None:
+    """Put parts that have mass where they are stated to be."""
+    servers = plant.control.managers.values()
+    positions = {joint: at for server in servers for joint, at in server.joint_positions().items()}
+    for name in filter(dynamics.moves, names):
+        placed = plant.world.placements(name)[-1]
+        dynamics.put(name, plant.world.posed(placed.link, positions) @ placed.pose)
+
+
+def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality, *, anew: bool) -> None:
     tf = TfBroadcast(plant.contract.interfaces.get(TF), plant.task.name, plant.network, plant.simulation)
     executors = Executors(plant.simulation)
     for name, frame in plant.contract.frames.items():
@@ -195,6 +206,8 @@ def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality
             _add_object(plant, executors, name, frame, images, tf, reality.objects.get(name))
         elif frame.kind == "fixed" and frame.grasp is not None:
             plant.world.place(name, name, identity(), 0)
+    if plant.control.dynamics is not None:
+        _lay(plant, plant.control.dynamics, plant.world.objects() if anew else tuple(reality.objects))
 
 
 def _turned(pose: Pose, turn: Pose) -> Pose:
@@ -226,15 +239,25 @@ def _note_jump(plant: Plant, jump: TimeJump) -> None:
 
 
 def _control(folder: GeneratedFolder, seed: int, horizon_s: float) -> ControlStack:
-    contract = folder.contract
-    control = ControlStack(_managers(folder), contract.managers, horizon_s, _adapters(contract))
+    contract, forces = folder.contract, None
+    if folder.scene is not None:
+        planned = planned_contacts(folder.scene, contract, folder.description)
+        forces = Dynamics(folder.scene, planned, _leads_s(contract))
+    managers = _managers(folder, forces)
+    control = ControlStack(managers, contract.managers, horizon_s, _adapters(contract), forces)
     for joint, nature in _natures(contract, seed).items():
         for server in control.servers_of_joint(joint):
             server.disturbances.disturb(joint, nature)
     return control
 
 
-def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
+def _leads_s(contract: Contract) -> dict[str, float]:
+    """Return the joints behind springs whose damping brakes their error alone, each with damping over stiffness."""
+    laws = [device.law for device in contract.devices.values() if device.law is not None and not device.law.lags]
+    return {joint: spring.lag_s for law in laws for joint, spring in law.joints.items()}
+
+
+def _managers(folder: GeneratedFolder, forces: Dynamics | None) -> Mapping[str, ControllerManager]:
     contract = folder.contract
     return {
         name: ControllerManager(
@@ -247,6 +270,7 @@ def _managers(folder: GeneratedFolder) -> Mapping[str, ControllerManager]:
                 controller: DeclaredInterfaces(facts.command_interfaces, facts.state_interfaces)
                 for controller, facts in manager.controllers.items()
             },
+            forces=forces,
         )
         for name, manager in contract.managers.items()
     }

@@ -8,6 +8,7 @@ from cellc.contract.contract import ContractFiles
 from cellc.contract.uncertainty import UNCERTAINTY_FILE
 from cellc.mock.errors import MockError
 from cellc.mock.folder import CONTRACT_FILE, GeneratedFolder, named_files
+from cellc.mock.physics.reading import SCENE_FILE
 
 FOR_PEOPLE = (".md", ".svg")
 """How files end that no program reads; an edit of one is a note."""
@@ -30,6 +31,7 @@ def partly_executed(files: ContractFiles) -> Mapping[str, str]:
 def not_executed(folder: GeneratedFolder) -> tuple[str, ...]:
     """Return the files that were edited and that no run executes, but for those that only people read."""
     executed = {CONTRACT_FILE, UNCERTAINTY_FILE, *named_files(folder.contract)}
+    executed |= set() if folder.scene is None else {SCENE_FILE}
     return tuple(name for name in folder.edits if name not in executed and not name.endswith(FOR_PEOPLE))
 
 

@@ -26,6 +26,7 @@ from cellc.mock.faults.ports import FaultPorts, fault_ports
 from cellc.mock.faults.registry import Injection, any_started, build_fault
 from cellc.mock.folder import GeneratedFolder, in_stage, read_folder
 from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
+from cellc.mock.physics.reading import with_scene
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Reality
 from cellc.mock.result import RehearsalResult, RunFailure, StageEvidence
@@ -183,8 +184,7 @@ def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord
 
 
 def _not_run(rehearsal: RehearsalEntry, error: LimitReachedError) -> RehearsalResult:
-    evidence = (StageEvidence("limits", (), (str(error),)),)
-    return _not_up(rehearsal, evidence, (), RunFailure.LIMIT_REACHED)
+    return _not_up(rehearsal, (StageEvidence("limits", (), (str(error),)),), (), RunFailure.LIMIT_REACHED)
 
 
 def _not_up(
@@ -207,10 +207,9 @@ def _not_up(
 
 
 def _findings(plant: Plant) -> tuple[str, ...]:
-    contract: Contract = plant.contract
     plant.robot_state_publisher.catch_up(plant.now_ns)  # what the listener refuses, it refuses when it arrives
     return (
-        *unmatched_pairs(contract),
+        *unmatched_pairs(plant.contract),
         *plant.network.events.lines(),
         *plant.task.buffer.conflicts,
         *plant.task.buffer.warnings.lines(),
@@ -328,22 +327,24 @@ class MockCell:
         return _Run(self._folder, self._memory, entry, seed, watch, known, snapshots).result()
 
 
-def load(folder: Path, *, edited: bool = False, stage: str = "") -> MockCell:
+def load(folder: Path, *, edited: bool = False, stage: str = "", physics: bool = False) -> MockCell:
     """Load a generated folder.
 
     Args:
         edited: take a folder that differs from its manifest; every result says so, and no gate is signed.
         stage: the stage of commissioning that motion is planned in; the last where it is empty.
+        physics: give joints and parts their masses.
 
     Raises:
         MockError: the folder cannot be executed, or a file was edited that is not; names it and why.
     """
-    return cell_of(read_to_run(folder, edited=edited, stage=stage))
+    return cell_of(read_to_run(folder, edited=edited, stage=stage, physics=physics))
 
 
-def read_to_run(folder: Path, *, edited: bool = False, stage: str = "") -> GeneratedFolder:
+def read_to_run(folder: Path, *, edited: bool = False, stage: str = "", physics: bool = False) -> GeneratedFolder:
     """Read a generated folder as `load` does, with notes on what is odd about it, before any model is built."""
     read = read_to_show(folder, edited=edited)
+    read = with_scene(read, folder) if physics else read
     refuse_not_executed(read)
     return in_stage(read, folder, stage) if stage else read
 

@@ -29,6 +29,7 @@ from cellc.robot.description.packages import lies_under, repository_of
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xml_tree import read_xml
 from cellc.robot.description.yaml_values import load_values
+from cellc.robot.physics.scene import Scene
 
 CONTRACT_FILE = "contract.json"
 MANIFEST_FILE = "manifest.json"
@@ -54,6 +55,7 @@ class GeneratedFolder:
         mesh_roots: folders beside which the packages of meshes may lie, as at the build.
         stages: text of the parameters of each stage of commissioning, by its percentage in order.
         stage: the one that is planned in; the last where it is empty.
+        scene: that moves joints and parts; None where they are where they are led to.
     """
 
     contract: Contract
@@ -72,6 +74,7 @@ class GeneratedFolder:
     uncertainty: Uncertainty | None = None
     stages: dict[str, str] = field(default_factory=dict)
     stage: str = ""
+    scene: Scene | None = None
 
     @property
     def capped_by(self) -> tuple[str, str]:

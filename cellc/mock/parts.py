@@ -10,6 +10,7 @@ from cellc.contract.devices import ContractGripper
 from cellc.contract.transforms import Pose, Vector3
 from cellc.mock.control import JointFault
 from cellc.mock.engine.control_stack import ControlStack
+from cellc.mock.physics.dynamics import Dynamics
 from cellc.mock.world.world import World
 
 GRASP_TOLERANCE_M = 0.03
@@ -25,9 +26,15 @@ class Parts:
     """
 
     def __init__(
-        self, contract: Contract, control: ControlStack, world: World, boxes: Mapping[str, Vector3] | None = None
+        self,
+        contract: Contract,
+        control: ControlStack,
+        world: World,
+        boxes: Mapping[str, Vector3] | None = None,
+        dynamics: Dynamics | None = None,
     ) -> None:
         """Bind the parts of a cell; ``boxes`` are the edges of the boxes that parts lie on, by their frames."""
+        self._dynamics = dynamics
         self._boxes = boxes or {}
         self.held: dict[str, str] = {}
         self.slipped_m: dict[str, float] = {}
@@ -39,6 +46,7 @@ class Parts:
         self._weak: set[str] = set()
         self._taken_from: dict[str, Vector3] = {}
         self._met: dict[str, JointFault] = {}
+        self._in_hand: dict[str, Vector3] = {}
 
     def grasp(self, name: str | None) -> ContractGrasp | None:
         """Return what is stated of a part."""
@@ -66,6 +74,9 @@ class Parts:
         fits = width_m < gripper.stroke_m and abs(finger_at - gripper.closed) >= abs(blocked_by - gripper.closed)
         return near[1] if fits else None
 
+    def _has_mass(self, name: str) -> bool:
+        return self._dynamics is not None and self._dynamics.moves(name)
+
     def _width_m(self, name: str) -> float | None:
         grasp = self.grasp(name)
         stated = None if grasp is None else grasp.width_m
@@ -74,16 +85,30 @@ class Parts:
     def stop_fingers(self, device: str, name: str) -> None:
         """Let closing fingers come no farther than a part lets them; its width is not stated of every part."""
         gripper, width_m = self._contract.devices[device].gripper, self._width_m(name)
+        if self._has_mass(name):
+            return
         if gripper is not None and width_m is not None:
             self._block(gripper, gripper.position(width_m))
 
-    def take(self, device: str, name: str, now_ns: int) -> None:
-        """Let a gripper hold a part, unless its fingers have no force."""
+    def take(self, device: str, name: str, now_ns: int, in_hand: Vector3 = (0.0, 0.0, 0.0)) -> None:
+        """Let a gripper hold a part, unless its fingers have no force.
+
+        Args:
+            in_hand: where the part is in what carries the fingers, m.
+        """
+        self._in_hand[name] = in_hand
         self._taken_from[name] = self._world.object_pose(name, now_ns).position
         self.held[device] = name
         self.slipped_m.pop(name, None)
         if device in self._weak:
             self.lose(device, now_ns)
+
+    def measure(self, device: str, link: str, now_ns: int) -> None:
+        """Measure how far a part that has mass has slipped in the link that carries the fingers which hold it."""
+        name = self.held.get(device)
+        if name is not None and self._has_mass(name):
+            here = self._world.link_pose(link, now_ns).inverse() @ self._world.object_pose(name, now_ns)
+            self.slipped_m[name] = math.dist(here.position, self._in_hand[name])
 
     def let_go(self, device: str) -> str | None:
         """Let a gripper hold nothing; return what it held."""
@@ -118,7 +143,9 @@ class Parts:
         return abs(x) <= length / 2.0 and abs(y) <= width / 2.0 and 0.0 <= above_m <= GRASP_TOLERANCE_M
 
     def fall(self, name: str, now_ns: int) -> None:
-        """Let a part fall to the ground; how it comes to rest is not played."""
+        """Let a part fall to the ground; how it comes to rest is not played, but of a part that has mass."""
+        if self._has_mass(name):
+            return
         x, y, z = self._world.object_pose(name, now_ns).position
         self._world.place(name, self._contract.root_frame, Pose((x, y, min(z, 0.0)), (0.0, 0.0, 0.0, 1.0)), now_ns)
 
@@ -127,10 +154,16 @@ class Parts:
     def miss(self, name: str, *, missing: bool) -> None:
         """Let a part be seen where none is, or be there again."""
         (self._missing.add if missing else self._missing.discard)(name)
+        if self._dynamics is not None and self._dynamics.moves(name):
+            self._control.interrupt()
+            self._dynamics.miss(name, missing=missing)
 
     def widen(self, name: str, by_m: float) -> None:
         """Let a part be wider than stated, or narrower."""
         self._wider_m[name] = by_m
+        if self._dynamics is not None and self._dynamics.moves(name):
+            self._control.interrupt()
+            self._dynamics.reshape(name, wider_m=by_m)
 
     def weaken(self, device: str, *, weak: bool, now_ns: int) -> None:
         """Let the fingers of a gripper have no force: what they hold, now or later, falls."""
@@ -143,11 +176,20 @@ class Parts:
         name = self.let_go(device)
         if name is not None:
             self.fall(name, now_ns)
+            if self._dynamics is not None and self._dynamics.moves(name):
+                self._control.interrupt()
+                self._dynamics.reshape(name, friction=0.0)
 
     def slip(self, device: str, by_m: float) -> None:
         """Let what a gripper holds slide between its fingers."""
-        if device in self.held:
-            self.slipped_m[self.held[device]] = by_m
+        if device not in self.held:
+            return
+        name = self.held[device]
+        if self._dynamics is not None and self._dynamics.moves(name):
+            self._control.interrupt()
+            self._dynamics.slide(name, by_m)
+        else:
+            self.slipped_m[name] = by_m
 
     def _block(self, gripper: ContractGripper, at: float | None) -> None:
         """Let fingers meet a part that they cannot pass; none at None."""

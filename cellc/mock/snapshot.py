@@ -21,9 +21,10 @@ from cellc.mock.nodes.perception import PROCESSING_S
 from cellc.mock.plant import Plant
 from cellc.mock.result import StageEvidence
 from cellc.robot.description.model import Description
+from cellc.robot.physics.scene import Scene
 from cellc.robot.planning import Springs
 
-_SHARED = (Description, RobotDescription, Parameter, Springs)
+_SHARED = (Description, RobotDescription, Parameter, Springs, Scene)
 """What no run changes; a parameter has checks that are functions, and springs a model, which are not copied."""
 _SMALL_OFFSET_NS = 100_000_000
 """Clocks that read so much more or less have no stamp that a lookup of transforms takes for another question."""

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterator
 
 from cellc.contract.compute.fan import USUAL, Fan
-from cellc.contract.extras import CLUSTER, EVIDENCE, LIVE, Extra
+from cellc.contract.extras import CLUSTER, EVIDENCE, LIVE, PHYSICS, Extra
 from cellc.contract.frozen import dataclass
 
 
@@ -73,18 +73,22 @@ class RehearsalOptions(FolderOptions):
         records: file that attempt records are written to, as JSON lines.
         live: how they are shown; None for not at all.
         images: draw what cameras see into the bags.
+        physics: give joints and parts their masses.
     """
 
     rehearsals: tuple[str, ...] = ()
     records: str | None = None
     live: Live | None = None
     images: bool = False
+    physics: bool = False
 
     def extras(self) -> Iterator[Extra]:
         """Yield what it needs beyond what cellc is installed with."""
         yield from FolderOptions.extras(self)
         if self.live is not None:
             yield LIVE
+        if self.physics:
+            yield PHYSICS
 
 
 @dataclass(frozen=True, slots=True)

@@ -86,7 +86,7 @@ def run_rehearsals(options: RehearsalOptions) -> int:
     """
     if options.records is not None:
         refuse_foreign(Path(options.records))  # before the minutes that a run may take
-    cell = load_seeded(options)
+    cell = load_seeded(options, physics=options.physics)
     names = tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals
     if options.live is None:
         timed = _run(cell, names, options)
@@ -109,11 +109,11 @@ def _tell(cell: MockCell, timed: Sequence[TimedResult], options: RehearsalOption
         show(*to_lines(timed, cell.notes))
 
 
-def load_seeded(options: FolderOptions) -> MockCell:
+def load_seeded(options: FolderOptions, *, physics: bool = False) -> MockCell:
     """Load a folder; raise MockError where it or the seed cannot be used."""
     if options.seed < 0:
         raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
-    return load(Path(options.folder), edited=options.edited, stage=options.stage)
+    return load(Path(options.folder), edited=options.edited, stage=options.stage, physics=physics)
 
 
 def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> list[TimedResult]:

@@ -23,6 +23,7 @@ from cellc.mock.control import (
 )
 from cellc.mock.engine.process import Signal
 from cellc.mock.errors import LimitReachedError
+from cellc.mock.physics.dynamics import Dynamics
 from cellc.mock.world.joint_states import JointStateHistory
 
 
@@ -100,6 +101,7 @@ class ControlStack:
     Attributes:
         managers: by the name they have in the contract.
         adapters: of devices that no manager drives, by device.
+        dynamics: what moves joints and parts; None where they are where they are led to.
         changed: fires after a manager had something to tell.
         unready_hardware: hardware components that are not active, with their state.
         dangers: what was dangerous in goals that controllers accepted all the same.
@@ -111,8 +113,10 @@ class ControlStack:
         contracts: Mapping[str, ContractManager],
         horizon_s: float,
         adapters: Mapping[str, AdapterServer] | None = None,
+        dynamics: Dynamics | None = None,
     ) -> None:
         """Bind the managers and adapters; ``horizon_s`` bounds the history of joint states."""
+        self.dynamics = dynamics
         self.managers = dict(managers)
         self.adapters = dict(adapters or {})
         self._servers: tuple[GoalServer, ...] = (*self.managers.values(), *self.adapters.values())
@@ -252,6 +256,11 @@ class ControlStack:
         if self._samples > most:
             now_s = max(server.now_ns for server in passed_ns) / 1e9
             raise LimitReachedError(f"{now_s:.0f} s with more than {most} joint values are simulated", "mock-samples")
+
+    def interrupt(self) -> None:
+        """Void what was computed ahead: somebody changes what no manager is asked about."""
+        for manager in self.managers.values():
+            manager.interrupt()
 
     def dispatch(self, now_ns: int) -> None:
         """Hand what happened, and what was asked for just now, to the listeners; then wake who waits for it."""

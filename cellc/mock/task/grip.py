@@ -36,6 +36,7 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str, part
         parts.stop_fingers(device, between)
     if not closes:
         context.bands.pop(device, None)
+        parts.measure(device, _body(context, device), context.now_ns)
     target = facts.closed if closes else facts.open
     goal = _goal(context, facts, target)
     timeout_s = grip_timeout_s(context.contract, facts.controller)
@@ -114,7 +115,7 @@ def take(context: TaskContext, device: str, name: str) -> None:
     link = _body(context, device)
     pose_in_link = plant.world.move(name, link, plant.now_ns)
     plant.planner.attach(_shape(context, name), link, pose_in_link, plant.world.joint_positions(plant.now_ns))
-    plant.parts.take(device, name, plant.now_ns)
+    plant.parts.take(device, name, plant.now_ns, pose_in_link.position)
     context.acting_on = None
 
 

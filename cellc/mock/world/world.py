@@ -7,12 +7,25 @@ from bisect import bisect_right
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import partial
+from typing import Protocol
 
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.mock.tf.sources import DeferredPose
 from cellc.mock.world.joint_states import JointStateHistory
 from cellc.robot.description.model import Description, Joint
+
+
+class FreeBodies(Protocol):
+    """Objects that nothing places: they lie, are held, and fall."""
+
+    def moves(self, part: str) -> bool:
+        """Return whether an object is one of them."""
+        ...
+
+    def pose(self, part: str, stamp_ns: int) -> Pose:
+        """Return where one is at a time, in the root frame."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,9 +159,12 @@ class World:
     These are measured: noise that a spec states of a joint moves its links too, by as much.
     """
 
-    def __init__(self, links: LinkTree, histories: Iterable[JointStateHistory]) -> None:
-        """Bind the world to the links of the cell and the recorded joint states."""
+    def __init__(
+        self, links: LinkTree, histories: Iterable[JointStateHistory], bodies: FreeBodies | None = None
+    ) -> None:
+        """Bind the world to the links of the cell, the recorded joint states, and objects that move by themselves."""
         self._links = links
+        self._bodies = bodies
         self._histories = tuple(histories)
         self._placements: dict[str, list[Placement]] = {}
         self._standing: dict[tuple[str, Placement], DeferredPose] = {}
@@ -173,7 +189,7 @@ class World:
         return next((item.parent for item in self._links.joints.values() if item.name == joint), None)
 
     def place(self, name: str, link: str, pose: Pose, now_ns: int) -> None:
-        """Let an object stand still in the frame of a link from now on."""
+        """Let an object stand still in the frame of a link from now on, unless it moves by itself."""
         self._placements.setdefault(name, []).append(Placement(now_ns, link, pose))
 
     def objects(self) -> tuple[str, ...]:
@@ -190,12 +206,17 @@ class World:
 
     def object_pose(self, name: str, stamp_ns: int) -> Pose:
         """Return the pose of an object in the root link at a time."""
+        if self._bodies is not None and self._bodies.moves(name):
+            return self._bodies.pose(name, stamp_ns)
         placement = self._placement(name, stamp_ns)
         return self.link_pose(placement.link, stamp_ns) @ placement.pose
 
     def sight(self, link: str, name: str, stamp_ns: int) -> DeferredPose:
         """Return the pose of an object in the frame of a link at a time, from what is recorded by now."""
         placement = self._placement(name, stamp_ns)
+        if self._bodies is not None and self._bodies.moves(name):
+            at = self._bodies.pose(name, stamp_ns)
+            return DeferredPose(partial(self._seen, link, at, self.joint_positions(stamp_ns)))
         if self._links.is_fixed(link) and self._links.is_fixed(placement.link):
             if (link, placement) not in self._standing:
                 self._standing[link, placement] = DeferredPose(partial(self._relative, link, placement, {}))
@@ -205,6 +226,9 @@ class World:
         if any(map(math.isnan, positions.values())):
             pose.get()  # so that it is seen to be none
         return pose
+
+    def _seen(self, link: str, at: Pose, positions: Mapping[str, float]) -> Pose:
+        return self._links.pose(link, positions).inverse() @ at
 
     def _placement(self, name: str, stamp_ns: int) -> Placement:
         placements = self._placements[name]

@@ -34,6 +34,8 @@ _LEAST_USE = 1.0 - 1e-3
 _LEAST_SPACING_NS = 100_000
 # A jerk phase that is shorter has no point of its own, and the interpolation misses it: less jerk is used.
 _SHORTEST_PHASE_S = 1.1e-9 * _LEAST_SPACING_NS
+# Rad or m: a joint that is measured so near to its goal is there; ruckig finds no law for such a way.
+_STANDS = 1e-12
 _MAX_RESCALINGS = 8
 _KEPT_SECTIONS = 64
 # Three years; 64 bits hold the nanoseconds of many such sections.
@@ -111,7 +113,7 @@ def time_parameterize(
     for index, waypoints in enumerate(path.sections):
         if index == 0 and start_velocity is not None and any(start_velocity):
             sections.append(time_moving(waypoints, start_velocity, limits))
-        elif any(waypoint != waypoints[0] for waypoint in waypoints):
+        elif any(math.dist(waypoint, waypoints[0]) > _STANDS for waypoint in waypoints):
             sections.append(time_at_rest(waypoints, limits))
     if not sections:
         return _standstill(path, limits)

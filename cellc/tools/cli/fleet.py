@@ -155,6 +155,7 @@ _OF_ONE_FOLDER = {
     "evidence": "--evidence",
     "stage": "--stage",
     "live": "--live",
+    "physics": "--physics",
 }
 
 

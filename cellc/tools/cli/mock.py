@@ -17,6 +17,7 @@ from cellc.tools.cli.run_options import (
     FOLDERS,
     IMAGES,
     JSON,
+    PHYSICS,
     RECORDS,
     REHEARSALS,
     SEED,
@@ -57,6 +58,7 @@ class _Mock(click.Command):
 @RECORDS
 @EVIDENCE
 @IMAGES
+@PHYSICS
 @JSON
 @SEED
 @STAGE

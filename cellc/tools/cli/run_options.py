@@ -50,6 +50,7 @@ EVIDENCE = click.option(
 )
 IMAGES = click.option("--images", is_flag=True, help="With --evidence: draw what cameras see into the bags.")
 SEED = click.option("--seed", default=0, show_default=True, help="Seed of all random draws.")
+PHYSICS = click.option("--physics", is_flag=True, help="Give joints and parts mass, drives, contacts and friction.")
 STAGE = click.option("--stage", default="", metavar="PERCENT", help="Plan in this stage of commissioning.")
 EDITED = click.option(
     "--edited", is_flag=True, help="Run an edited folder; every result is marked, and no gate is signed."

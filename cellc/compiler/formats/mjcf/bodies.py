@@ -112,7 +112,9 @@ def _of_joint(given: Given, body: Body) -> dict[str, str]:
     found: dict[str, str] = {}
     if body.device is not None:
         damping = given.loops.finger_damping(body.device, body.joint.name)
+        armature = given.loops.finger_armature(body.device, body.joint.name)
         found |= {} if damping is None else {"damping": shortest(damping)}
+        found |= {} if armature is None else {"armature": shortest(armature)}
         if given.loops.compensated(body.device) and body.limits is not None and body.limits.effort:
             found["actuatorgravcomp"] = "true"
     return found

@@ -80,6 +80,27 @@ class Loops:
             return None
         return _digits(_joint_force(gripper) / gripper.max_velocity, 6)
 
+    def finger_armature(self, device: Device, joint: str) -> float | None:
+        """Return what the drive of a gripper adds to a joint that it moves, kg m^2 or kg; None of other joints.
+
+        Its loop is as fast as any other: fingers without the inertia of their motor would bounce off a part. All joints
+        that move together share it, each by the square of its factor.
+        """
+        gripper, moved = device.gripper, self._moved(device)
+        if gripper is None or joint not in moved:
+            return None
+        return _digits(self._stiffness(gripper) / LOOP_RAD_S**2 / sum(factor**2 for factor in moved.values()))
+
+    def _moved(self, device: Device) -> dict[str, float]:
+        """Return the joints that the drive of a gripper moves, with their factors."""
+        leader = "" if device.gripper is None else device.gripper.joint
+        joints = device.body.description.with_direct_mimics().joints
+        follow = {each.name: each.mimic.multiplier for each in joints if each.mimic and each.mimic.joint == leader}
+        return {leader: 1.0, **follow}
+
+    def _stiffness(self, gripper: Gripper) -> float:
+        return _digits(_joint_force(gripper) / (_FULL_FORCE * abs(gripper.open - gripper.closed)), 6)
+
     def _actuator(self, device: Device, joint: DeviceJoint, law: ControlLaw | None) -> Actuator:
         spring = law.joints.get(joint.name) if law is not None and law.loop is Loop.SPRING else None
         if spring is not None:
@@ -87,7 +108,7 @@ class Loops:
         carried = self._leading(device, joint.name)
         if device.gripper is not None and device.gripper.joint == joint.name:
             force = _digits(_joint_force(device.gripper), 6)
-            kp = _digits(force / (_FULL_FORCE * abs(device.gripper.open - device.gripper.closed)), 6)
+            kp = self._stiffness(device.gripper)
             return Actuator(joint, kp, _digits(2.0 * math.sqrt(kp * carried)), force, assumed=True, grips=True)
         kp = _digits(LOOP_RAD_S**2 * carried)
         return Actuator(joint, kp, _digits(2.0 * kp / LOOP_RAD_S, 6), joint.effort or None, assumed=True)

@@ -17,8 +17,8 @@ DENSITY_KG_M3 = 1000.0
 _COLOR = "0.85 0.55 0.2 1"
 _TURNING = "0.005 0.0001"
 """What MuJoCo has against turning about the normal of a contact, m, and against rolling, m."""
-_HARD = "0.004 1"
-"""A contact of MuJoCo is as soft as what touches is light: with its usual 20 ms light fingers sink in by 1 mm."""
+_HARD = {"solref": "0.004 1", "solimp": "0.99 0.99 0.001"}
+"""A contact of MuJoCo is as soft as what touches is light: with its usual figures fingers sink in by a millimeter."""
 
 
 def part_elements(part: Part) -> tuple[Element, ...]:
@@ -27,7 +27,7 @@ def part_elements(part: Part) -> tuple[Element, ...]:
     x, y, z = (edge**2 for edge in edges)
     moments = (rounded(mass * squares / 12.0) for squares in (y + z, x + z, x + y))
     friction = f"{shortest(part.grasp.grips_with)} {_TURNING}"
-    surface = {"condim": "4", "friction": friction, "priority": "1", "solref": _HARD}
+    surface = {"condim": "4", "friction": friction, "priority": "1", **_HARD}
     return (
         element("freejoint", {"name": f"{part.name}_free"}),
         element("inertial", {"pos": "0 0 0", "mass": shortest(mass), "diaginertia": numbers(moments)}),

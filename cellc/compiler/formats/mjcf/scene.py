@@ -31,7 +31,7 @@ _RULES = {
 _STEP = {"timestep": "0.001", "integrator": "implicitfast", "cone": "elliptic", "impratio": "10"}
 _READ = (".stl", ".obj")
 """Meshes that MuJoCo reads."""
-_EQUAL = {"solref": "0.004 1", "solimp": "0.95 0.99 0.001"}
+_EQUAL = {"solref": "0.004 1", "solimp": "0.9999 0.9999 0.001"}
 """Fingers that follow another do so within two milliseconds."""
 _FORCES = ("force.x", "force.y", "force.z", "torque.x", "torque.y", "torque.z")
 _USUAL_BUFFER = (640, 480)
@@ -78,13 +78,14 @@ def _filled(tag: str, children: Iterable[Element]) -> Iterator[Element]:
 
 def _defaults(world: Body, given: Given, actuators: Sequence[Actuator]) -> Iterator[str]:
     """Yield a line for each kind of figure that is not stated."""
-    yield "not stated: friction of contacts, so that of MuJoCo, 1; armature of joints, so 0"
+    yield "not stated: friction of contacts, so that of MuJoCo, 1; armature of joints, so 0, but for fingers"
     loops = [actuator.joint.name for actuator in actuators if actuator.assumed and not actuator.grips]
     if loops:
         yield f"not stated: stiffness of position loops, so {shortest(LOOP_RAD_S)} rad/s: {', '.join(loops)}"
     grips = [actuator.joint.name for actuator in actuators if actuator.grips]
     if grips:
-        yield f"not stated: stiffness of fingers, so that they press with the force of the gripper: {', '.join(grips)}"
+        pressed = "so that they press with the force of the gripper and are as fast as other loops"
+        yield f"not stated: stiffness and armature of fingers, {pressed}: {', '.join(grips)}"
     for name, because in unknown_laws(given.loops.laws):
         yield f"devices.{name}: held as by a position loop, because its law is not known: {because}"
     yield from (defaults_of(body.part) for body in world.all() if body.part is not None)

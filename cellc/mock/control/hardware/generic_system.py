@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cellc.contract.control_law import ControlLaw
-from cellc.contract.frozen import dataclass
 from cellc.mock.control.hardware.disturbances import Disturbances
+from cellc.mock.control.hardware.exporter import Exporter, number_in
+from cellc.mock.control.hardware.forces import Forces
 from cellc.mock.control.hardware.joint_motion import Motion, differences, hold_last, integral
 from cellc.mock.control.hardware.spring_joints import SpringJoints
 from cellc.mock.control.interfaces import Array, InterfaceTable
-from cellc.mock.control.robot_description import follows, read_flag, read_number
-from cellc.robot.description.model import HardwareComponent, HardwareInterface, Joint, Mimic
+from cellc.mock.control.robot_description import follows, read_flag
+from cellc.robot.description.model import HardwareComponent, Joint, Mimic
 from cellc.robot.planning import Springs
 
 _MODES = ("position", "velocity", "acceleration")
@@ -29,15 +29,23 @@ class GenericSystem:
         joints: joints of the URDF, for mimic.
         table: where the interfaces are exported to; those that exist already are left out.
         disturbances: faults.
+        forces: what moves the joints; None where they are where they are led to.
 
     Raises:
         ValueError: a parameter or initial value that cannot be read, with the message.
     """
 
     def __init__(
-        self, info: HardwareComponent, joints: Mapping[str, Joint], table: InterfaceTable, disturbances: Disturbances
+        self,
+        info: HardwareComponent,
+        joints: Mapping[str, Joint],
+        table: InterfaceTable,
+        disturbances: Disturbances,
+        forces: Forces | None = None,
     ) -> None:
         self.info = info
+        self._forces = forces
+        self._brakes = False
         self._table = table
         self._disturbances = disturbances
         self._first_cycle = self._read_cycles = 0
@@ -45,7 +53,7 @@ class GenericSystem:
         parameters = info.parameters
         self._dynamics = read_flag(parameters.get("calculate_dynamics", "false"))
         self.commands_disabled = read_flag(parameters.get("disable_commands", "false"))
-        self._offset = _number(parameters.get("position_state_following_offset", ""), 0.0)
+        self._offset = number_in(parameters.get("position_state_following_offset", ""), 0.0)
         self._custom_offset = parameters.get("custom_interface_with_following_offset", "")
         mock_sensors = read_flag(parameters.get("mock_sensor_commands", "false"))
         mock_gpios = read_flag(parameters.get("mock_gpio_commands", "false"))
@@ -62,6 +70,8 @@ class GenericSystem:
         self._state_columns = {kind: self._columns(kind, False) for kind in _MODES}
         self._pairs = self._mirrored()
         self._offset_pairs = self._offset_mirrored()
+        if forces is not None:
+            forces.begin(dict(zip(self._names, self._position.tolist(), strict=True)))
 
     # -- what follows what -------------------------------------------------------------------------------------------
 
@@ -146,12 +156,11 @@ class GenericSystem:
 
     # -- cycles ------------------------------------------------------------------------------------------------------
 
-    def read(self, command: Array, state: Array, period_ns: int) -> int:
-        """Write the states of successive cycles.
+    def lead(self, command: Array, period_ns: int) -> int:
+        """Compute where the joints are led in successive cycles.
 
         Args:
             command: all command interfaces as they were before the read of each cycle, shape (cycles, commands).
-            state: all state interfaces, shape (cycles, states), filled with the present ones; written in place.
             period_ns: time between two cycles.
 
         Returns:
@@ -162,7 +171,9 @@ class GenericSystem:
         if self.commands_disabled or self._disturbances.ignores_commands(self.info.name):
             if self._springs is not None:
                 self._springs.rest(self._position)
+            self._brake(len(command))
             return len(command)
+        self._brakes = False
         if self._springs is not None:
             self._springs.clear()
         cycles = self._computable(command)
@@ -174,6 +185,30 @@ class GenericSystem:
             motion.position[:, child] = mimic.offset + mimic.multiplier * motion.position[:, parent]
             motion.velocity[:, child] = mimic.multiplier * motion.velocity[:, parent]
             motion.acceleration[:, child] = mimic.multiplier * motion.acceleration[:, parent]
+        self._motion = motion
+        if self._forces is not None:
+            self._forces.aim(self._names, motion.position)
+        return cycles
+
+    def _brake(self, cycles: int) -> None:
+        """Let drives that hear no command hold their joints where they were when that began."""
+        if self._forces is None:
+            return
+        if not self._brakes:
+            self._position, self._brakes = self._forces.standing(self._names), True
+        self._forces.aim(self._names, Motion.standing(cycles, self._position, self._velocity, self._velocity).position)
+
+    def show(self, command: Array, state: Array, period_ns: int) -> None:
+        """Write the states of the cycles that `lead` computed.
+
+        Args:
+            command: as for `lead`.
+            state: all state interfaces, shape (cycles, states), filled with the present ones; written in place.
+            period_ns: time between two cycles.
+        """
+        motion = self._motion if self._forces is None else self._moved(self._forces, period_ns / 1e9)
+        if motion is None:
+            return
         for kind, values in (
             ("position", motion.position),
             ("velocity", motion.velocity),
@@ -183,9 +218,14 @@ class GenericSystem:
             if len(indices):
                 state[:, columns] = values[:, indices]
         self._measure(state)
-        self._mirror(command, state)
-        self._motion = motion
-        return cycles
+        if self._motion is not None:
+            self._mirror(command, state)
+
+    def _moved(self, forces: Forces, period_s: float) -> Motion:
+        """Return how the joints really move."""
+        velocity = forces.velocities(self._names)
+        acceleration = differences(velocity, velocity[0], period_s)
+        return Motion(forces.positions(self._names), velocity, acceleration)
 
     def _measure(self, state: Array) -> None:
         """Change what is measured of the joints; where they really are stays as it is."""
@@ -270,7 +310,12 @@ class GenericSystem:
             state[:, targets] = hold_last(command[:, columns] + self._offset, state[0, targets])
 
     def bind(self, law: ControlLaw, springs: Springs) -> None:
-        """Let the joints follow by a law from where they are; a law that binds them already gets another load."""
+        """Let the joints follow by a law from where they are; a law that binds them already gets another load.
+
+        Drives of joints that have mass know their law.
+        """
+        if self._forces is not None:
+            return
         if self._springs is None:
             self._springs = SpringJoints(law, springs, self._names, self._position)
         else:
@@ -282,6 +327,8 @@ class GenericSystem:
         self._position[index] = position
         if self._springs is not None:
             self._springs.rest(self._position)
+        if self._forces is not None:
+            self._forces.place(joint, position)
         self._table.state[self._table.state_column(f"{joint}/position")] = position
 
     def rest(self) -> None:
@@ -301,88 +348,3 @@ class GenericSystem:
         self._position = motion.position[cycles - 1].copy()
         self._velocity = motion.velocity[cycles - 1].copy()
         self._acceleration = motion.acceleration[cycles - 1].copy()
-
-
-MOVING = ("position", "velocity", "acceleration")
-
-
-@dataclass(frozen=True, slots=True)
-class Exported:
-    """What was exported.
-
-    Attributes:
-        commands: names of the command interfaces.
-        states: names of the state interfaces.
-        position, velocity, acceleration: initial values of the joints.
-    """
-
-    commands: list[str]
-    states: list[str]
-    position: Array
-    velocity: Array
-    acceleration: Array
-
-
-def _number(text: str, default: float) -> float:
-    return read_number(text) if text else default
-
-
-class Exporter:
-    """Exports the interfaces of one component; those that exist already are left out.
-
-    Args:
-        info: the component.
-        table: where they are exported to.
-    """
-
-    def __init__(self, info: HardwareComponent, table: InterfaceTable) -> None:
-        self._info = info
-        self._table = table
-        self._commands: list[str] = []
-        self._states: list[str] = []
-
-    def export(self, offset: float, mock_sensors: bool, mock_gpios: bool) -> Exported:
-        """Export everything.
-
-        Args:
-            offset: added to the initial positions of the joints.
-            mock_sensors: whether sensors get a command interface for each state.
-            mock_gpios: the same for gpios.
-
-        Raises:
-            ValueError: an initial value is no number.
-        """
-        joints = self._export_joints(offset)
-        for parts, mocked in ((self._info.sensors, mock_sensors), (self._info.gpios, mock_gpios)):
-            for part in parts:
-                for command in part.state_interfaces if mocked else part.command_interfaces:
-                    self._export_command(part.name, command, math.nan)
-                for state in part.state_interfaces:
-                    unset = math.nan if state.data_type in ("double", "float32") else 0.0
-                    self._export_state(part.name, state, _number(state.initial_value, unset))
-        return Exported(self._commands, self._states, joints["position"], joints["velocity"], joints["acceleration"])
-
-    def _export_joints(self, offset: float) -> dict[str, Array]:
-        values: dict[str, list[float]] = {kind: [] for kind in MOVING}
-        for part in self._info.joints:
-            initial = {state.name: _number(state.initial_value, 0.0) for state in part.state_interfaces}
-            initial["position"] = initial.get("position", 0.0) + offset
-            for kind in MOVING:
-                values[kind].append(initial.get(kind, 0.0))
-            for command in part.command_interfaces:
-                self._export_command(part.name, command, _number(command.initial_value, math.nan))
-            for state in part.state_interfaces:
-                self._export_state(part.name, state, initial[state.name])
-        return {kind: np.array(column) for kind, column in values.items()}
-
-    def _export_command(self, part: str, interface: HardwareInterface, value: float) -> None:
-        name = f"{part}/{interface.name}"
-        if not self._table.has_command(name):
-            self._table.add_command(name, value, interface.data_type)
-            self._commands.append(name)
-
-    def _export_state(self, part: str, interface: HardwareInterface, value: float) -> None:
-        name = f"{part}/{interface.name}"
-        if not self._table.has_state(name):
-            self._table.add_state(name, value, interface.data_type)
-            self._states.append(name)

@@ -9,6 +9,7 @@ from cellc.contract.vocabulary import Behavior, Distro
 from cellc.mock.control.controllers.base import DeclaredInterfaces
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.hardware import CommandLimiter, Disturbances
+from cellc.mock.control.hardware.forces import Forces
 from cellc.mock.control.interfaces import InterfaceTable
 from cellc.mock.control.log import Log
 from cellc.mock.control.manager.cycles import CycleRunner
@@ -32,6 +33,7 @@ class NodeOptions:
         behaviors: behaviors of further controller types.
         start_ns: simulated time of the first cycle.
         declared: interfaces of controllers that only the cell tells, by name.
+        forces: what moves the joints; None where they are where they are led to.
     """
 
     namespace: str
@@ -39,6 +41,7 @@ class NodeOptions:
     behaviors: Mapping[str, Behavior]
     start_ns: int
     declared: Mapping[str, DeclaredInterfaces]
+    forces: Forces | None = None
 
 
 @dataclass(slots=True)
@@ -92,6 +95,7 @@ def _load_hardware(
     disturbances: Disturbances,
     log: Log,
     events: list[ControlEvent],
+    forces: Forces | None,
 ) -> tuple[RobotDescription, HardwareSet | None, str]:
     """Read the description; where it is refused, no hardware starts and the reason is returned."""
     try:
@@ -101,7 +105,7 @@ def _load_hardware(
         log.error(NODE_NAME, reason)
         return RobotDescription({}, ()), None, reason
     try:
-        return description, HardwareSet(description, table, disturbances, log, events), ""
+        return description, HardwareSet(description, table, disturbances, log, events, forces), ""
     except DescriptionError as error:
         log.error("resource_manager", error.reason)
         log.warn(
@@ -133,7 +137,7 @@ def assemble(
     settings = read_settings(ParameterSet(file.of_node(NODE_NAME, options.namespace)), options.distro)
     rate, period_ns = settings.update_rate, 1_000_000_000 // settings.update_rate
     disturbances = Disturbances(changed, late.skip, late.set_state, late.stand, late.place, late.rest)
-    description, hardware, reason = _load_hardware(robot_description, table, disturbances, log, events)
+    description, hardware, reason = _load_hardware(robot_description, table, disturbances, log, events, options.forces)
     limiter = None
     if hardware is not None:
         hardware.set_initial(settings.initially_unconfigured, settings.initially_inactive)

@@ -11,6 +11,7 @@ from cellc.mock.control.controllers.broadcasters import JointStateBlock, JointSt
 from cellc.mock.control.controllers.forward_command import ForwardCommandController, GpioCommandController
 from cellc.mock.control.controllers.joint_trajectory import JointTrajectoryController
 from cellc.mock.control.controllers.joint_trajectory.recorder import Recorder, Recording
+from cellc.mock.control.hardware.forces import Forces
 from cellc.mock.control.manager.assembly import NodeOptions, assemble
 from cellc.mock.control.manager.services import (
     ControllerState,
@@ -49,6 +50,7 @@ class ControllerManager:
         plugin_behaviors: behavior of further controller plugin types.
         start_ns: simulated time of the first update cycle.
         declared: interfaces of controllers that only the cell tells, by name.
+        forces: what moves the joints; None where they are where they are led to.
 
     Raises:
         ManagerAbortedError: where the real process would end while it starts.
@@ -64,9 +66,10 @@ class ControllerManager:
         plugin_behaviors: Mapping[str, Behavior] | None = None,
         start_ns: int = 0,
         declared: Mapping[str, DeclaredInterfaces] | None = None,
+        forces: Forces | None = None,
     ) -> None:
-        options = NodeOptions(namespace, distro, plugin_behaviors or {}, start_ns, declared or {})
-        stack = assemble(robot_description, parameters, options, self._touch)
+        options = NodeOptions(namespace, distro, plugin_behaviors or {}, start_ns, declared or {}, forces)
+        stack = assemble(robot_description, parameters, options, self.interrupt)
         self.log, self.disturbances = stack.log, stack.disturbances
         self.journal = stack.table.journal
         self.description_error = stack.description_error
@@ -89,7 +92,7 @@ class ControllerManager:
             inactive: configure them only.
             parameters: text of the file given with --param-file.
         """
-        self._touch()
+        self.interrupt()
         if self._cycles is None:
             # Without a robot description the services are not offered and the spawner waits without an answer.
             return SpawnResponse(False, "", self.description_error, tuple(names))
@@ -98,22 +101,22 @@ class ControllerManager:
 
     def load_controller(self, name: str) -> ServiceResponse:
         """Answer load_controller."""
-        self._touch()
+        self.interrupt()
         return self._registry.load(name, None)
 
     def configure_controller(self, name: str) -> ServiceResponse:
         """Answer configure_controller."""
-        self._touch()
+        self.interrupt()
         return self._registry.configure(name)
 
     def cleanup_controller(self, name: str) -> ServiceResponse:
         """Answer cleanup_controller."""
-        self._touch()
+        self.interrupt()
         return self._registry.cleanup(name)
 
     def unload_controller(self, name: str) -> ServiceResponse:
         """Answer unload_controller."""
-        self._touch()
+        self.interrupt()
         return self._registry.unload(name)
 
     def switch_controllers(
@@ -146,14 +149,14 @@ class ControllerManager:
 
     def set_hardware_component_state(self, name: str, state: str) -> HardwareStateResponse:
         """Answer set_hardware_component_state."""
-        self._touch()
+        self.interrupt()
         if self._hardware is None:
             return HardwareStateResponse(False)
         return self._hardware.set_state(name, state)
 
     def set_parameter(self, controller: str, name: str, value: ParameterValue) -> ParameterResponse:
         """Answer set_parameters of a controller's node for one parameter."""
-        self._touch()
+        self.interrupt()
         loaded = self._registry.controllers[controller]
         try:
             loaded.context.parameters.set(name, value)
@@ -162,8 +165,8 @@ class ControllerManager:
         loaded.controller.parameter_changed(name, value)
         return ParameterResponse(True)
 
-    def _touch(self) -> None:
-        """Void what was computed ahead: something is asked from outside."""
+    def interrupt(self) -> None:
+        """Void what was computed ahead: something is asked, or done, from outside."""
         if self._cycles is not None:
             self._cycles.discard()
 
@@ -209,41 +212,41 @@ class ControllerManager:
 
     def send_goal(self, controller: str, goal: Goal, feedback: bool = False) -> GoalResponse:
         """Send a goal to a controller's action; `feedback` asks for feedback events."""
-        self._touch()
+        self.interrupt()
         return self._goals.send(controller, goal, self.now_ns, feedback)
 
     def cancel_goal(self, goal_id: int) -> CancelResponse:
         """Ask to cancel one goal."""
-        self._touch()
+        self.interrupt()
         return self._goals.cancel(goal_id, self.now_ns)
 
     def cancel_all(self, controller: str) -> CancelResponse:
         """Ask to cancel all goals of a controller."""
-        self._touch()
+        self.interrupt()
         return self._goals.cancel_all(controller, self.now_ns)
 
     def publish_trajectory(self, controller: str, trajectory: Trajectory) -> str:
         """Publish to `~/joint_trajectory`; returns why the controller ignored it, empty where it did not."""
-        self._touch()
+        self.interrupt()
         return self._goals.take_trajectory(controller, trajectory, self.now_ns)
 
     def publish_commands(self, controller: str, data: Sequence[float]) -> None:
         """Publish to `~/commands` of a forward command controller."""
-        self._touch()
+        self.interrupt()
         publisher = self._registry.controllers[controller].controller
         assert isinstance(publisher, ForwardCommandController), f"{controller} takes no lists of commands"
         publisher.receive(data)
 
     def publish_gpio_commands(self, controller: str, values: Mapping[str, float]) -> None:
         """Publish to `~/commands` of a gpio command controller, values by full interface name."""
-        self._touch()
+        self.interrupt()
         publisher = self._registry.controllers[controller].controller
         assert isinstance(publisher, GpioCommandController), f"{controller} takes no gpio commands"
         publisher.receive(values)
 
     def publish_speed_scaling(self, controller: str, factor: float) -> None:
         """Publish to `~/speed_scaling_input` of a trajectory controller."""
-        self._touch()
+        self.interrupt()
         self._trajectory_controller(controller).scaling.set(factor)
 
     def query_state(self, controller: str, time_ns: int) -> TrajectoryStateResponse:
@@ -272,13 +275,13 @@ class ControllerManager:
 
     def bind(self, component: str, law: ControlLaw, springs: Springs) -> None:
         """Let the joints of a component follow by a law, or by the one that binds them with another load."""
-        self._touch()
+        self.interrupt()
         if self._hardware is not None and component in self._hardware.components:
             self._hardware.components[component].system.bind(law, springs)
 
     def write_state(self, name: str, value: float) -> None:
         """Let the outside world set a state interface that no command moves: a sensor, a speed scaling factor."""
-        self._touch()
+        self.interrupt()
         self._table.state[self._table.state_column(name)] = value
 
     def has_local_topics(self, controller: str) -> bool:
@@ -287,7 +290,7 @@ class ControllerManager:
 
     def subscribe_joint_states(self, controller: str) -> None:
         """Collect what a joint state broadcaster publishes, from the next cycle on."""
-        self._touch()
+        self.interrupt()
         self._broadcaster(controller).listen()
 
     def take_joint_states(self, controller: str) -> tuple[JointStateBlock, ...]:
@@ -301,7 +304,7 @@ class ControllerManager:
 
     def record(self, controller: str, rate_hz: float) -> Recorder:
         """Record a trajectory controller from now on, thinned to a rate; return what records it."""
-        self._touch()
+        self.interrupt()
         trajectory = self._trajectory_controller(controller)
         trajectory.recorder = Recorder(trajectory.interfaces, round(1e9 / rate_hz))
         return trajectory.recorder

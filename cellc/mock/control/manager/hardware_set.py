@@ -9,7 +9,8 @@ import numpy as np
 from cellc.mock.control.controllers.plugins import HARDWARE_BEHAVIORS
 from cellc.mock.control.errors import DescriptionError
 from cellc.mock.control.hardware import Disturbances, GenericSystem
-from cellc.mock.control.interfaces import InterfaceTable
+from cellc.mock.control.hardware.forces import Forces
+from cellc.mock.control.interfaces import Array, InterfaceTable, Times
 from cellc.mock.control.log import Log
 from cellc.mock.control.messages import ControlEvent, HardwareChanged, HardwareStateResponse
 from cellc.mock.control.robot_description import JointLimits, RobotDescription, joint_limits
@@ -48,6 +49,7 @@ class HardwareSet:
         disturbances: faults.
         log: the log.
         events: receives changes.
+        forces: what moves the joints; None where they are where they are led to.
 
     Raises:
         DescriptionError: a component cannot be loaded or initialized.
@@ -60,7 +62,9 @@ class HardwareSet:
         disturbances: Disturbances,
         log: Log,
         events: list[ControlEvent],
+        forces: Forces | None = None,
     ) -> None:
+        self._forces = forces
         self._log = log
         self._events = events
         self._disturbances = disturbances
@@ -81,7 +85,7 @@ class HardwareSet:
     def _initialize(self, name: str, description: RobotDescription) -> GenericSystem:
         info = next(info for info in description.components if info.name == name)
         try:
-            return GenericSystem(info, description.joints, self._table, self._disturbances)
+            return GenericSystem(info, description.joints, self._table, self._disturbances, self._forces)
         except ValueError as error:
             self._log.error(
                 _LOGGER,
@@ -172,7 +176,8 @@ class HardwareSet:
 
     def read(self, time_ns: int, period_ns: int, rate: int) -> list[Component]:
         """Read all components once; returns those whose read failed."""
-        failed = []
+        failed: list[Component] = []
+        led: list[tuple[Component, int]] = []
         for component in self.components.values():
             if not component.available or not _reads_in_cycle(component, time_ns, rate):
                 continue
@@ -183,11 +188,46 @@ class HardwareSet:
             component.last_read_ns = time_ns
             if component.system.commands_disabled and self._log.throttle(f"disabled {component.name}", _THROTTLE_NS):
                 self._log.warn(component.name, "Command propagation is disabled - no values will be returned!")
+            component.system.lead(self._table.command[None, :], since)
+            led.append((component, since))
+        if self._forces is not None:
+            self._forces.advance(np.array([time_ns], dtype=np.int64))
+        for component, since in led:
             state = self._table.state[None, :].copy()
-            component.system.read(self._table.command[None, :], state, since)
+            component.system.show(self._table.command[None, :], state, since)
             component.system.commit(1)
             self._table.state[:] = state[0]
+        if self._forces is not None:
+            self._forces.commit(1)
         return failed
+
+    def read_ahead(self, command: Array, state: Array, times_ns: Times, period_ns: int) -> int:
+        """Compute the states of successive cycles; return how many could be computed: all, or none.
+
+        Args:
+            command: all command interfaces before the read of each cycle, shape (cycles, commands).
+            state: all state interfaces, shape (cycles, states), filled with the present ones; written in place.
+            times_ns: of the cycles.
+            period_ns: time between two cycles.
+        """
+        systems = [component.system for component in self.components.values() if component.available]
+        led = [system.lead(command, period_ns) for system in systems]
+        if not all(led):
+            return 0
+        if self._forces is not None:
+            self._forces.advance(times_ns)
+        for system in systems:
+            system.show(command, state, period_ns)
+        return len(command)
+
+    def commit(self, cycles: int, time_ns: int) -> None:
+        """Adopt the first of the cycles that were computed ahead, of which the last is at a time."""
+        for component in self.components.values():
+            if component.available:
+                component.system.commit(cycles)
+                component.last_read_ns = time_ns
+        if self._forces is not None:
+            self._forces.commit(cycles)
 
     def write(self) -> list[Component]:
         """Write all components once; returns those whose write failed: an infinite command does that."""

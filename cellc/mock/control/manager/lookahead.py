@@ -149,10 +149,7 @@ class Lookahead:
         before = np.empty((cycles, block.command.shape[1]))
         before[0] = self._table.command
         before[1:] = block.command[: cycles - 1]
-        for component in self._hardware.components.values():
-            if component.available:
-                cycles = min(cycles, component.system.read(before, block.state, self._period_ns))
-        return cycles
+        return self._hardware.read_ahead(before, block.state, block.times_ns[:cycles], self._period_ns)
 
     def _regular(self, part: _Part, block: Block) -> int:
         """Ask a controller which cycles are regular, with the states known."""
@@ -176,10 +173,7 @@ class Lookahead:
         assert block is not None, "only cycles that remain are adopted"
         before, self._done = self._done, min(self._done + cycles, len(block))
         last = self._done - 1
-        for component in self._hardware.components.values():
-            if component.available:
-                component.system.commit(self._done)
-                component.last_read_ns = int(block.times_ns[last])
+        self._hardware.commit(self._done, int(block.times_ns[last]))
         done, journal = block.cut(self._done), self._table.journal
         for part in self._parts:
             start, seen = part.updates_within(before), part.seen(done)

@@ -1,0 +1,274 @@
+"""All bodies of a cell in simulated time: computed ahead with the hardware, adopted or void with it.
+
+A state that was adopted is a row of numbers. What is computed next begins with it, so that it never depends on what
+was computed in vain, on the length of blocks, or on who copied the cell meanwhile.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cellc.contract.frozen import dataclass
+from cellc.contract.transforms import Pose, Vector3
+from cellc.mock.control.interfaces import Array, Times
+from cellc.mock.errors import MockError
+from cellc.mock.physics.reading import SCENE_FILE
+from cellc.robot.physics.scene import Bodies, Scene, SceneError, Touch
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """Two bodies that pressed on each other at a time."""
+
+    stamp_ns: int
+    touch: Touch
+
+
+@dataclass(frozen=True, slots=True)
+class _Block:
+    """Cycles that were computed ahead.
+
+    Attributes:
+        states: after each cycle, shape (cycles, numbers of a state).
+        seen: contacts that nobody planned, with the number of the cycle.
+        followed: command and its step in each cycle, of the drives that are led ahead.
+    """
+
+    times_ns: Times
+    states: Array
+    seen: tuple[tuple[int, Seen], ...]
+    followed: Mapping[int, tuple[Array, Array]]
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """How a part differs from the scene.
+
+    Attributes:
+        wider_m: by which it is wider.
+        friction: of its contacts; None as in the scene.
+        seen_at: where it is seen while none is there; None where it is what is seen.
+    """
+
+    wider_m: float = 0.0
+    friction: float | None = None
+    seen_at: Pose | None = None
+
+
+_UPRIGHT = 0.7
+"""Part of a unit normal along the vertical from which on a contact carries more than it clamps."""
+_AWAY = Pose((0.0, 0.0, -1000.0), (0.0, 0.0, 0.0, 1.0))
+"""Where a part is that is missing: it falls for ever and meets nothing."""
+
+
+class Dynamics:
+    """Joints behind their drives, and parts that lie, are held, slip and fall.
+
+    Attributes:
+        scene: that it is made of.
+        seen: contacts that nobody planned, one for each two bodies and cycle.
+
+    Args:
+        scene: of the package.
+        planned: pairs of bodies that may touch.
+        leads_s: joint → how far ahead of its command its drive is led, by the velocity of the command, s. Drives brake
+            the motion of their joint: one that brakes the error alone is led by its damping over its stiffness.
+    """
+
+    def __init__(
+        self, scene: Scene, planned: frozenset[frozenset[str]], leads_s: Mapping[str, float] | None = None
+    ) -> None:
+        self.scene = scene
+        self.seen: list[Seen] = []
+        self._planned = planned
+        self._watched = scene.watched(planned)
+        self._leads_s = {scene.drives[joint]: lead for joint, lead in (leads_s or {}).items()}
+        self._aims: dict[int, Array] = {}
+        self._followed: dict[int, tuple[float, float]] = {}
+        self._block: _Block | None = None
+        self._adopted = 0
+        self._changes: dict[str, Change] = {}
+        self._bodies: Bodies | None = Bodies(scene)
+        self._ahead = False
+        self._state = self._bodies.state()
+        self._times: list[int] = [0]
+        self._states: list[Array] = [self._state]
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy needs: what MuJoCo holds follows from it."""
+        return {**self.__dict__, "_bodies": None}
+
+    # -- joints ------------------------------------------------------------------------------------------------------
+
+    def begin(self, positions: Mapping[str, float]) -> None:
+        """Let joints be somewhere before anything moves, rad or m."""
+        bodies = self._now()
+        bodies.place({joint: at for joint, at in positions.items() if joint in self.scene.joints})
+        self._change(bodies)
+
+    def place(self, joint: str, position: float) -> None:
+        """Let somebody move a joint, which is at rest there."""
+        self.begin({joint: position})
+
+    def aim(self, joints: Sequence[str], targets: Array) -> None:
+        """Lead joints in the next cycles, rad or m, shape (cycles, joints); others stay led where they were."""
+        for column, joint in enumerate(joints):
+            if joint in self.scene.drives:
+                self._aims[self.scene.drives[joint]] = targets[:, column]
+
+    def advance(self, times_ns: Times) -> None:
+        """Compute where everything is at the times of the next cycles, in simulated ns.
+
+        Raises:
+            MockError: the scene does not stay in one piece.
+        """
+        bodies, at_ns = self._now(), self._times[-1]
+        states = np.empty((len(times_ns), self.scene.size))
+        aims = self.scene.aims(self._state).copy()
+        columns: NDArray[np.intp] = np.array(list(self._aims), dtype=np.intp)
+        followed = {
+            drive: self._steps(drive, targets) for drive, targets in self._aims.items() if drive in self._leads_s
+        }
+        led = np.array([self._led(drive, self._aims[drive], followed, times_ns) for drive in self._aims]).T
+        seen: list[tuple[int, Seen]] = []
+        for cycle, time_ns in enumerate(times_ns.tolist()):
+            if len(columns):
+                aims[columns] = led[cycle]
+            bodies.run(time_ns // self.scene.step_ns - at_ns // self.scene.step_ns, aims)
+            bodies.state(states[cycle])
+            seen += [(cycle, Seen(time_ns, touch)) for touch in bodies.touches(self._watched)]
+            at_ns = time_ns
+        self._aims.clear()
+        self._block, self._adopted, self._ahead = _Block(times_ns, states, tuple(seen), followed), 0, True
+        try:
+            bodies.refuse_unstable()
+        except SceneError as error:
+            raise MockError(SCENE_FILE, str(error)) from None
+
+    def _steps(self, drive: int, targets: Array) -> tuple[Array, Array]:
+        """Return the commands of a drive in the next cycles, and how far each is from the one before."""
+        before = self._followed.get(drive, (float(targets[0]), 0.0))[0]
+        return targets, np.diff(targets, prepend=before)
+
+    def _led(self, drive: int, targets: Array, followed: Mapping[int, tuple[Array, Array]], times_ns: Times) -> Array:
+        """Return where a drive is led; a command that jumps once has no velocity: of two steps the smaller counts."""
+        if drive not in followed:
+            return targets
+        steps = followed[drive][1]
+        before = np.concatenate(([self._followed.get(drive, (0.0, 0.0))[1]], steps[:-1]))
+        smaller = np.where(np.abs(before) < np.abs(steps), before, steps)
+        periods_s = np.maximum(np.diff(times_ns, prepend=self._times[-1]), 1) / 1e9
+        return targets + self._leads_s[drive] * np.where(steps * before > 0.0, smaller, 0.0) / periods_s
+
+    def positions(self, joints: Sequence[str]) -> Array:
+        """Return where joints are in the cycles that were computed last, rad or m, shape (cycles, joints)."""
+        return self.scene.positions(self._computed.states, joints)
+
+    def velocities(self, joints: Sequence[str]) -> Array:
+        """Return how fast joints are in the cycles that were computed last, rad/s or m/s."""
+        return self.scene.velocities(self._computed.states, joints)
+
+    def standing(self, joints: Sequence[str]) -> Array:
+        """Return where joints are now, rad or m."""
+        return self.scene.positions(self._state, joints)
+
+    def commit(self, cycles: int) -> None:
+        """Adopt the first cycles of what was computed last."""
+        block, first = self._computed, self._adopted
+        self.seen += [seen for cycle, seen in block.seen if first <= cycle < cycles]
+        self._times += block.times_ns[first:cycles].tolist()
+        self._states.extend(block.states[first:cycles].copy())
+        self._state, self._adopted = self._states[-1], cycles
+        for drive, (targets, steps) in block.followed.items():
+            self._followed[drive] = float(targets[cycles - 1]), float(steps[cycles - 1])
+
+    @property
+    def _computed(self) -> _Block:
+        assert self._block is not None, "cycles are computed before they are asked about"
+        return self._block
+
+    # -- parts -------------------------------------------------------------------------------------------------------
+
+    def moves(self, part: str) -> bool:
+        """Return whether a part is a body of the scene."""
+        return part in self.scene.parts
+
+    def put(self, part: str, pose: Pose) -> None:
+        """Put a part somewhere in the root frame, at rest."""
+        bodies = self._now()
+        bodies.put(part, pose)
+        self._change(bodies)
+
+    def slide(self, part: str, by_m: float) -> None:
+        """Slide a part sideways between the fingers that press on it, or down where none does.
+
+        It stays in their pads, and does not get into what it may still stand on.
+        """
+        pressed = [touch for touch in self.touches() if part in (touch.one, touch.other)]
+        sides = [touch for touch in pressed if abs(touch.normal[2]) < _UPRIGHT]
+        way: Vector3 = (0.0, 0.0, -1.0)
+        if sides:
+            x, y, _ = max(sides, key=lambda touch: touch.force_n).normal
+            length = math.hypot(x, y)
+            way = (-y / length, x / length, 0.0)
+        bodies = self._now()
+        bodies.shift(part, (way[0] * by_m, way[1] * by_m, way[2] * by_m))
+        self._change(bodies)
+
+    def touches(self) -> tuple[Touch, ...]:
+        """Return what presses on what now."""
+        bodies = self._now()
+        bodies.look()
+        self._ahead = True
+        return tuple(bodies.touches())
+
+    def reshape(self, part: str, *, wider_m: float | None = None, friction: float | None = None) -> None:
+        """Let a part be wider, or smoother, than the scene has it; None keeps what is so by now."""
+        before = self._changes.get(part, Change())
+        wider_m = before.wider_m if wider_m is None else wider_m
+        change = replace(before, wider_m=wider_m, friction=before.friction if friction is None else friction)
+        bodies = self._now()
+        self._changes[part] = change
+        bodies.shape(part, change.wider_m, change.friction)
+
+    def miss(self, part: str, *, missing: bool) -> None:
+        """Let a part be seen where it was, and not be there, or be there again."""
+        before = self._changes.get(part, Change())
+        if missing == (before.seen_at is not None):
+            return
+        at = self.pose(part, self._times[-1])
+        self._changes[part] = replace(before, seen_at=at if missing else None)
+        self.put(part, _AWAY if missing else at)
+
+    def pose(self, part: str, stamp_ns: int) -> Pose:
+        """Return where a part is seen at a time, in the root frame."""
+        change = self._changes.get(part)
+        if change is not None and change.seen_at is not None:
+            return change.seen_at
+        at = max(0, bisect_right(self._times, stamp_ns) - 1)
+        return self.scene.pose(self._states[at], part)
+
+    # -- what is computed with ---------------------------------------------------------------------------------------
+
+    def _now(self) -> Bodies:
+        """Return the bodies as they were adopted last."""
+        if self._bodies is None:
+            self._bodies, self._ahead = Bodies(self.scene), True
+            for part, change in self._changes.items():
+                self._bodies.shape(part, change.wider_m, change.friction)
+        if self._ahead:
+            self._bodies.restore(self._state)
+            self._ahead = False
+        return self._bodies
+
+    def _change(self, bodies: Bodies) -> None:
+        """Adopt what somebody has moved at this instant."""
+        self._state = bodies.state()
+        self._states[-1] = self._state

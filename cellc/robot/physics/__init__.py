@@ -1,0 +1,1 @@
+"""Rigid bodies with masses, contacts and drives, computed by MuJoCo."""

@@ -1,0 +1,1 @@
+"""Masses, drives and contacts behind the hardware of the mock."""

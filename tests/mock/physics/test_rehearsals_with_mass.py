@@ -1,0 +1,108 @@
+"""Rehearsals whose joints and parts have mass: how they end, and that they end so bit by bit."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import asdict
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from cellc.mock import MockCell
+from cellc.mock.cell import load
+from cellc.mock.errors import MockError
+from cellc.mock.plant import Plant
+from tests.cells import generated
+from tests.cli.run import run
+
+_ALONE = ("ur5e_pick", "gen3_2f", "fr3_hand", "minimal", "rail_arm", "openarm_bimanual")
+"""Cells whose joints one controller manager moves."""
+_DIFFERENT = {
+    # An arm behind springs swings once it is told to hold: the mock without mass stands at once.
+    ("fr3_hand", "canceled"): "timeout",
+    ("openarm_bimanual", "canceled"): "timeout",
+    # It hangs through by 30 mrad, and its hands pass the bench with less room than that.
+    ("openarm_bimanual", "both_reach"): "tolerance_violation",
+    ("openarm_bimanual", "brought_up"): "tolerance_violation",
+}
+"""Rehearsals that end in another way than they are expected to."""
+
+
+@cache
+def _cell(name: str) -> MockCell:
+    return load(generated(name), physics=True)
+
+
+@pytest.mark.parametrize("name", _ALONE)
+def test_rehearsals_end_as_they_are_expected_to_but_for_those_that_are_explained(name: str) -> None:
+    cell = _cell(name)
+    ended = {entry.name: str(cell.run(entry.name).outcome) for entry in cell.entries}
+    expected = {entry.name: str(entry.expect) for entry in cell.entries}
+    assert ended == expected | {rehearsal: word for (of, rehearsal), word in _DIFFERENT.items() if of == name}
+
+
+def _nobody(_: Plant) -> None:
+    """Watch nothing."""
+
+
+def _often(plant: Plant) -> None:
+    """Have the state looked at in another rhythm, so that blocks of cycles end elsewhere."""
+    plant.simulation.every(0, 173.0, lambda _: plant.control.interrupt())
+
+
+@pytest.mark.parametrize("rehearsal", ["pick_and_place", "lost_part"])
+def test_a_run_is_the_same_again_after_a_copy_and_however_far_it_is_computed_ahead(rehearsal: str) -> None:
+    fresh = load(generated("ur5e_pick"), physics=True)
+    entry = fresh.entry(rehearsal)
+    first = repr(asdict(fresh.rehearse(entry)))
+    assert repr(asdict(fresh.rehearse(entry))) == first, "begun with a copy of the cell after its bring-up"
+    assert repr(asdict(fresh.rehearse(entry, watch=_nobody))) == first
+    assert repr(asdict(fresh.rehearse(entry, watch=_often))) == first
+
+
+def test_several_owners_of_joints_are_refused() -> None:
+    ended = run("mock", generated("dual_ur").as_posix(), "--physics")
+    assert (ended.code, ended.out) == (2, "")
+    assert (
+        "`--physics` needs one controller manager that moves all joints, got `loading`, `unloading`"
+        in ended.err.replace("\n", " ")
+    )
+
+
+def test_a_folder_without_a_scene_is_refused(tmp_path: Path) -> None:
+    folder = tmp_path / "minimal"
+    shutil.copytree(generated("minimal"), folder)
+    manifest = folder / "manifest.json"
+    lines = manifest.read_text(encoding="utf-8").splitlines(keepends=True)
+    manifest.write_text("".join(line for line in lines if "sim/scene.xml" not in line), encoding="utf-8")
+    with pytest.raises(MockError, match=r"holds no sim/scene.xml, which `--physics` needs; build it again"):
+        load(folder, physics=True)
+
+
+def test_an_edited_scene_is_executed(tmp_path: Path) -> None:
+    folder = tmp_path / "ur5e_pick"
+    shutil.copytree(generated("ur5e_pick"), folder)
+    scene = folder / "sim/scene.xml"
+    text = scene.read_text(encoding="utf-8")
+    assert text.count('friction="0.5 ') == 1
+    scene.write_text(text.replace('friction="0.5 ', 'friction="0.001 '), encoding="utf-8")
+    with pytest.raises(MockError, match="is not executed"):
+        load(folder, edited=True)
+    result = load(folder, edited=True, physics=True).run("pick_and_place")
+    assert (result.outcome, result.edited) == ("grip_failure", True)
+
+
+def test_what_mujoco_refuses_is_said_in_one_line(tmp_path: Path) -> None:
+    folder = tmp_path / "minimal"
+    shutil.copytree(generated("minimal"), folder)
+    (folder / "sim/scene.xml").write_text("<mujoco><worldbody><body><joint/></body></worldbody></mujoco>")
+    ended = run("mock", folder.as_posix(), "--edited", "--physics")
+    assert (ended.code, ended.out, ended.err.count("\n")) == (2, "", 1)
+    assert "sim/scene.xml: MuJoCo refuses it" in ended.err
+
+
+def test_physics_is_of_one_folder() -> None:
+    ended = run("mock", generated("minimal").as_posix(), generated("rail_arm").as_posix(), "--physics")
+    assert ended.code == 2
+    assert "--physics needs exactly one folder." in ended.err
