@@ -185,7 +185,7 @@ def assemble(
     if bring_up == "real":
         plant.start.bring_up(folder.real_bring_up)
     clocks.listen(partial(_note_jump, plant))
-    _add_objects(plant, _add_cameras(plant), reality, anew=standing is None)
+    _add_objects(plant, _add_cameras(plant), reality, lay_out=standing is None)
     return plant
 
 
@@ -198,7 +198,7 @@ def _lay(plant: Plant, dynamics: Dynamics, names: Iterable[str]) -> None:
         dynamics.put(name, plant.world.posed(placed.link, positions) @ placed.pose)
 
 
-def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality, *, anew: bool) -> None:
+def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality, *, lay_out: bool) -> None:
     tf = TfBroadcast(plant.contract.interfaces.get(TF), plant.task.name, plant.network, plant.simulation)
     executors = Executors(plant.simulation)
     for name, frame in plant.contract.frames.items():
@@ -207,7 +207,7 @@ def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality
         elif frame.kind == "fixed" and frame.grasp is not None:
             plant.world.place(name, name, identity(), 0)
     if plant.control.dynamics is not None:
-        _lay(plant, plant.control.dynamics, plant.world.objects() if anew else tuple(reality.objects))
+        _lay(plant, plant.control.dynamics, plant.world.objects() if lay_out else tuple(reality.objects))
 
 
 def _turned(pose: Pose, turn: Pose) -> Pose:

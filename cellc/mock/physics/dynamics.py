@@ -1,7 +1,7 @@
 """All bodies of a cell in simulated time: computed ahead with the hardware, adopted or void with it.
 
 A state that was adopted is a row of numbers. What is computed next begins with it, so that it never depends on what
-was computed in vain, on the length of blocks, or on who copied the cell meanwhile.
+was computed and not adopted, on the length of blocks, or on who copied the cell meanwhile.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class _Block:
 
     Attributes:
         states: after each cycle, shape (cycles, numbers of a state).
-        seen: contacts that nobody planned, with the number of the cycle.
+        seen: contacts that are not planned, with the number of the cycle.
         followed: command and its step in each cycle, of the drives that are led ahead.
     """
 
@@ -73,7 +73,7 @@ class Dynamics:
 
     Attributes:
         scene: that it is made of.
-        seen: contacts that nobody planned, one for each two bodies and cycle.
+        seen: contacts that are not planned, one for each two bodies and cycle.
 
     Args:
         scene: of the package.

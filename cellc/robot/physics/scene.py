@@ -126,9 +126,9 @@ class Scene:
                 yield one, other, offset, factor
 
     def watched(self, planned: frozenset[frozenset[str]]) -> NDArray[np.bool_]:
-        """Return for each two shapes whether a contact of theirs is one that nobody planned."""
+        """Return for each two shapes whether a contact of theirs is not planned."""
         names = [self.bodies[body] for body in self.model.geom_bodyid]
-        rows = [[frozenset((one, other)) not in planned for other in names] for one in names]
+        rows = [[frozenset((first, second)) not in planned for second in names] for first in names]
         return np.array(rows, dtype=bool).reshape(len(names), len(names))
 
 
@@ -220,7 +220,7 @@ class Bodies:
             self._library.mj_step(self.model, self._data, steps)
 
     def refuse_unstable(self) -> None:
-        """Raise SceneError where MuJoCo has met numbers that are none."""
+        """Raise SceneError where MuJoCo has met a value that is not a number."""
         kinds = self._library.mjtWarning
         bad = (kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC, kinds.mjWARN_BADCTRL)
         if any(self._data.warning[int(kind)].number for kind in bad):
