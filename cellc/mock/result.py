@@ -74,6 +74,7 @@ class RehearsalResult:
         findings: what was odd, such as endpoints that do not connect or a second authority of a frame.
         edited: the folder was not as its manifest has it, so that this is evidence of no configuration.
         unseen: links with a shape whose mesh is not there: nothing checked whether they touch anything.
+        violations: what nodes under test did against the contract, one line each.
         vacuous: it shows nothing of a fault, which never began although no other one ended the run; a finding says why.
     """
 
@@ -89,6 +90,7 @@ class RehearsalResult:
     vacuous: bool = False
     edited: bool = False
     unseen: tuple[str, ...] = ()
+    violations: tuple[str, ...] = ()
 
     @property
     def reason(self) -> str:
@@ -122,8 +124,8 @@ class RehearsalResult:
 
     @property
     def passed(self) -> bool:
-        """Tell whether the rehearsal met its faults, and ended as expected and within its bound."""
-        return self.outcome == self.expected and self.in_time and not self.vacuous
+        """Tell whether the rehearsal met its faults and its contract, and ended as expected and within its bound."""
+        return self.outcome == self.expected and self.in_time and not self.vacuous and not self.violations
 
     def __repr__(self) -> str:
         text = f"{self.outcome.value} (expected {self.expected.value}), {self.sim_time_s:.2f} s simulated"

@@ -151,6 +151,10 @@ class Subscription(Generic[Sample]):
         self._queue: deque[Received[Sample]] = deque()
         self._on_sample = on_sample
 
+    def listen(self, on_sample: Callable[[], None]) -> None:
+        """Call ``on_sample`` after each arrival from now on, in place of what was called before."""
+        self._on_sample = on_sample
+
     def deliver(self, sample: Sample, now_ns: int, expires_ns: int | None) -> None:
         """Put an arriving sample at the end of the queue, unless its lifespan is over."""
         if expires_ns is not None and now_ns >= expires_ns:

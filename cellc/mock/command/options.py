@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from cellc.contract.compute.fan import USUAL, Fan
 from cellc.contract.extras import CLUSTER, EVIDENCE, LIVE, PHYSICS, Extra
 from cellc.contract.frozen import dataclass
+from cellc.mock.ros.asked import AmongNodes
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +75,7 @@ class RehearsalOptions(FolderOptions):
         live: how they are shown; None for not at all.
         images: draw what cameras see into the bags.
         physics: give joints and parts their masses.
+        among: nodes on a ROS graph that are run for real; None where all are played.
     """
 
     rehearsals: tuple[str, ...] = ()
@@ -81,6 +83,7 @@ class RehearsalOptions(FolderOptions):
     live: Live | None = None
     images: bool = False
     physics: bool = False
+    among: AmongNodes | None = None
 
     def extras(self) -> Iterator[Extra]:
         """Yield what it needs beyond what cellc is installed with."""

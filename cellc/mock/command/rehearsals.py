@@ -18,6 +18,7 @@ from cellc.mock.command.options import FolderOptions, Live, RehearsalOptions
 from cellc.mock.command.records import refuse_foreign, write_records
 from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
+from cellc.mock.ros.asked import AmongNodes
 
 if TYPE_CHECKING:
     from cellc.mock.campaign.campaign import Campaign
@@ -48,6 +49,7 @@ def to_summary_json(configuration_id: str, timed: Sequence[TimedResult], notes: 
             "within_s": each.result.within_s,
             "reason": each.result.reason,
             "edited": each.result.edited,
+            "violations": list(each.result.violations),
         }
         for each in timed
     ]
@@ -73,6 +75,8 @@ def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str
             yield f"        bound: {result.response_s * 1e3:.0f} ms of {result.within_s * 1e3:.0f} ms"
         if result.reason:
             yield f"        reason: {result.reason}"
+        for violation in result.violations:
+            yield f"        against the contract: {violation}"
         for finding in result.findings:
             yield f"        finding: {finding}"
 
@@ -88,7 +92,10 @@ def run_rehearsals(options: RehearsalOptions) -> int:
         refuse_foreign(Path(options.records))  # before the minutes that a run may take
     cell = load_seeded(options, physics=options.physics)
     names = tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals
-    if options.live is None:
+    if options.among is not None:
+        timed, notes = _among(cell, names, options, options.among)
+        _tell(cell, timed, options, notes)
+    elif options.live is None:
         timed = _run(cell, names, options)
         _tell(cell, timed, options)
     else:
@@ -99,14 +106,31 @@ def run_rehearsals(options: RehearsalOptions) -> int:
     return 0 if timed and all(each.result.passed for each in timed) else 1
 
 
-def _tell(cell: MockCell, timed: Sequence[TimedResult], options: RehearsalOptions) -> None:
+def _among(
+    cell: MockCell, names: Sequence[str], options: RehearsalOptions, asked: AmongNodes
+) -> tuple[list[TimedResult], list[str]]:
+    """Run rehearsals around nodes that are not played; also return what of them depends on the host."""
+    from cellc.mock.ros.session import rehearse_among
+
+    notes: list[str] = []
+
+    def run(name: str) -> RehearsalResult:
+        judged = rehearse_among(cell, cell.entry(name), options.seed, asked)
+        notes.extend(f"{name}: {note}" for note in judged.notes)
+        return judged.result
+
+    return _timed(cell, names, run), notes
+
+
+def _tell(cell: MockCell, timed: Sequence[TimedResult], options: RehearsalOptions, more: Sequence[str] = ()) -> None:
+    notes = (*cell.notes, *more)
     if options.records is not None:
         records = (record for each in timed for record in each.result.attempts)
         write_records(Path(options.records), records)
     if options.as_json:
-        show_document(to_summary_json(cell.contract.configuration_id, timed, cell.notes))
+        show_document(to_summary_json(cell.contract.configuration_id, timed, notes))
     else:
-        show(*to_lines(timed, cell.notes))
+        show(*to_lines(timed, notes))
 
 
 def load_seeded(options: FolderOptions, *, physics: bool = False) -> MockCell:

@@ -20,11 +20,15 @@ class Simulation:
     camera's images for instance, never do: they run at their own times once the control stack has passed them, and
     before anything in the foreground that comes later. So the control stack runs in long blocks. Only while a process
     waits for what the background brings does it stop at every background event too.
+
+    Attributes:
+        heard_outside: somebody outside hears the cell as it runs, so that the control stack may not run ahead.
     """
 
     def __init__(self, control: ControlStack) -> None:
         """Bind the simulation at the time of the control stack."""
         self.control = control
+        self.heard_outside = False
         self.now_ns = 0
         self._last_ns = 0
         self._steps_at_once = 0
@@ -116,6 +120,6 @@ class Simulation:
         if target_ns is None:
             raise RuntimeError("a process waits and nothing is scheduled")
         background_ns = self._background.next_ns()
-        if process.awaits_background and background_ns is not None:
+        if (process.awaits_background or self.heard_outside) and background_ns is not None:
             return min(target_ns, background_ns)
         return target_ns

@@ -13,7 +13,7 @@ from cellc.contract.vocabulary import TRAJECTORIES
 from cellc.mock.control import ControllerManager, GripperGoal, JointStateBlock, Recording
 from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.bag import messages
-from cellc.mock.evidence.bag.bag_file import Bag
+from cellc.mock.evidence.bag.bag_file import MessageWriter
 from cellc.mock.evidence.bag.cdr import MessageRows
 from cellc.mock.evidence.bag.messages import (
     DiagnosticStatus,
@@ -150,7 +150,7 @@ def static_transforms(plant: Plant) -> tuple[StampedTransform, ...]:
 class RunBag:
     """Writes what happens in a plant; all topics are declared first, in the order of the contract."""
 
-    def __init__(self, bag: Bag, plant: Plant) -> None:
+    def __init__(self, bag: MessageWriter, plant: Plant) -> None:
         """Declare the topics of a plant."""
         self._bag = bag
         self._plant = plant

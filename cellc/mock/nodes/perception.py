@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Protocol
 
 from cellc.contract.contract import ContractFrame
@@ -215,6 +216,7 @@ class Perception:
             clock: on which the node measures how old an image is.
         """
         self._publishes_transform = True
+        self._looks = True
         self.taken = 0
         self.rejected = 0
         self.oldest_ns = 0
@@ -246,9 +248,45 @@ class Perception:
         """Publish poses as transforms too from now on, or no more; the pose topic goes on."""
         self._publishes_transform = publish
 
+    def leave_to(self, see: Callable[[Image], None], *, takes_time: bool) -> None:
+        """Let somebody else look at each image as it arrives, and publish what is seen in it by `answer`.
+
+        Args:
+            takes_time: an answer is known after the time that the callback takes; else when it comes.
+        """
+
+        def arrive() -> None:
+            now_ns = self._simulation.now_ns
+            received = self._images.take(now_ns)
+            if received is not None:
+                self.taken += 1
+                self.last = Look(received.sample, now_ns, rejected=False)
+                see(received.sample)
+
+        self._images.listen(arrive)
+        self._looks = False
+        if not takes_time:
+            self._processing = Processing(line="", takes_s=0.0)
+
+    def answer(self, published: ObjectPose) -> None:
+        """Publish a pose once the callback has ended that it comes from."""
+
+        def publish() -> None:
+            self._publish_pose(published)
+            for listener in self._listeners:
+                listener(published, False)
+
+        self._executors.execute(self._processing, publish)
+
+    def answer_transform(self, stamp_ns: int, pose: Pose) -> None:
+        """Publish a transform once the callback has ended that it comes from."""
+        if self._publishes_transform:
+            self._executors.execute(self._processing, partial(self._transform.insert, stamp_ns, pose))
+
     def start(self, rate_hz: float) -> None:
         """Take an image at every tick from now on."""
-        self._simulation.every(self._simulation.now_ns, rate_hz, lambda _: self._look())
+        if self._looks:
+            self._simulation.every(self._simulation.now_ns, rate_hz, lambda _: self._look())
 
     def _look(self) -> None:
         now_ns = self._simulation.now_ns

@@ -24,6 +24,7 @@ from cellc.tools.cli.run_options import (
     STAGE,
     live_options,
     options_as,
+    ros_options,
 )
 
 _NOW = {
@@ -64,6 +65,7 @@ class _Mock(click.Command):
 @STAGE
 @EDITED
 @live_options
+@ros_options
 @MATRIX
 @fan_options
 @limit_option

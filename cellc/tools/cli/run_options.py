@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from cellc.mock.command.options import FolderOptions, Live
+from cellc.mock.ros.asked import OWN_DOMAIN, AmongNodes, Timing, usual_interpreter
 from cellc.tools.cli.words import complete_rehearsal
 
 Command = Callable[..., None]
@@ -93,5 +94,60 @@ def live_options(command: Command) -> Command:
         if speed is not None and not speed > 0.0:
             raise click.UsageError(f"--speed must be greater than 0, got {speed}.")
         command(live=Live(listen or "127.0.0.1:8765", speed or 1.0) if live else None, **others)
+
+    return within
+
+
+def ros_options(command: Command) -> Command:
+    """Add the options of a run among real nodes; they come as one argument, ``among``."""
+
+    @click.option("--ros", is_flag=True, help="Play the cell on a ROS 2 graph, around the nodes of --without.")
+    @click.option("--without", metavar="NODES", help="With --ros: nodes that run for real, such as perception.")
+    @click.option("--launch", metavar="COMMAND", help="With --ros: start them with COMMAND for each rehearsal.")
+    @click.option("--lockstep", is_flag=True, help="With --ros: time waits for the answers that the contract expects.")
+    @click.option("--pace", type=float, metavar="X", help="With --ros: run at X times real time; 1 by default.")
+    @click.option(
+        "--patience", type=float, metavar="S", help="With --lockstep: wait S seconds for an answer; 5 by default."
+    )
+    @click.option(
+        "--domain", type=click.IntRange(0, 232), metavar="N", help=f"With --ros: domain; {OWN_DOMAIN} by default."
+    )
+    @click.option("--ros-python", metavar="FILE", help="With --ros: Python with rclpy; /usr/bin/python3 by default.")
+    @wraps(command)
+    def within(
+        ros: bool,
+        without: str | None,
+        launch: str | None,
+        lockstep: bool,
+        pace: float | None,
+        patience: float | None,
+        domain: int | None,
+        ros_python: str | None,
+        **others: Any,
+    ) -> None:
+        named = ("without", without), ("launch", launch), ("pace", pace), ("patience", patience), ("domain", domain)
+        given = [f"--{name}" for name, value in (*named, ("ros-python", ros_python)) if value is not None]
+        given += ["--lockstep"] if lockstep else []
+        if not ros:
+            if given:
+                raise click.UsageError(f"{given[0]} needs --ros.")
+            command(among=None, **others)
+            return
+        if not without:
+            raise click.UsageError("--ros needs --without NODES, such as --without perception.")
+        if others["live"] is not None or others["evidence"] is not None:
+            raise click.UsageError(
+                "--ros cannot be combined with --live or --evidence; record the graph with ros2 bag."
+            )
+        if pace is not None and (lockstep or not pace > 0.0):
+            raise click.UsageError("--pace must be greater than 0, and is for runs without --lockstep.")
+        if patience is not None and (not lockstep or not patience > 0.0):
+            raise click.UsageError("--patience must be greater than 0, and is for runs with --lockstep.")
+        nodes = tuple(name for name in without.replace(",", " ").split())
+        timing = Timing(None if lockstep else pace or 1.0, patience or 5.0)
+        asked = AmongNodes(
+            nodes, ros_python or usual_interpreter(), timing, OWN_DOMAIN if domain is None else domain, launch or ""
+        )
+        command(among=asked, **others)
 
     return within

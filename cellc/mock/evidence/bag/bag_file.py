@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, Protocol
 
 import yaml
 
@@ -110,6 +110,18 @@ class _Message:
     log_ns: int
     publish_ns: int
     data: bytes
+
+
+class MessageWriter(Protocol):
+    """Takes the messages of a run, topic by topic: a bag, or a graph that they are published on."""
+
+    def declare(self, topic: str, kind: str, qos: Qos) -> int:
+        """Return the channel of a topic."""
+        ...
+
+    def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
+        """Take a serialized message."""
+        ...
 
 
 class Bag:

@@ -1,0 +1,219 @@
+"""The end of the bridge to a ROS graph on this side: a program under a ROS environment's interpreter, and its socket.
+
+This process has no ROS in it: its libraries want another numpy than the Python of a distribution. The program at the
+other end, `program/cellc_bridge.py`, says what a frame on the socket is. It ends when this process does.
+"""
+
+from __future__ import annotations
+
+import json
+import select
+import socket
+import struct
+import subprocess
+import tempfile
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from cellc.contract.entities import Qos
+from cellc.contract.frozen import dataclass
+from cellc.mock.errors import MockError
+
+PROGRAM = Path(__file__).with_name("program") / "cellc_bridge.py"
+_JSON, _MESSAGE = 0, 1
+_HEAD = struct.Struct("<IB")
+_CHANNEL = struct.Struct("<H")
+_PIECE = 1 << 16
+_START_S = 60.0
+"""How long the ROS environment may take to import its client library; a cold disk needs some seconds."""
+_ANSWER_S = 30.0
+_END_S = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class Received:
+    """A message that arrived on a channel, as it is serialized."""
+
+    channel: int
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class GraphEnd:
+    """A publisher or subscription on the graph that is none of the bridge's.
+
+    Attributes:
+        node: its full name.
+    """
+
+    node: str
+    type: str
+    reliability: str
+    durability: str
+
+
+class Bridge:
+    """Speaks to the program; used as a context, so that it never outlives the run."""
+
+    def __init__(self, interpreter: str, environment: Mapping[str, str]) -> None:
+        """Start the program; it is on the graph when it answers first.
+
+        Args:
+            interpreter: Python of a ROS environment.
+            environment: of the program.
+
+        Raises:
+            MockError: there is no such interpreter, or it has no rclpy.
+        """
+        self._interpreter = interpreter
+        self._arrived: deque[Received] = deque()
+        self._read = bytearray()
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 — closed in `close`
+        self._end, theirs = socket.socketpair()
+        try:
+            self._child = subprocess.Popen(
+                [interpreter, str(PROGRAM), str(theirs.fileno())],
+                pass_fds=[theirs.fileno()],
+                env=dict(environment),
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=self._errors,
+                start_new_session=True,  # Ctrl-C ends cellc, which ends the program
+            )
+        except OSError as error:
+            self._end.close()
+            raise MockError(
+                "", f"`{interpreter}` cannot be run: {error.strerror}; name one with --ros-python"
+            ) from None
+        finally:
+            theirs.close()
+
+    def __enter__(self) -> Bridge:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the program and forget what it sent."""
+        self._end.close()
+        try:
+            self._child.wait(_END_S)
+        except subprocess.TimeoutExpired:
+            self._child.kill()
+            self._child.wait()
+        self._errors.close()
+
+    def environment(self) -> dict[str, str]:
+        """Return the distribution, the middleware and the domain of the other side."""
+        answer = self._ask({"ask": "environment"}, _START_S)
+        return {key: str(value) for key, value in answer.items()}
+
+    def nodes(self) -> frozenset[str]:
+        """Return the full names of the nodes on the graph that the bridge does not play."""
+        return frozenset(self._ask({"ask": "nodes"})["nodes"])
+
+    def publishers(self, topic: str) -> tuple[GraphEnd, ...]:
+        """Return the publishers of a topic that the bridge does not play."""
+        return tuple(GraphEnd(**end) for end in self._ask({"ask": "ends", "topic": topic, "publishers": True})["ends"])
+
+    def subscriptions(self, topic: str) -> tuple[GraphEnd, ...]:
+        """Return the subscriptions of a topic that the bridge does not play."""
+        return tuple(GraphEnd(**end) for end in self._ask({"ask": "ends", "topic": topic, "publishers": False})["ends"])
+
+    def open_publisher(self, channel: int, node: str, topic: str, kind: str, qos: Qos) -> None:
+        """Open a publisher of a node.
+
+        Raises:
+            MockError: its type is not installed.
+        """
+        self._opened({"ask": "publish", "channel": channel, "node": node, "topic": topic, "kind": kind}, qos)
+
+    def open_subscription(self, channel: int, node: str, topic: str, kind: str, qos: Qos) -> None:
+        """Open a subscription of a node; what arrives is taken under the number of the channel.
+
+        Raises:
+            MockError: its type is not installed.
+        """
+        self._opened({"ask": "subscribe", "channel": channel, "node": node, "topic": topic, "kind": kind}, qos)
+
+    def transition(self, node: str, name: str, within_s: float) -> str:
+        """Ask a lifecycle node for a transition; return why it was not made, or nothing."""
+        asked = {"ask": "transition", "node": node, "name": name, "within_s": within_s}
+        return str(self._ask(asked, within_s + _ANSWER_S).get("error", ""))
+
+    def publish(self, channel: int, data: bytes) -> None:
+        """Publish a serialized message."""
+        self._send(_MESSAGE, _CHANNEL.pack(channel) + data)
+
+    def take(self, within_s: float = 0.0) -> Received | None:
+        """Return what arrived first and was not taken yet; None where nothing arrives in time."""
+        until_s = monotonic() + within_s
+        while not self._arrived:
+            if not self._hear(until_s):
+                return None
+        return self._arrived.popleft()
+
+    def _opened(self, asked: dict[str, Any], qos: Qos) -> None:
+        answer = self._ask({**asked, "qos": asdict(qos)})
+        if "error" in answer:
+            raise MockError("", f"`{asked['topic']}` of type `{asked['kind']}` cannot be opened: {answer['error']}")
+
+    def _ask(self, asked: dict[str, Any], within_s: float = _ANSWER_S) -> dict[str, Any]:
+        self._send(_JSON, json.dumps(asked).encode())
+        until_s = monotonic() + within_s
+        while True:
+            answer = self._hear(until_s)
+            if answer is None:
+                raise MockError("", f"the ROS environment of `{self._interpreter}` did not answer in {within_s:g} s")
+            if isinstance(answer, dict):
+                return answer
+
+    def _send(self, kind: int, rest: bytes) -> None:
+        try:
+            self._end.sendall(_HEAD.pack(len(rest), kind) + rest)
+        except OSError:
+            raise self._gone() from None
+
+    def _hear(self, until_s: float) -> dict[str, Any] | Received | None:
+        """Take the next frame; a message is kept in order, an answer is returned. None where none comes in time."""
+        while (frame := self._whole()) is None:
+            ready, _, _ = select.select([self._end], [], [], max(0.0, until_s - monotonic()))
+            if not ready:
+                return None
+            try:
+                piece = self._end.recv(_PIECE)
+            except OSError:
+                piece = b""
+            if not piece:
+                raise self._gone()
+            self._read += piece
+        kind, rest = frame
+        if kind == _MESSAGE:
+            message = Received(_CHANNEL.unpack_from(rest)[0], rest[_CHANNEL.size :])
+            self._arrived.append(message)
+            return message
+        answer: dict[str, Any] = json.loads(rest)
+        return answer
+
+    def _whole(self) -> tuple[int, bytes] | None:
+        if len(self._read) < _HEAD.size:
+            return None
+        size, kind = _HEAD.unpack_from(self._read)
+        if len(self._read) < _HEAD.size + size:
+            return None
+        rest = bytes(self._read[_HEAD.size : _HEAD.size + size])
+        del self._read[: _HEAD.size + size]
+        return kind, rest
+
+    def _gone(self) -> MockError:
+        """Say why the program is no longer there, in its own last line."""
+        self._child.wait()
+        self._errors.seek(0)
+        lines = self._errors.read().decode(errors="replace").strip().splitlines()
+        why = lines[-1].strip() if lines else f"exit code {self._child.returncode}"
+        return MockError("", f"the ROS side, run by `{self._interpreter}`, has ended: {why}")

@@ -1,0 +1,100 @@
+"""The topics of a running cell on a ROS graph: what a bag of the run would hold is published as it happens."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from cellc.contract.contract import Contract
+from cellc.contract.entities import Qos
+from cellc.mock.errors import MockError
+from cellc.mock.evidence.bag import messages
+from cellc.mock.evidence.topics import CLOCK_TOPIC
+from cellc.mock.ros.bridge import Bridge
+
+MOCK = "/cellc_mock"
+"""The node that publishes what no node of the contract does, such as `/clock`."""
+_OF_BAGS = "/cellc/"
+"""Topics below it exist in bags alone: a real cell does not have them."""
+_LEFT_OUT = -1
+
+
+def full_names(contract: Contract) -> frozenset[str]:
+    """Return the full names of all nodes at an end of an interface, controllers and managers among them."""
+    return frozenset(
+        end.full_name for interface in contract.interfaces.values() for end in (*interface.sources, *interface.sinks)
+    )
+
+
+class Graph:
+    """Publishes what the played nodes do; what nodes under test publish is left to them."""
+
+    def __init__(self, bridge: Bridge, contract: Contract, tested: Collection[str]) -> None:
+        """Bind the graph.
+
+        Args:
+            tested: full names of the nodes that are not played.
+        """
+        self._bridge = bridge
+        self._contract = contract
+        self._tested = frozenset(tested)
+        self._channels: dict[str, int] = {}
+        self._clock = self.declare(CLOCK_TOPIC.name, CLOCK_TOPIC.kind, CLOCK_TOPIC.qos)
+
+    def declare(self, topic: str, kind: str, qos: Qos) -> int:
+        """Return the channel of a topic, opened where it is new and a played node publishes it."""
+        source = self._source(topic)
+        if topic.startswith(_OF_BAGS) or source is None:
+            return _LEFT_OUT
+        if topic not in self._channels:
+            self._channels[topic] = len(self._channels)
+            self._bridge.open_publisher(self._channels[topic], source, topic, kind, qos)
+        return self._channels[topic]
+
+    def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
+        """Publish a serialized message now; the times of a bag are those at which it is called."""
+        if channel != _LEFT_OUT:
+            self._bridge.publish(channel, data)
+
+    def subscribe(self, topic: str, kind: str, qos: Qos) -> int:
+        """Return the channel of what arrives on a topic."""
+        channel = self._channels[f"{topic} in"] = len(self._channels)
+        self._bridge.open_subscription(channel, MOCK, topic, kind, qos)
+        return channel
+
+    def tick(self, now_ns: int) -> None:
+        """Publish the time."""
+        self._bridge.publish(self._clock, messages.clock(now_ns))
+
+    def _source(self, topic: str) -> str | None:
+        return _source(self._contract, topic, self._tested)
+
+
+def refuse_strangers(bridge: Bridge, contract: Contract, tested: Collection[str]) -> None:
+    """Refuse a graph on which somebody is that is played here: the mock publishes nothing beside them.
+
+    Args:
+        tested: full names of the nodes that are not played.
+
+    Raises:
+        MockError: there is such a node, or a publisher of a topic that is published here.
+    """
+    otherwise = "it may be that of a real robot; end it, or name another domain with --domain"
+    names = full_names(contract) - frozenset(tested)
+    for node in sorted(bridge.nodes()):
+        if node in names:
+            raise MockError("", f"`{node}` is on the graph already, and it is played here: {otherwise}")
+    played = [
+        name for name, each in contract.interfaces.items() if each.kind == "topic" and _source(contract, name, tested)
+    ]
+    for name in (CLOCK_TOPIC.name, *played):
+        for end in bridge.publishers(name):
+            if end.node not in tested:
+                raise MockError("", f"`{end.node}` publishes `{name}`, which is played here: {otherwise}")
+
+
+def _source(contract: Contract, topic: str, tested: Collection[str]) -> str | None:
+    """Return the played node that publishes a topic; None where nodes under test alone do."""
+    interface = contract.interfaces.get(topic)
+    sources = () if interface is None else interface.sources
+    played = [source.full_name for source in sources if source.full_name not in tested]
+    return played[0] if played else (None if sources else MOCK)

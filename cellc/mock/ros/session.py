@@ -1,0 +1,232 @@
+"""A rehearsal among real nodes: who is on the graph, when it may begin, and what is left when it has ended."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import signal
+import subprocess
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from time import monotonic, sleep
+
+from cellc.contract.bring_up import Transition
+from cellc.contract.contract import Contract
+from cellc.contract.frozen import dataclass
+from cellc.contract.rehearsals import RehearsalEntry
+from cellc.mock.cell import MockCell
+from cellc.mock.errors import MockError
+from cellc.mock.evidence.images.photographer import Photographer
+from cellc.mock.evidence.listener import RunListener
+from cellc.mock.evidence.run_bag import RunBag
+from cellc.mock.evidence.run_trace import RunTrace
+from cellc.mock.plant import Plant
+from cellc.mock.result import RehearsalResult
+from cellc.mock.ros.asked import AmongNodes
+from cellc.mock.ros.bridge import Bridge, GraphEnd
+from cellc.mock.ros.graph import Graph, refuse_strangers
+from cellc.mock.ros.judgement import Judgement, Violation
+from cellc.mock.ros.pace import LATE_S, Pacer
+from cellc.mock.ros.perception import PerceptionUnderTest
+
+_DISCOVERY_S = 1.0
+"""Of the host: how long who else is there is looked for, before anything is published."""
+_LOOK_S = 0.1
+_TICK_HZ = 200.0
+"""How often what arrives is taken, at a pace."""
+_END_S = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """A result, and what depends on the host and is in no record.
+
+    Attributes:
+        notes: one line each.
+    """
+
+    result: RehearsalResult
+    notes: tuple[str, ...]
+
+
+def tested_nodes(contract: Contract, without: Sequence[str]) -> dict[str, str]:
+    """Return the full names of nodes under test by their names in the contract.
+
+    Raises:
+        MockError: there is no such node, or it is not one that can be left out.
+    """
+    ends = [end for each in contract.interfaces.values() for end in (*each.sources, *each.sinks)]
+    known = {end.node: end.full_name for end in ends}
+    observers = {frame.authority for frame in contract.frames.values() if frame.simulated_parent is not None}
+    able = sorted(observers & set(known))
+    for name in without:
+        if name not in able:
+            what = "is played by the mock alone" if name in known else "is no node of the contract"
+            others = ", ".join(f"`{each}`" for each in able) or "none"
+            raise MockError("", f"`{name}` {what}; nodes that can be left out: {others}")
+    return {name: known[name] for name in without}
+
+
+def rehearse_among(cell: MockCell, entry: RehearsalEntry, seed: int, asked: AmongNodes) -> Judged:
+    """Run a rehearsal around nodes that are not played.
+
+    Raises:
+        MockError: there is no ROS environment, it is another distribution's, somebody is on the graph who must not be,
+            or the nodes do not appear.
+    """
+    tested, environment = tested_nodes(cell.contract, asked.without), _environment(asked)
+    with Bridge(asked.interpreter, environment) as bridge:
+        _require_distro(bridge, cell.contract)
+        sleep(_DISCOVERY_S)
+        refuse_strangers(bridge, cell.contract, tested.values())
+        around = _Around(cell, bridge, tested, asked)
+        with _launched(asked.launch, environment):
+            result = cell.rehearse(entry, seed=seed, watch=around.begin)
+            around.end()
+    return Judged(replace(result, violations=around.judgement.lines()), tuple(around.notes))
+
+
+def _environment(asked: AmongNodes) -> dict[str, str]:
+    """Return the environment of the bridge and of the nodes: a domain of their own, on this host alone."""
+    alone = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_LOCALHOST_ONLY": "1"}
+    return {**os.environ, "ROS_DOMAIN_ID": str(asked.domain), **alone}
+
+
+def _require_distro(bridge: Bridge, contract: Contract) -> None:
+    found = bridge.environment()["distro"]
+    if found != contract.distro:
+        text = f"the ROS environment is `{found or 'unknown'}`, the folder is built for `{contract.distro}`"
+        raise MockError("", f"{text}; source that distribution, or build the cell for this one")
+
+
+class _Around:
+    """The cell around the nodes under test, in one rehearsal.
+
+    Attributes:
+        notes: what depends on the host, one line each.
+    """
+
+    def __init__(self, cell: MockCell, bridge: Bridge, tested: Mapping[str, str], asked: AmongNodes) -> None:
+        self.judgement = Judgement()
+        self.notes: list[str] = []
+        self._cell, self._bridge, self._tested, self._asked = cell, bridge, tested, asked
+        self._listener: RunListener | None = None
+        self._pacer: Pacer | None = None
+
+    def begin(self, plant: Plant) -> None:
+        """Put the cell on the graph, and wait for the nodes under test; nothing has run yet.
+
+        Raises:
+            MockError: a node does not appear, or is not on the topics that the contract has it on.
+        """
+        graph = Graph(self._bridge, plant.contract, self._tested.values())
+        plant.simulation.heard_outside = True
+        bag = RunBag(graph, plant)
+        bag.begin(self._cell.folder.urdf)
+        photographer = Photographer(plant, self._cell.folder.description, self._cell.folder.mesh_roots)
+        bag.images(photographer.topics())
+        self._listener = RunListener(plant, bag, RunTrace(plant))
+        nodes = [
+            PerceptionUnderTest(name, plant, graph, self._bridge, bag, photographer, self.judgement, self._asked.timing)
+            for name in self._tested
+        ]
+        graph.tick(plant.now_ns)
+        for (name, full), node in zip(self._tested.items(), nodes, strict=True):
+            self._await_node(full)
+            self._bring_up(plant, full)
+            for topic, publishes in node.needs:
+                self._await_end(plant.contract, name, topic, publishes=publishes)
+        if self._asked.timing.pace is not None:
+            self._keep_pace(plant, nodes, Pacer(self._asked.timing.pace))
+
+    def end(self) -> None:
+        """Publish what is left, and note how the host kept up."""
+        if self._listener is not None:
+            self._listener.end()
+        if self._pacer is not None and self._pacer.latest_s > LATE_S:
+            self.notes.append(f"the host was up to {self._pacer.latest_s * 1e3:.0f} ms late: nodes saw time jump")
+
+    def _await_node(self, full: str) -> None:
+        until_s = monotonic() + self._asked.appear_s
+        while full not in self._bridge.nodes():
+            if monotonic() > until_s:
+                seen = ", ".join(f"`{node}`" for node in sorted(self._bridge.nodes())) or "no node"
+                where = f"domain {self._asked.domain}, on which there is {seen}"
+                raise MockError("", f"`{full}` does not appear within {self._asked.appear_s:g} s on {where}")
+            sleep(_LOOK_S)
+
+    def _bring_up(self, plant: Plant, full: str) -> None:
+        """Ask for the transitions of a lifecycle node that its bring-up has."""
+        for step in plant.bring_up:
+            if isinstance(step.request, Transition) and step.request.node == full:
+                problem = self._bridge.transition(full, step.request.transition, step.deadline_s)
+                if problem:
+                    raise MockError("", f"step `{step.name}` of the bring-up: {problem}")
+
+    def _await_end(self, contract: Contract, name: str, topic: str, *, publishes: bool) -> None:
+        """Wait until a node is on a topic, and hold its profile against the contract's."""
+        full, until_s = self._tested[name], monotonic() + self._asked.appear_s
+        while not (mine := [end for end in self._ends(topic, publishes=publishes) if end.node == full]):
+            if monotonic() > until_s:
+                what = "publishes no" if publishes else "does not subscribe to"
+                raise MockError("", f"`{full}` {what} `{topic}`, which the contract has it on")
+            sleep(_LOOK_S)
+        interface = contract.interfaces[topic]
+        stated = next(end.qos for end in (interface.sources if publishes else interface.sinks) if end.node == name)
+        for end in mine:
+            for policy in ("reliability", "durability"):
+                got, expected = getattr(end, policy), getattr(stated, policy)
+                if got != expected:
+                    text = f"`{full}` is on `{topic}` as `{got}`, the contract states `{expected}`"
+                    self.judgement.note(Violation.QOS, f"{topic} {policy}", text)
+            if end.type != interface.type:
+                text = f"`{full}` is on `{topic}` with type `{end.type}`, the contract states `{interface.type}`"
+                self.judgement.note(Violation.QOS, topic, text)
+        others = [end.node for end in self._ends(topic, publishes=True) if end.node != full] if publishes else []
+        for node in others:
+            text = f"`{node}` publishes `{topic}` too, which only `{full}` may"
+            self.judgement.note(Violation.SECOND_PUBLISHER, topic, text)
+
+    def _ends(self, topic: str, *, publishes: bool) -> tuple[GraphEnd, ...]:
+        return self._bridge.publishers(topic) if publishes else self._bridge.subscriptions(topic)
+
+    def _keep_pace(self, plant: Plant, nodes: Sequence[PerceptionUnderTest], pacer: Pacer) -> None:
+        self._pacer = pacer
+
+        def tick(_: int) -> None:
+            pacer.keep(plant.now_ns)
+            for node in nodes:
+                while node.hear() is not None:
+                    pass
+
+        plant.simulation.every(plant.now_ns, _TICK_HZ, tick)
+
+
+@contextmanager
+def _launched(command: str, environment: Mapping[str, str]) -> Iterator[None]:
+    """Run a command while a rehearsal runs, and end all that it started.
+
+    Raises:
+        MockError: it cannot be run.
+    """
+    if not command:
+        yield
+        return
+    try:
+        child = subprocess.Popen(
+            shlex.split(command), env=dict(environment), stdin=subprocess.DEVNULL, start_new_session=True
+        )
+    except (OSError, ValueError) as error:
+        raise MockError("", f"`{command}` cannot be run: {error}") from None
+    try:
+        yield
+    finally:
+        for number in (signal.SIGINT, signal.SIGKILL):
+            with suppress(ProcessLookupError):
+                os.killpg(child.pid, number)
+            with suppress(subprocess.TimeoutExpired):
+                child.wait(_END_S)
+                break
+        with suppress(ProcessLookupError):
+            os.killpg(child.pid, signal.SIGKILL)
