@@ -53,7 +53,8 @@ def quaternion(turn: np.ndarray) -> tuple[float, float, float, float]:
     parts[j] = (turn[j, i] + turn[i, j]) / (4.0 * parts[i])
     parts[k] = (turn[k, i] + turn[i, k]) / (4.0 * parts[i])
     parts[3] = (turn[k, j] - turn[j, k]) / (4.0 * parts[i])
-    return tuple(parts)
+    x, y, z, w = parts.tolist()
+    return x, y, z, w
 
 
 class Transforms:
@@ -81,7 +82,7 @@ class Transforms:
         return pose
 
 
-class Perception(LifecycleNode):
+class Perception(LifecycleNode):  # type: ignore[misc]  # rclpy has no types
     """Publishes a pose for each third image, so that the tray is seen at 10 Hz."""
 
     def __init__(self, wrong: str) -> None:

@@ -7,13 +7,15 @@ other end, `program/cellc_bridge.py`, says what a frame on the socket is. It end
 from __future__ import annotations
 
 import json
+import os
 import select
+import signal
 import socket
 import struct
 import subprocess
-import tempfile
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack, suppress
 from dataclasses import asdict
 from pathlib import Path
 from time import monotonic
@@ -21,6 +23,7 @@ from typing import Any
 
 from cellc.contract.entities import Qos
 from cellc.contract.frozen import dataclass
+from cellc.contract.store.swap import temporary_file
 from cellc.mock.errors import MockError
 
 PROGRAM = Path(__file__).with_name("program") / "cellc_bridge.py"
@@ -31,7 +34,9 @@ _PIECE = 1 << 16
 _START_S = 60.0
 """How long the ROS environment may take to import its client library; a cold disk needs some seconds."""
 _ANSWER_S = 30.0
-_END_S = 5.0
+_END_S = 10.0
+_STDERR = 2
+"""What nodes print goes where the messages of cellc go."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +49,7 @@ class Received:
 
 @dataclass(frozen=True, slots=True)
 class GraphEnd:
-    """A publisher or subscription on the graph that is none of the bridge's.
+    """A publisher or subscription on the graph of a node that the bridge does not play.
 
     Attributes:
         node: its full name.
@@ -69,10 +74,14 @@ class Bridge:
         Raises:
             MockError: there is no such interpreter, or it has no rclpy.
         """
+        if os.name != "posix":
+            raise MockError("", "--ros needs a POSIX system")
         self._interpreter = interpreter
+        self._group: int | None = None
         self._arrived: deque[Received] = deque()
         self._read = bytearray()
-        self._errors = tempfile.TemporaryFile()  # noqa: SIM115 — closed in `close`
+        self._open = ExitStack()
+        self._errors = self._open.enter_context(temporary_file())
         self._end, theirs = socket.socketpair()
         try:
             self._child = subprocess.Popen(
@@ -80,7 +89,7 @@ class Bridge:
                 pass_fds=[theirs.fileno()],
                 env=dict(environment),
                 stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
+                stdout=_STDERR,
                 stderr=self._errors,
                 start_new_session=True,  # Ctrl-C ends cellc, which ends the program
             )
@@ -99,14 +108,17 @@ class Bridge:
         self.close()
 
     def close(self) -> None:
-        """End the program and forget what it sent."""
+        """End the program, which ends what it started, and forget what it sent."""
         self._end.close()
         try:
             self._child.wait(_END_S)
         except subprocess.TimeoutExpired:
             self._child.kill()
             self._child.wait()
-        self._errors.close()
+        if self._group is not None:  # where the program itself was killed
+            with suppress(ProcessLookupError):
+                os.killpg(self._group, signal.SIGKILL)
+        self._open.close()
 
     def environment(self) -> dict[str, str]:
         """Return the distribution, the middleware and the domain of the other side."""
@@ -116,6 +128,10 @@ class Bridge:
     def nodes(self) -> frozenset[str]:
         """Return the full names of the nodes on the graph that the bridge does not play."""
         return frozenset(self._ask({"ask": "nodes"})["nodes"])
+
+    def heard(self) -> frozenset[int]:
+        """Return the channels of publishers whose topics somebody subscribes to."""
+        return frozenset(self._ask({"ask": "heard"})["channels"])
 
     def publishers(self, topic: str) -> tuple[GraphEnd, ...]:
         """Return the publishers of a topic that the bridge does not play."""
@@ -141,10 +157,26 @@ class Bridge:
         """
         self._opened({"ask": "subscribe", "channel": channel, "node": node, "topic": topic, "kind": kind}, qos)
 
+    def start(self, command: Sequence[str]) -> None:
+        """Start a command in the ROS environment; it ends with the bridge.
+
+        Raises:
+            MockError: it cannot be run.
+        """
+        answer = self._ask({"ask": "start", "command": list(command)}, may_fail=True)
+        if "error" in answer:
+            raise MockError("", f"`{' '.join(command)}` cannot be run: {answer['error']}")
+        self._group = int(answer["group"])
+
+    def exit_code(self) -> int | None:
+        """Return the exit code of what was started; None while it runs, or where nothing was."""
+        code = self._ask({"ask": "ended"})["code"]
+        return None if code is None else int(code)
+
     def transition(self, node: str, name: str, within_s: float) -> str:
         """Ask a lifecycle node for a transition; return why it was not made, or nothing."""
         asked = {"ask": "transition", "node": node, "name": name, "within_s": within_s}
-        return str(self._ask(asked, within_s + _ANSWER_S).get("error", ""))
+        return str(self._ask(asked, within_s + _ANSWER_S, may_fail=True).get("error", ""))
 
     def publish(self, channel: int, data: bytes) -> None:
         """Publish a serialized message."""
@@ -159,11 +191,11 @@ class Bridge:
         return self._arrived.popleft()
 
     def _opened(self, asked: dict[str, Any], qos: Qos) -> None:
-        answer = self._ask({**asked, "qos": asdict(qos)})
+        answer = self._ask({**asked, "qos": asdict(qos)}, may_fail=True)
         if "error" in answer:
             raise MockError("", f"`{asked['topic']}` of type `{asked['kind']}` cannot be opened: {answer['error']}")
 
-    def _ask(self, asked: dict[str, Any], within_s: float = _ANSWER_S) -> dict[str, Any]:
+    def _ask(self, asked: dict[str, Any], within_s: float = _ANSWER_S, *, may_fail: bool = False) -> dict[str, Any]:
         self._send(_JSON, json.dumps(asked).encode())
         until_s = monotonic() + within_s
         while True:
@@ -171,6 +203,8 @@ class Bridge:
             if answer is None:
                 raise MockError("", f"the ROS environment of `{self._interpreter}` did not answer in {within_s:g} s")
             if isinstance(answer, dict):
+                if "error" in answer and not may_fail:
+                    raise MockError("", f"the ROS side, run by `{self._interpreter}`, fails: {answer['error']}")
                 return answer
 
     def _send(self, kind: int, rest: bytes) -> None:
@@ -180,7 +214,7 @@ class Bridge:
             raise self._gone() from None
 
     def _hear(self, until_s: float) -> dict[str, Any] | Received | None:
-        """Take the next frame; a message is kept in order, an answer is returned. None where none comes in time."""
+        """Take the next frame; a message is kept in order, an answer is returned. None where no frame comes in time."""
         while (frame := self._whole()) is None:
             ready, _, _ = select.select([self._end], [], [], max(0.0, until_s - monotonic()))
             if not ready:

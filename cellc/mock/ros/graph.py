@@ -38,6 +38,8 @@ class Graph:
         self._contract = contract
         self._tested = frozenset(tested)
         self._channels: dict[str, int] = {}
+        self._latched: set[int] = set()
+        self._heard: frozenset[int] = frozenset()
         self._clock = self.declare(CLOCK_TOPIC.name, CLOCK_TOPIC.kind, CLOCK_TOPIC.qos)
 
     def declare(self, topic: str, kind: str, qos: Qos) -> int:
@@ -48,11 +50,13 @@ class Graph:
         if topic not in self._channels:
             self._channels[topic] = len(self._channels)
             self._bridge.open_publisher(self._channels[topic], source, topic, kind, qos)
+            if qos.durability == "transient_local":
+                self._latched.add(self._channels[topic])
         return self._channels[topic]
 
     def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
-        """Publish a serialized message now; the times of a bag are those at which it is called."""
-        if channel != _LEFT_OUT:
+        """Publish a serialized message now, where somebody hears it or may hear it later."""
+        if channel in self._heard or channel in self._latched:
             self._bridge.publish(channel, data)
 
     def subscribe(self, topic: str, kind: str, qos: Qos) -> int:
@@ -60,6 +64,14 @@ class Graph:
         channel = self._channels[f"{topic} in"] = len(self._channels)
         self._bridge.open_subscription(channel, MOCK, topic, kind, qos)
         return channel
+
+    def look(self) -> None:
+        """Look again who hears what: what no node hears is neither drawn nor sent."""
+        self._heard = self._bridge.heard()
+
+    def is_heard(self, topic: str) -> bool:
+        """Tell whether somebody subscribed to a topic when it was looked at last."""
+        return self._channels.get(topic, _LEFT_OUT) in self._heard
 
     def tick(self, now_ns: int) -> None:
         """Publish the time."""
@@ -69,7 +81,7 @@ class Graph:
         return _source(self._contract, topic, self._tested)
 
 
-def refuse_strangers(bridge: Bridge, contract: Contract, tested: Collection[str]) -> None:
+def refuse_others(bridge: Bridge, contract: Contract, tested: Collection[str]) -> None:
     """Refuse a graph on which somebody is that is played here: the mock publishes nothing beside them.
 
     Args:

@@ -34,7 +34,7 @@ def pose_stamped(data: bytes) -> StampedPose:
     """Read a geometry_msgs/PoseStamped.
 
     Raises:
-        MalformedMessageError: it is none.
+        MalformedMessageError: it is another message, or cut short.
     """
     reader = _Reader(data)
     stamp_ns, frame = reader.time(), reader.string()
@@ -45,7 +45,7 @@ def transforms(data: bytes) -> tuple[StampedPose, ...]:
     """Read a tf2_msgs/TFMessage.
 
     Raises:
-        MalformedMessageError: it is none.
+        MalformedMessageError: it is another message, or cut short.
     """
     return tuple(_transforms(_Reader(data)))
 

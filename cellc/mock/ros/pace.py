@@ -5,7 +5,7 @@ from __future__ import annotations
 from time import monotonic, sleep
 
 LATE_S = 0.02
-"""A host that is later than this is told of: nodes saw time jump."""
+"""A host that is later than this is reported: nodes saw time jump."""
 
 
 class Pacer:
@@ -22,7 +22,7 @@ class Pacer:
         self._start: tuple[float, int] | None = None
 
     def keep(self, now_ns: int) -> None:
-        """Sleep until an instant of the run is due."""
+        """Sleep until an instant of the run has come."""
         if self._start is None:
             self._start = monotonic(), now_ns
         began_s, began_ns = self._start

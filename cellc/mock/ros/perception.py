@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from functools import partial
-from time import monotonic
+from time import monotonic, sleep
 
 from cellc.contract.contract import ContractFrame
 from cellc.contract.frozen import dataclass
 from cellc.contract.qos import DEFAULT
 from cellc.contract.transforms import Pose
 from cellc.mock.evidence.bag import messages
-from cellc.mock.evidence.images.photographer import Photographer
+from cellc.mock.evidence.images.photographer import Photographer, Shot
 from cellc.mock.evidence.run_bag import RunBag
 from cellc.mock.evidence.topics import transforms_topic
 from cellc.mock.nodes.observations import pose_interface
@@ -22,17 +22,23 @@ from cellc.mock.ros.asked import Timing
 from cellc.mock.ros.bridge import Bridge, Received
 from cellc.mock.ros.graph import Graph
 from cellc.mock.ros.incoming import MalformedMessageError, StampedPose, pose_stamped, transforms
-from cellc.mock.ros.judgement import Judgement, Violation
+from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.tf.sources import DeferredPose
 
 _GRACE_S = 0.05
-"""Of the host: how long an answer is waited for that may come or not, such as to an image between two that are due."""
+"""Of the host: how long an answer is waited for that may come or not, such as to an image between two others."""
 _SILENT = 3
-"""After so many answers that were waited for in vain, none is waited for that long."""
+"""After so many images without an answer, none is waited for that long."""
 _KEPT = 1000
 """Images whose stamps are remembered: half a minute of a camera."""
+_PROBE_AGE_S = 1.0
+"""By how much the image is too old that is shown at the end."""
+_CLOCK_S = 0.2
+"""Of the host: until a node has taken the last message of `/clock`, which comes apart from the images."""
+_PROBE_S = 0.3
+"""Of the host: how long a node may take to use an image that is too old."""
 _LOOK_AGAIN = 30
-"""After so many images it is asked again which topics of the camera somebody looks at: others are not drawn."""
+"""After so many images it is looked again who hears what."""
 _UNIT = 1e-3
 """By how much the norm of a quaternion may miss 1."""
 
@@ -67,18 +73,20 @@ class PerceptionUnderTest:
         bridge: Bridge,
         bag: RunBag,
         photographer: Photographer,
-        judgement: Judgement,
+        judgment: Judgment,
         timing: Timing,
     ) -> None:
         """Take the place of a node of the contract in a plant in which nothing has run yet."""
         self.answers = 0
         self._node, self._plant, self._graph, self._bridge = node, plant, graph, bridge
-        self._bag, self._photographer, self._judgement, self._timing = bag, photographer, judgement, timing
-        self._sent: OrderedDict[int, int] = OrderedDict()
-        """Age in ns at which an image was sent last, by its stamp."""
+        self._bag, self._photographer, self._judgment, self._timing = bag, photographer, judgment, timing
+        self._sent: OrderedDict[int, Shot] = OrderedDict()
+        """Images by their stamps."""
+        self._too_old = False
+        """The image that was sent last is too old, and the node can know it."""
         self._images = 0
-        self._looked_at: tuple[str, ...] = ()
         self._newest_ns: int | None = None
+        """Stamp of the newest image that was answered; of the first image before any was."""
         self._prompt = True
         self._silent = 0
         self._observed = tuple(self._frames())
@@ -105,8 +113,24 @@ class PerceptionUnderTest:
             try:
                 self._take(received)
             except MalformedMessageError as error:
-                self._judgement.note(Violation.MALFORMED, self._node, f"`{self._node}` sent {error}")
+                self._judgment.note(Violation.MALFORMED, self._node, f"`{self._node}` sent {error}")
         return received
+
+    def end(self) -> None:
+        """Hear what is still on its way, and show the last image once more when it is too old to be used."""
+        while self.hear(_GRACE_S) is not None:
+            pass
+        if not self._sent or self._max_age_ns is None:
+            return
+        stamp_ns, shot = next(reversed(self._sent.items()))
+        late_ns = max(self._plant.now_ns, stamp_ns) + self._max_age_ns + round(_PROBE_AGE_S * 1e9)
+        self._graph.tick(late_ns)
+        sleep(_CLOCK_S)
+        self._too_old = True
+        for topic in filter(self._graph.is_heard, self._topics):
+            self._bag.image(topic, self._photographer.message(topic, shot), late_ns)
+        while self.hear(_PROBE_S) is not None:
+            pass
 
     def _frames(self) -> list[Observed]:
         contract, found = self._plant.contract, []
@@ -135,29 +159,31 @@ class PerceptionUnderTest:
         shot = self._photographer.take(self._device, image)
         self._graph.tick(now_ns)
         if self._images % _LOOK_AGAIN == 0:
-            self._looked_at = tuple(topic for topic in self._topics if self._bridge.subscriptions(topic))
+            self._graph.look()
         self._images += 1
-        for topic in self._looked_at:
+        for topic in filter(self._graph.is_heard, self._topics):
             self._bag.image(topic, self._photographer.message(topic, shot), now_ns)
-        self._sent[image.stamp_ns] = self._plant.clocks.of(self._node).read(now_ns) - image.stamp_ns
+        self._sent[image.stamp_ns] = shot
+        age_ns = self._plant.clocks.of(self._node).read(now_ns) - image.stamp_ns
+        fresh = self._max_age_ns is None or age_ns <= self._max_age_ns
         if len(self._sent) > _KEPT:
             self._sent.popitem(last=False)
         rate_hz = min(contract.frames[each.name].rate_hz or DEFAULT_RATE_HZ for each in self._observed)
-        fresh = self._max_age_ns is None or self._sent[image.stamp_ns] <= self._max_age_ns
-        late = self._newest_ns is not None and image.stamp_ns - self._newest_ns > 2e9 / rate_hz
+        self._newest_ns = image.stamp_ns if self._newest_ns is None else self._newest_ns
+        late = image.stamp_ns - self._newest_ns > 2e9 / rate_hz
         if self._timing.pace is None:
             self._wait(image.stamp_ns, fresh=fresh, late=late)
-        if late and fresh and self._newest_ns is not None and image.stamp_ns - self._newest_ns > 2e9 / rate_hz:
+        if late and fresh and image.stamp_ns - self._newest_ns > 2e9 / rate_hz:
             silent_s = (image.stamp_ns - self._newest_ns) / 1e9
             text = f"no pose from `{self._node}` for {silent_s:.3f} s of images, {rate_hz:g} Hz are stated"
-            self._judgement.note(Violation.TOO_SLOW, self._node, text)
+            self._judgment.note(Violation.TOO_SLOW, self._node, text)
 
     def _wait(self, stamp_ns: int, *, fresh: bool, late: bool) -> None:
         """Let the host's time pass until an image is answered, if it must be, or may be."""
         must = fresh and self._silent < _SILENT and (self._prompt or late)
         until_s = monotonic() + (self._timing.patience_s if must else _GRACE_S)
         while (left_s := until_s - monotonic()) > 0.0 and self.hear(left_s) is not None:
-            if self._newest_ns is not None and self._newest_ns >= stamp_ns:
+            if self.answers and self._newest_ns is not None and self._newest_ns >= stamp_ns:
                 self._prompt, self._silent = True, 0
                 return
         self._prompt = self._prompt and not fresh
@@ -193,30 +219,29 @@ class PerceptionUnderTest:
         pose, parent = stamped.pose, observed.frame.parent
         if stamped.frame.removeprefix("/") != parent:
             text = f"`{topic}` is in frame `{stamped.frame}`, the contract has it in `{parent}`"
-            self._judgement.note(Violation.WRONG_FRAME, topic, text)
+            self._judgment.note(Violation.WRONG_FRAME, topic, text)
             return False
         norm = math.sqrt(sum(part * part for part in pose.quaternion))
         if not all(map(math.isfinite, (*pose.position, norm))) or abs(norm - 1.0) > _UNIT:
             text = f"`{topic}` has position {pose.position} and quaternion {pose.quaternion}, which is no pose"
-            self._judgement.note(Violation.INVALID_POSE, topic, text)
+            self._judgment.note(Violation.INVALID_POSE, topic, text)
             return False
         return True
 
     def _note_stamp(self, topic: str, stamp_ns: int) -> None:
-        """Compare a stamp with those of the images that were sent, and their age with what the contract allows."""
-        age_ns = self._sent.get(stamp_ns)
-        if age_ns is None:
+        """Compare a stamp with those of the images that were sent."""
+        if self._too_old:
+            text = f"`{topic}` was seen in an image that was {_PROBE_AGE_S:g} s older than is allowed"
+            text += f" on `{self._image_topic}`"
+            self._judgment.note(Violation.STALE_INPUT_USED, topic, text)
+        elif stamp_ns not in self._sent:
             newest_ns = next(reversed(self._sent), None)
             after = "before any image was sent"
             if newest_ns is not None:
                 after = f"{abs(stamp_ns - newest_ns) / 1e6:.3f} ms {'after' if stamp_ns > newest_ns else 'before'}"
                 after += " the newest image"
             text = f"`{topic}` is stamped {after}; it must have the stamp of the image that it was seen in"
-            self._judgement.note(Violation.STAMP_OF_ANOTHER_TIME, topic, text)
-        elif self._max_age_ns is not None and age_ns > self._max_age_ns:
-            text = f"`{topic}` was seen in an image that was {age_ns / 1e9:.3f} s old when it arrived"
-            text += f", {self._max_age_ns / 1e9:.3f} s are allowed on `{self._image_topic}`"
-            self._judgement.note(Violation.STALE_INPUT_USED, topic, text)
+            self._judgment.note(Violation.STAMP_OF_ANOTHER_TIME, topic, text)
 
 
 def _pose(pose: Pose) -> Pose:

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
-import signal
-import subprocess
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from time import monotonic, sleep
 
@@ -25,8 +22,8 @@ from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult
 from cellc.mock.ros.asked import AmongNodes
 from cellc.mock.ros.bridge import Bridge, GraphEnd
-from cellc.mock.ros.graph import Graph, refuse_strangers
-from cellc.mock.ros.judgement import Judgement, Violation
+from cellc.mock.ros.graph import Graph, refuse_others
+from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.ros.pace import LATE_S, Pacer
 from cellc.mock.ros.perception import PerceptionUnderTest
 
@@ -35,7 +32,6 @@ _DISCOVERY_S = 1.0
 _LOOK_S = 0.1
 _TICK_HZ = 200.0
 """How often what arrives is taken, at a pace."""
-_END_S = 5.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,12 +75,21 @@ def rehearse_among(cell: MockCell, entry: RehearsalEntry, seed: int, asked: Amon
     with Bridge(asked.interpreter, environment) as bridge:
         _require_distro(bridge, cell.contract)
         sleep(_DISCOVERY_S)
-        refuse_strangers(bridge, cell.contract, tested.values())
+        refuse_others(bridge, cell.contract, tested.values())
         around = _Around(cell, bridge, tested, asked)
-        with _launched(asked.launch, environment):
-            result = cell.rehearse(entry, seed=seed, watch=around.begin)
-            around.end()
-    return Judged(replace(result, violations=around.judgement.lines()), tuple(around.notes))
+        if asked.launch:
+            bridge.start(_words(asked.launch))
+        result = cell.rehearse(entry, seed=seed, watch=around.begin)
+        around.end()
+    return Judged(replace(result, violations=around.judgment.lines()), tuple(around.notes))
+
+
+def _words(command: str) -> list[str]:
+    """Return the words of a command, which no shell reads."""
+    try:
+        return shlex.split(command)
+    except ValueError as error:
+        raise MockError("", f"`{command}` is no command: {error}") from None
 
 
 def _environment(asked: AmongNodes) -> dict[str, str]:
@@ -108,11 +113,12 @@ class _Around:
     """
 
     def __init__(self, cell: MockCell, bridge: Bridge, tested: Mapping[str, str], asked: AmongNodes) -> None:
-        self.judgement = Judgement()
+        self.judgment = Judgment()
         self.notes: list[str] = []
         self._cell, self._bridge, self._tested, self._asked = cell, bridge, tested, asked
         self._listener: RunListener | None = None
         self._pacer: Pacer | None = None
+        self._nodes: list[PerceptionUnderTest] = []
 
     def begin(self, plant: Plant) -> None:
         """Put the cell on the graph, and wait for the nodes under test; nothing has run yet.
@@ -127,29 +133,37 @@ class _Around:
         photographer = Photographer(plant, self._cell.folder.description, self._cell.folder.mesh_roots)
         bag.images(photographer.topics())
         self._listener = RunListener(plant, bag, RunTrace(plant))
-        nodes = [
-            PerceptionUnderTest(name, plant, graph, self._bridge, bag, photographer, self.judgement, self._asked.timing)
+        self._nodes = [
+            PerceptionUnderTest(name, plant, graph, self._bridge, bag, photographer, self.judgment, self._asked.timing)
             for name in self._tested
         ]
         graph.tick(plant.now_ns)
-        for (name, full), node in zip(self._tested.items(), nodes, strict=True):
+        for (name, full), node in zip(self._tested.items(), self._nodes, strict=True):
             self._await_node(full)
             self._bring_up(plant, full)
             for topic, publishes in node.needs:
                 self._await_end(plant.contract, name, topic, publishes=publishes)
         if self._asked.timing.pace is not None:
-            self._keep_pace(plant, nodes, Pacer(self._asked.timing.pace))
+            self._keep_pace(plant, Pacer(self._asked.timing.pace))
 
     def end(self) -> None:
-        """Publish what is left, and note how the host kept up."""
+        """Publish what is left, and note who has ended and how the host kept up."""
         if self._listener is not None:
             self._listener.end()
+        for node in self._nodes:
+            node.end()
+        code = self._bridge.exit_code()
+        if code is not None:
+            text = f"`{self._asked.launch}` ended with exit code {code} before the rehearsal did"
+            self.judgment.note(Violation.ENDED, self._asked.launch, text)
         if self._pacer is not None and self._pacer.latest_s > LATE_S:
             self.notes.append(f"the host was up to {self._pacer.latest_s * 1e3:.0f} ms late: nodes saw time jump")
 
     def _await_node(self, full: str) -> None:
         until_s = monotonic() + self._asked.appear_s
         while full not in self._bridge.nodes():
+            if (code := self._bridge.exit_code()) is not None:
+                raise MockError("", f"`{self._asked.launch}` ended with exit code {code} before `{full}` appeared")
             if monotonic() > until_s:
                 seen = ", ".join(f"`{node}`" for node in sorted(self._bridge.nodes())) or "no node"
                 where = f"domain {self._asked.domain}, on which there is {seen}"
@@ -179,54 +193,25 @@ class _Around:
                 got, expected = getattr(end, policy), getattr(stated, policy)
                 if got != expected:
                     text = f"`{full}` is on `{topic}` as `{got}`, the contract states `{expected}`"
-                    self.judgement.note(Violation.QOS, f"{topic} {policy}", text)
+                    self.judgment.note(Violation.QOS, f"{topic} {policy}", text)
             if end.type != interface.type:
                 text = f"`{full}` is on `{topic}` with type `{end.type}`, the contract states `{interface.type}`"
-                self.judgement.note(Violation.QOS, topic, text)
+                self.judgment.note(Violation.QOS, topic, text)
         others = [end.node for end in self._ends(topic, publishes=True) if end.node != full] if publishes else []
         for node in others:
             text = f"`{node}` publishes `{topic}` too, which only `{full}` may"
-            self.judgement.note(Violation.SECOND_PUBLISHER, topic, text)
+            self.judgment.note(Violation.SECOND_PUBLISHER, topic, text)
 
     def _ends(self, topic: str, *, publishes: bool) -> tuple[GraphEnd, ...]:
         return self._bridge.publishers(topic) if publishes else self._bridge.subscriptions(topic)
 
-    def _keep_pace(self, plant: Plant, nodes: Sequence[PerceptionUnderTest], pacer: Pacer) -> None:
+    def _keep_pace(self, plant: Plant, pacer: Pacer) -> None:
         self._pacer = pacer
 
         def tick(_: int) -> None:
             pacer.keep(plant.now_ns)
-            for node in nodes:
+            for node in self._nodes:
                 while node.hear() is not None:
                     pass
 
         plant.simulation.every(plant.now_ns, _TICK_HZ, tick)
-
-
-@contextmanager
-def _launched(command: str, environment: Mapping[str, str]) -> Iterator[None]:
-    """Run a command while a rehearsal runs, and end all that it started.
-
-    Raises:
-        MockError: it cannot be run.
-    """
-    if not command:
-        yield
-        return
-    try:
-        child = subprocess.Popen(
-            shlex.split(command), env=dict(environment), stdin=subprocess.DEVNULL, start_new_session=True
-        )
-    except (OSError, ValueError) as error:
-        raise MockError("", f"`{command}` cannot be run: {error}") from None
-    try:
-        yield
-    finally:
-        for number in (signal.SIGINT, signal.SIGKILL):
-            with suppress(ProcessLookupError):
-                os.killpg(child.pid, number)
-            with suppress(subprocess.TimeoutExpired):
-                child.wait(_END_S)
-                break
-        with suppress(ProcessLookupError):
-            os.killpg(child.pid, signal.SIGKILL)

@@ -128,7 +128,7 @@ class Photographer:
             size = (camera.width, camera.height)
             return messages.camera_info(shot.stamp_ns, stream.frame, size, camera.focal, camera.center)
         last, view = self._seen.get(topic, (None, None))
-        if view is None or last is not shot:
+        if view is None or last is None or (last.positions, last.parts) != (shot.positions, shot.parts):
             view = seen(camera, self._bodies(stream.frame, shot))
             self._seen[topic] = shot, view
         return messages.image(shot.stamp_ns, stream.frame, stream.encoding, pixels(view, stream))

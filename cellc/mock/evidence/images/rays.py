@@ -47,9 +47,9 @@ class Pinhole:
         return (self.width - 1) / 2.0, (self.height - 1) / 2.0
 
     def rays(self) -> Floats:
-        """Return the direction of each pixel's ray, one long along the optical axis, shape (height * width, 3)."""
+        """Return the direction of each pixel's ray, one long along the optical axis, shape (3, height * width)."""
         (u, v), (cu, cv) = np.meshgrid(np.arange(self.width), np.arange(self.height)), self.center
-        return np.stack([(u - cu) / self.focal, (v - cv) / self.focal, np.ones(u.shape)], axis=-1).reshape(-1, 3)
+        return np.stack([(u - cu) / self.focal, (v - cv) / self.focal, np.ones(u.shape)]).reshape(3, -1)
 
 
 def pinhole(width: int, height: int, horizontal: float, vertical: float, most: int) -> Pinhole:
@@ -86,12 +86,12 @@ class View:
 def seen(camera: Pinhole, bodies: Iterable[Body]) -> View:
     """Return what a camera sees; a body around the camera, such as its own housing, is looked through."""
     rays = camera.rays()
-    depth, color = np.full(len(rays), math.inf), np.tile(np.array(BACKGROUND), (len(rays), 1))
+    depth, color = np.full(rays.shape[1], math.inf), np.tile(np.array(BACKGROUND), (rays.shape[1], 1))
     for body in bodies:
         window = _window(camera, body)
         if window is None:
             continue
-        at, facing = _met(body, rays[window])
+        at, facing = _met(body, rays[:, window])
         nearer = at < depth[window]
         hit = window[nearer]
         depth[hit] = at[nearer]
@@ -126,15 +126,15 @@ def _met(body: Body, rays: Floats) -> tuple[Floats, Floats]:
     """Return how far along each ray a body is met, infinite where it is not, and how squarely in 0..1."""
     inside = body.pose.inverse()
     turn = np.array([_turned(inside, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))])
-    origin, directions = np.array(inside.position), rays @ turn
+    origin, directions = np.array(inside.position)[:, None], turn.T @ rays
     with np.errstate(divide="ignore", invalid="ignore"):
         if isinstance(body.shape, Box):
-            at, normals = _box(np.array(body.shape.size) / 2.0, origin, directions)
+            at, normals = _box(np.array(body.shape.size)[:, None] / 2.0, origin, directions)
         elif isinstance(body.shape, Sphere):
             at, normals = _sphere(body.shape.radius, origin, directions)
         else:
             at, normals = _cylinder(body.shape.radius, body.shape.length / 2.0, origin, directions)
-        squarely = np.abs(np.sum(normals * directions, axis=1)) / np.linalg.norm(directions, axis=1)
+        squarely = np.abs(np.sum(normals * directions, axis=0)) / np.sqrt(np.sum(directions**2, axis=0))
     return np.where(np.isfinite(at) & (at > 0.0), at, math.inf), np.nan_to_num(squarely)
 
 
@@ -146,31 +146,32 @@ def _box(half: Floats, origin: Floats, directions: Floats) -> tuple[Floats, Floa
     safe = np.where(np.abs(directions) < _PARALLEL, _PARALLEL, directions)
     one, other = (-half - origin) / safe, (half - origin) / safe
     enters, leaves = np.minimum(one, other), np.maximum(one, other)
-    near, far = enters.max(axis=1), leaves.min(axis=1)
+    near, far = enters.max(axis=0), leaves.min(axis=0)
     normals = np.zeros_like(directions)
-    normals[np.arange(len(directions)), enters.argmax(axis=1)] = 1.0
+    normals[enters.argmax(axis=0), np.arange(directions.shape[1])] = 1.0
     return np.where(near <= far, near, math.inf), normals
 
 
 def _sphere(radius: float, origin: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    at = _round(directions, np.broadcast_to(origin, directions.shape), radius)
-    return at, (origin + at[:, None] * directions) / radius
+    at = _round(directions, origin, radius)
+    return at, (origin + at * directions) / radius
 
 
 def _cylinder(radius: float, half: float, origin: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    side = _round(directions[:, :2], np.broadcast_to(origin[:2], (len(directions), 2)), radius)
-    points = origin + side[:, None] * directions
-    side = np.where(np.abs(points[:, 2]) <= half, side, math.inf)
-    normals = np.concatenate([points[:, :2] / radius, np.zeros((len(directions), 1))], axis=1)
-    cap = (math.copysign(half, origin[2]) - origin[2]) / directions[:, 2]
-    met = origin[:2] + cap[:, None] * directions[:, :2]
-    is_cap = (np.sum(met**2, axis=1) <= radius**2) & (abs(origin[2]) > half)
-    normals[is_cap] = (0.0, 0.0, 1.0)
+    side = _round(directions[:2], origin[:2], radius)
+    points = origin + side * directions
+    side = np.where(np.abs(points[2]) <= half, side, math.inf)
+    normals = np.concatenate([points[:2] / radius, np.zeros((1, directions.shape[1]))])
+    height = float(origin[2, 0])
+    cap = (math.copysign(half, height) - height) / directions[2]
+    met = origin[:2] + cap * directions[:2]
+    is_cap = (np.sum(met**2, axis=0) <= radius**2) & (abs(height) > half)
+    normals[:, is_cap] = np.array([[0.0], [0.0], [1.0]])
     return np.where(is_cap, cap, side), normals
 
 
 def _round(directions: Floats, origin: Floats, radius: float) -> Floats:
-    """Return where rays enter a circle or a sphere about zero."""
-    square, along = np.sum(directions**2, axis=1), np.sum(directions * origin, axis=1)
-    root = along**2 - square * (np.sum(origin**2, axis=1) - radius**2)
+    """Return where rays enter a circle or a sphere about zero; directions are of shape (2 or 3, rays)."""
+    square, along = np.sum(directions**2, axis=0), np.sum(directions * origin, axis=0)
+    root = along**2 - square * (np.sum(origin**2, axis=0) - radius**2)
     return np.where(root >= 0.0, (-along - np.sqrt(np.maximum(root, 0.0))) / square, math.inf)

@@ -2,7 +2,8 @@
 
 Started by cellc as ``cellc_bridge.py FD``, where FD is one end of a socket pair. What is sent on it are frames: the
 length of the rest as uint32, its kind as uint8, and the rest. JSON (kind 0) asks and answers; a message (kind 1) is the
-number of a channel as uint16, and the message as it is serialized. It ends when the other end of the socket does.
+number of a channel as uint16, and the message as it is serialized. It ends when the other end of the socket does, and
+ends what it started.
 
 Types are imported by their names from the ROS installation; messages are not read here (rclpy publishes and subscribes
 serialized ones: https://docs.ros.org/en/jazzy/p/rclpy/rclpy.node.html).
@@ -13,11 +14,14 @@ from __future__ import annotations
 import importlib
 import json
 import os
+import signal
 import socket
 import struct
+import subprocess
 import sys
 import threading
 import time
+from contextlib import suppress
 from typing import Any
 
 import rclpy
@@ -30,6 +34,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProf
 JSON, MESSAGE = 0, 1
 HEAD = struct.Struct("<IB")
 CHANNEL = struct.Struct("<H")
+END_S = 3.0
 
 
 def imported(kind: str) -> Any:
@@ -72,6 +77,7 @@ class Bridge:
         self._executor = SingleThreadedExecutor(context=self._context)
         self._nodes: dict[str, Node] = {}
         self._publishers: dict[int, Any] = {}
+        self._started: subprocess.Popen[bytes] | None = None
         self._looking = self._node("/cellc_mock")
         threading.Thread(target=self._spin, daemon=True).start()
 
@@ -86,7 +92,17 @@ class Bridge:
                 else:
                     self._answer(json.loads(rest))
         except (EOFError, ConnectionError):
+            self._end_started()
+
+    def _end_started(self) -> None:
+        """End what was started, and all that it started."""
+        if self._started is None:
             return
+        for number in (signal.SIGINT, signal.SIGKILL):
+            with suppress(ProcessLookupError):
+                os.killpg(self._started.pid, number)
+            with suppress(subprocess.TimeoutExpired):
+                self._started.wait(END_S)
 
     def _spin(self) -> None:
         try:
@@ -110,7 +126,7 @@ class Bridge:
     def _answer(self, asked: dict[str, Any]) -> None:
         try:
             answer = getattr(self, f"on_{asked.pop('ask')}")(**asked)
-        except Exception as error:  # whatever an installation answers is told, and ends no bridge
+        except Exception as error:  # whatever an installation answers is reported, and the bridge goes on
             answer = {"error": f"{type(error).__name__}: {error}"}
         self._send(JSON, json.dumps(answer).encode())
 
@@ -138,12 +154,12 @@ class Bridge:
         }
 
     def on_nodes(self) -> dict[str, Any]:
-        """Name the nodes on the graph that are none of ours."""
+        """Name the nodes on the graph that are not played here."""
         seen = {full_name(name, namespace) for name, namespace in self._looking.get_node_names_and_namespaces()}
         return {"nodes": sorted(seen - set(self._nodes))}
 
     def on_ends(self, topic: str, publishers: bool) -> dict[str, Any]:
-        """Describe the publishers of a topic, or its subscriptions, that are none of ours."""
+        """Describe the publishers of a topic, or its subscriptions, of nodes that are not played here."""
         by_topic = self._looking.get_publishers_info_by_topic if publishers else None
         found = (by_topic or self._looking.get_subscriptions_info_by_topic)(topic)
         return {
@@ -159,6 +175,10 @@ class Bridge:
             ]
         }
 
+    def on_heard(self) -> dict[str, Any]:
+        """Name the channels whose topics somebody subscribes to."""
+        return {"channels": [number for number, each in self._publishers.items() if each.get_subscription_count()]}
+
     def on_publish(self, channel: int, node: str, topic: str, kind: str, qos: dict[str, Any]) -> dict[str, Any]:
         """Open a publisher of a node."""
         self._publishers[channel] = self._node(node).create_publisher(imported(kind), topic, profile(qos))
@@ -171,6 +191,18 @@ class Bridge:
             imported(kind), topic, lambda data: self._send(MESSAGE, head + bytes(data)), profile(qos), raw=True
         )
         return {}
+
+    def on_start(self, command: list[str]) -> dict[str, Any]:
+        """Start a command; what it prints goes where this program's output goes."""
+        out = 1
+        self._started = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=out, stderr=out, start_new_session=True
+        )
+        return {"group": self._started.pid}
+
+    def on_ended(self) -> dict[str, Any]:
+        """Return the exit code of what was started; null while it runs, or where nothing was."""
+        return {"code": None if self._started is None else self._started.poll()}
 
     def on_transition(self, node: str, name: str, within_s: float) -> dict[str, Any]:
         """Ask a lifecycle node for a transition, ``configure`` or ``activate``."""

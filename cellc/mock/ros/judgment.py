@@ -17,6 +17,7 @@ class Violation(Term):
     QOS = "qos_of_another_profile"
     SECOND_PUBLISHER = "second_publisher"
     MALFORMED = "malformed_message"
+    ENDED = "node_ended"
 
 
 @dataclass(slots=True)
@@ -27,8 +28,8 @@ class _Case:
     count: int = 1
 
 
-class Judgement:
-    """Keeps what was seen; the same violation of the same subject is told once, with how often it was seen."""
+class Judgment:
+    """Keeps what was seen; the same violation of the same subject is reported once, with how often it was seen."""
 
     def __init__(self) -> None:
         self._cases: dict[tuple[Violation, str], _Case] = {}

@@ -1,0 +1,152 @@
+"""Rehearsals around a perception node that is not played: a right one changes nothing, a wrong one is named."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+
+from cellc.contract.transforms import Pose
+from cellc.mock import MockCell
+from cellc.mock.errors import MockError
+from cellc.mock.evidence.bag import messages
+from cellc.mock.ros.asked import AmongNodes
+from cellc.mock.ros.bridge import GraphEnd
+from cellc.mock.ros.session import rehearse_among
+from tests.mock.ros.stand_in import CAMERA, IMAGES, POSES, Graph, Node, Said, changed, right, run
+
+_AT = Pose((0.1, 0.0, 0.4), (0.0, 0.0, 0.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    "name", ["pick_and_place", "stale_camera", "program_stopped", "canceled", "no_part", "slipped", "gripper_activated"]
+)
+def test_a_right_node_ends_every_rehearsal_as_the_played_one(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    judged = run(cell, monkeypatch, Graph(right), name)
+    played = cell.run(name)
+    assert judged.result.violations == ()
+    assert judged.result.passed
+    assert judged.result.outcome == played.outcome
+    assert [each.step for each in judged.result.attempts] == [each.step for each in played.attempts]
+
+
+def test_two_runs_have_the_same_records(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = run(cell, monkeypatch, Graph(right)).result
+    assert run(cell, monkeypatch, Graph(right)).result == first
+
+
+def _poses(graph: Graph, stamp_ns: int, said: Sequence[Said], frame: str = CAMERA, pose: Pose = _AT) -> Sequence[Said]:
+    return [(POSES, messages.pose_stamped(stamp_ns, frame, pose))] if said else []
+
+
+_WRONG: dict[str, tuple[Node, str]] = {
+    "stamp on arrival": (
+        changed(lambda graph, _, said: _poses(graph, graph.clock_ns, said)),
+        "stamp_of_another_time: `/object_pose` is stamped 13.000 ms after the newest image",
+    ),
+    "another frame": (
+        changed(lambda graph, stamp, said: _poses(graph, stamp, said, frame="world")),
+        "wrong_frame: `/object_pose` is in frame `world`, the contract has it in `camera_color_optical_frame`",
+    ),
+    "not a number": (
+        changed(lambda graph, stamp, said: _poses(graph, stamp, said, pose=replace(_AT, position=(float("nan"),) * 3))),
+        "invalid_pose: `/object_pose` has position (nan, nan, nan)",
+    ),
+    "no quaternion": (
+        changed(lambda graph, stamp, said: _poses(graph, stamp, said, pose=replace(_AT, quaternion=(0.0,) * 4))),
+        "invalid_pose: `/object_pose` has position (0.1, 0.0, 0.4) and quaternion (0.0, 0.0, 0.0, 0.0)",
+    ),
+    "old images are used": (
+        changed(lambda *all_of: all_of[2], max_age_ns=10**12),
+        "stale_input_used: `/object_pose` was seen in an image that was 1 s older than is allowed",
+    ),
+    "silence": (lambda *_: (), "too_slow: no pose from `perception` for 0.233 s of images, 10 Hz are stated"),
+    "cut short": (
+        changed(lambda _, stamp, said: [(POSES, said[0][1][:60])] if said else []),
+        "malformed_message: `perception` sent a message that is too short",
+    ),
+}
+
+
+@pytest.mark.parametrize("wrong", _WRONG)
+def test_a_wrong_node_is_named(cell: MockCell, monkeypatch: pytest.MonkeyPatch, wrong: str) -> None:
+    node, text = _WRONG[wrong]
+    monkeypatch.setattr("cellc.mock.ros.perception._GRACE_S", 0.0)
+    result = run(cell, monkeypatch, Graph(node)).result
+    assert not result.passed
+    assert any(line.startswith(text) for line in result.violations), result.violations
+
+
+def test_every_image_is_answered_though_the_contract_asks_for_fewer(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    graph = Graph(right)
+    run(cell, monkeypatch, graph)
+    assert graph.published.count(IMAGES) > 300  # 30 Hz over 10.6 s, and once more at the end
+    assert "/clock" in graph.published
+    assert "/tf" in graph.published
+    assert POSES not in graph.published
+    assert not any(topic.startswith("/cellc/") for topic in graph.published)
+
+
+_END = GraphEnd("/perception", messages.POSE_STAMPED, "reliable", "volatile")
+
+
+@pytest.mark.parametrize(
+    ("ends", "text"),
+    [
+        ({POSES: [replace(_END, reliability="best_effort")]}, "qos_of_another_profile: `/perception` is on"),
+        ({POSES: [_END, replace(_END, node="/other")]}, "second_publisher: `/other` publishes `/object_pose` too"),
+        ({POSES: [replace(_END, type="geometry_msgs/msg/Pose")]}, "qos_of_another_profile: `/perception` is on"),
+    ],
+)
+def test_ends_on_the_graph_are_held_against_the_contract(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch, ends: dict[str, list[GraphEnd]], text: str
+) -> None:
+    result = run(cell, monkeypatch, Graph(right, ends=ends)).result
+    assert [line.startswith(text) for line in result.violations] == [True]
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({"distro": "humble"}, "the ROS environment is `humble`, the folder is built for `jazzy`; source that"),
+        ({"nodes": {"/perception", "/controller_manager"}}, "`/controller_manager` is on the graph already, and it is"),
+        ({"ends": {"/clock": [replace(_END, node="/bag")]}}, "`/bag` publishes `/clock`, which is played here: it may"),
+        ({"nodes": {"/rviz"}}, "`/perception` does not appear within 0 s on domain 100, on which there is `/rviz`"),
+        ({"ends": {POSES: []}}, "`/perception` publishes no `/object_pose`, which the contract has it on"),
+        ({"ends": {IMAGES: []}}, "`/perception` does not subscribe to `/camera/color/image_raw`, which the contract"),
+    ],
+)
+def test_a_graph_that_cannot_be_used_is_refused(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch, changes: dict[str, object], text: str
+) -> None:
+    graph = Graph(right, **changes)
+    with pytest.raises(MockError) as refused:
+        run(cell, monkeypatch, graph)
+    assert refused.value.reason.startswith(text)
+    assert IMAGES not in graph.published
+
+
+def test_a_command_that_ends_is_told(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
+    result = run(cell, monkeypatch, Graph(right, code=1), launch="ros2 run detector").result
+    text = "node_ended: `ros2 run detector` ended with exit code 1 before the rehearsal did"
+    assert result.violations == (text,)
+    with pytest.raises(MockError, match="exit code 1 before `/perception` appeared"):
+        run(cell, monkeypatch, Graph(right, code=1, nodes=()), launch="ros2 run detector")
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("nobody", "`nobody` is no node of the contract; nodes that can be left out: `perception`"),
+        ("move_group", "`move_group` is played by the mock alone; nodes that can be left out: `perception`"),
+    ],
+)
+def test_only_nodes_that_can_be_left_out_are(cell: MockCell, name: str, text: str) -> None:
+    with pytest.raises(MockError) as refused:
+        rehearse_among(cell, cell.entry("pick_and_place"), 0, AmongNodes((name,), "python3"))
+    assert refused.value.reason == text
