@@ -79,7 +79,10 @@ class Limits:
     mesh_seconds: int = _adjustable(24, "s", 3600, "processor time of reading all meshes of one description")
     mesh_memory: int = _adjustable(1024 * MIB, "bytes", 64 * 1024 * MIB, "memory of reading them")
     robot_pairs: int = _adjustable(
-        20_000, "pairs", 1_000_000, "pairs of collision shapes of one cell, boxes of its scene among them"
+        20_000,
+        "pairs",
+        1_000_000,
+        "pairs of collision shapes of robots that can reach each other, with what is in their reach",
     )
     planning_seconds: int = _adjustable(
         60, "s", 36_000, "processor time of what poses and goals of one cell lead to, and of its pairs of links"

@@ -55,6 +55,19 @@ def test_each_manager_reads_of_its_own_hardware_alone() -> None:
         assert len(robot.findall("link")) == len(whole.findall("link"))
 
 
+def test_manager_reads_of_the_robots_that_its_own_can_meet(tmp_path: Path) -> None:
+    # 8 m apart no link of one arm comes near the other; 1 m apart (above) each file has both.
+    files = emitted(tmp_path, SPEC.replace("0 -500 0 mm", "0 -7.5 0 m"))
+    for target in ("mock", "real"):
+        for manager, arm in (("left_loop", "left"), ("right_loop", "right")):
+            robot = ElementTree.fromstring(files[f"urdf/two_arms.{manager}.{target}.urdf"])
+            links = [link.attrib["name"] for link in robot.findall("link")]
+            assert {name.partition("_")[0] for name in links} == {"world", arm}
+            whole = ElementTree.fromstring(files[f"urdf/two_arms.{target}.urdf"])
+            own = [link for link in whole.findall("link") if link.attrib["name"].startswith(f"{arm}_")]
+            assert len(links) == len(own) + 1
+
+
 def test_each_manager_takes_its_description_from_its_own_topic() -> None:
     for manager, namespace in zip(_nodes("ros2_control_node"), ("/left", "/right"), strict=True):
         remaps = {remap.get("from"): remap.get("to") for remap in manager.findall("remap")}

@@ -13,6 +13,7 @@ import yaml
 
 from cellc.compiler.feasibility import MotionAnswer, disabled_links, mesh_faults, motion_answer
 from cellc.compiler.feasibility.question import MotionQuestion
+from cellc.contract.limits import Budget
 from cellc.contract.store.cache import cache_folder
 from cellc.robot.description.packages import on_package_path, use_packages
 from tests.cells import CORPUS, graph_of, written
@@ -177,9 +178,9 @@ def test_mesh_that_changes_during_the_computation_is_not_kept(tmp_path: Path, mo
     path = _cell(tmp_path, "package://parts/hand.stl")
     answered = compute.answer
 
-    def grown_meanwhile(question: MotionQuestion, roots: Sequence[Path]) -> MotionAnswer:
+    def grown_meanwhile(question: MotionQuestion, roots: Sequence[Path], budget: Budget) -> MotionAnswer:
         _cube(mesh, LARGE)
-        return answered(question, roots)
+        return answered(question, roots, budget)
 
     with monkeypatch.context() as patch:
         patch.setattr(compute, "answer", grown_meanwhile)

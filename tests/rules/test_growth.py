@@ -17,7 +17,7 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.deployment import Deployment, plan_deployment
 from cellc.compiler.deploy.gate_subjects import ROWS
-from cellc.compiler.emit import cell_picture, description, node_graph, simulation
+from cellc.compiler.emit import cell_picture, node_graph, simulation
 from cellc.compiler.emit.emit_all import EMITTERS
 from cellc.compiler.emit.launch import launch
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
@@ -139,11 +139,10 @@ def test_no_rule_and_no_line_of_a_gate_searches_the_cell_for_each_of_its_things(
 
 
 OF_THE_WHOLE = {
-    description.emit: "the robot that the manager of each station reads is all of the cell",
     simulation.emit: "a keyframe has all joints, and pairs without contact are listed",
     launch.emit: "each step of the bring-up lists all managed nodes",
-    node_graph.emit: "a line through a layer passes all that is there",
     cell_picture.emit: "names are set beside each other in one picture",
+    node_graph.emit: "a line through a layer passes all that is there",
 }
 """Emitters whose files, or drawings, have all things of the cell beside each thing."""
 
@@ -167,7 +166,7 @@ def _emitted(emit: Emitter, plan: Deployment, graph: CellGraph) -> Iterator[Arti
 def _of_three_sizes(spec: Callable[[int], str], first: int, folder: Path) -> list[Cell]:
     """Return cells of a size, of twice and of four times that."""
     cells = []
-    first = 3 if spec is of_groups else first  # more pairs of shapes are refused
+    first = 3 if spec is of_groups else first  # goals take long to find
     for size in (first, 2 * first, 4 * first):
         (folder / "cell.yaml").write_text(spec(size), encoding="utf-8")
         cells.append(there(check(folder / "cell.yaml").graph).cell)

@@ -7,6 +7,7 @@ than its mount, which `config/frames.yaml` has, meshes, and planes, beside which
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 
 from cellc.compiler.artifact import Artifact
@@ -50,23 +51,40 @@ class _Standing:
             for link, pose in posture(device.body.description, {**device.mock.home, **asked}).items():
                 self._links.setdefault(link, (device, pose))
         self._places: dict[str, _Place] = {}
+        self._links_of, self._carried = defaultdict[str, list[str]](list), defaultdict[str, list[Device]](list)
+        self._solids, self._named = defaultdict[str, list[Solid]](list), defaultdict[str, list[tuple[str, Pose]]](list)
+        self._sort(cell)
+
+    def _sort(self, cell: Cell) -> None:
+        """Sort links, devices, things and frames by the device that has or carries them."""
+        for link, (holder, _) in self._links.items():
+            self._links_of[holder.name].append(link)
+        for device in cell.devices:
+            self._carried[self._place(device.mount.parent_frame).device].append(device)
+        for solid in cell.scene:
+            if not solid.is_plane:
+                self._solids[self._place(solid.parent).device].append(solid)
+        for frame in self._frames.values():
+            if frame.kind in (FrameKind.LINK, FrameKind.SCENE):
+                continue
+            place = self._place(frame.name)
+            if frame.transform_to_parent is not None or frame.simulated_pose is not None:
+                self._named[place.device].append((frame.name, place.pose))
 
     def drawing(self) -> Part:
         """Return the cell as parts: what it carries, and what that carries."""
         return self._part("", self._cell.name)
 
     def _part(self, device: str, name: str) -> Part:
-        carried = [item for item in self._cell.devices if self._place(item.mount.parent_frame).device == device]
-        solids = [box for box in self._cell.scene if not box.is_plane and self._place(box.parent).device == device]
         parts = (
-            *(self._solid(solid) for solid in solids),
-            *(self._part(device.name, device.name) for device in carried),
+            *(self._solid(solid) for solid in self._solids[device]),
+            *(self._part(carried.name, carried.name) for carried in self._carried[device]),
         )
-        frames = tuple(self._named(device))
+        frames = tuple(self._named[device])
         if not device:
             return Part(name, (0.0, 0.0, 0.0), frames=frames, parts=parts, solid=True)
         placed = self._cell.device(device)
-        poses = {link: self._place(link).pose for link, (holder, _) in self._links.items() if holder is placed}
+        poses = {link: self._place(link).pose for link in self._links_of[device]}
         shapes = (
             (poses[link.name], collision)
             for link in placed.body.description.links
@@ -86,15 +104,6 @@ class _Standing:
         pose = self._place(box.parent).pose @ box.transform_to_parent
         body = (pose @ box.center, box.geometry)
         return Part(box.name, pose.position, (body,), frames=((box.name, pose),), solid=True)
-
-    def _named(self, device: str) -> Iterator[tuple[str, Pose]]:
-        """Yield the mount of a device, and the frames of the cell that it carries."""
-        for frame in self._frames.values():
-            if frame.kind in (FrameKind.LINK, FrameKind.SCENE):
-                continue
-            place = self._place(frame.name)
-            if place.device == device and (frame.transform_to_parent is not None or frame.simulated_pose is not None):
-                yield frame.name, place.pose
 
     def _place(self, name: str) -> _Place:
         if name not in self._places:

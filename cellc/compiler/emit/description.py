@@ -4,13 +4,15 @@ URDF 1.0 with ``<ros2_control>`` tags for ``mock`` and ``real``, as robot_state_
 launch file passes it through xacro, which puts in the share folders of installed packages (``$(find …)`` in hardware
 parameters); nothing else in it needs xacro. A cell with several controller managers has one more for each,
 ``urdf/<cell>.<manager>.<target>.urdf``: a manager takes all hardware that it reads of, and two that drive one robot are
-one too many. Left out: accelerations and jerks, which URDF cannot hold (``config/joint_limits.yaml`` has them), dynamic
+one too many. It has the robots of the manager and all that is in their reach, not those at the other end of a hall.
+Left out: accelerations and jerks, which URDF cannot hold (``config/joint_limits.yaml`` has them), dynamic
 frames, and transmissions.
 
 SRDF as srdfdom reads it, for a cell with planning groups: groups, end effectors, named poses, and links that may touch.
 move_group takes it as ``robot_description_semantic``, the mock takes its pairs. Pairs without a check are found by
 sampling, as MoveIt's Setup Assistant does, with its reasons. Left out: virtual joints, because the description is
-rooted in the world.
+rooted in the world; and pairs of robots that cannot reach each other, which are as many as the square of the robots:
+move_group compares the boxes around links before it compares links.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.motion import NamedPose
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import description_file, manager_description_file, semantic_file
-from cellc.compiler.feasibility import MARGIN_M, RNG_SEED, disabled_links
+from cellc.compiler.feasibility import MARGIN_M, RNG_SEED, disabled_links, part_with, parts_of
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.urdf.robot import manager_description, robot_description
 from cellc.compiler.formats.xml_text import comment, element, render
@@ -36,7 +38,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     for target in ("mock", "real"):
         yield Artifact(description_file(cell, target), render(robot_description(cell, target), plan.header.text))
         for manager in cell.managers if len(cell.managers) > 1 else ():
-            robot = manager_description(cell, target, manager.devices)
+            robot = manager_description(part_with(graph, manager.devices), target, manager.devices)
             yield Artifact(manager_description_file(cell, manager, target), render(robot, plan.header.text))
     if cell.groups:
         root = element("robot", {"name": cell.name}, _semantic(graph))
@@ -58,6 +60,8 @@ def _semantic(graph: CellGraph) -> Iterator[Element]:
             yield comment(f"devices.{device.name}")
             yield from _gripper(device)
     disabled = disabled_links(graph)
+    if len(parts_of(graph)) > 1:
+        yield comment("robots that cannot reach each other are in no pair: boxes around their links keep them apart")
     yield comment(
         f"adjacent links, and pairs that collide in all or none of {disabled.samples} configurations within the joint "
         f"limits (seed {RNG_SEED}); none means farther apart than {shortest(MARGIN_M)} m"

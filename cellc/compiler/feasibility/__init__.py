@@ -18,6 +18,7 @@ from cellc.compiler.feasibility.answers import (
 )
 from cellc.compiler.feasibility.feasibility import disabled_links, meeting_links, motion_answer
 from cellc.compiler.feasibility.meshes import MeshFault, mesh_faults, mesh_reach
+from cellc.compiler.feasibility.parts import part_with, parts_of
 
 __all__ = [
     "MARGIN_M",
@@ -37,4 +38,6 @@ __all__ = [
     "mesh_faults",
     "mesh_reach",
     "motion_answer",
+    "part_with",
+    "parts_of",
 ]

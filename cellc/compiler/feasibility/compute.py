@@ -41,6 +41,7 @@ from cellc.robot.planning import (
     decided_collisions,
     disabled_collisions,
     meetings,
+    standing_collisions,
 )
 
 IK_SEEDS = 24
@@ -57,7 +58,7 @@ LEAST_SAMPLES = 500
 _PAIRS_TIMES_SAMPLES = 2_000_000
 
 
-def sample_pairs(urdf: str, mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
+def sample_pairs(urdf: str, mesh_roots: Sequence[Path], budget: Budget) -> DisabledAnswer:
     """Find the pairs of a robot description that need no collision check."""
     try:
         robot = RobotModel.from_urdf(urdf, mesh_roots=mesh_roots)
@@ -65,7 +66,7 @@ def sample_pairs(urdf: str, mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
         return DisabledAnswer((), 0, str(error))
     samples = _samples(robot)
     try:
-        pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, budget=_budget())
+        pairs = disabled_collisions(robot, samples=samples, rng_seed=RNG_SEED, margin_m=MARGIN_M, budget=budget)
     except BudgetError:
         return DisabledAnswer((), 0, *_too_long())
     links = tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in pairs)
@@ -93,8 +94,14 @@ def sample_meetings(urdf: str, pairs: Sequence[tuple[str, str]], mesh_roots: Seq
     return DisabledAnswer(tuple(sorted(links)), _POSTURES)
 
 
-def _budget() -> Budget:
-    return Budget(limits().planning_seconds, time.process_time)
+def pairs_at_rest(urdf: str, pairs: Sequence[tuple[str, str]], mesh_roots: Sequence[Path] = ()) -> DisabledAnswer:
+    """Find which of some pairs of links, between which no joint moves, touch or are neighbors in the tree."""
+    try:
+        robot = RobotModel.from_urdf(urdf, mesh_roots=mesh_roots)
+    except ModelError as error:
+        return DisabledAnswer((), 0, str(error))
+    found = standing_collisions(robot, pairs, margin_m=MARGIN_M)
+    return DisabledAnswer(tuple(DisabledLinks(pair.first, pair.second, pair.reason.value) for pair in found), 1)
 
 
 def _too_long() -> tuple[str, str]:
@@ -107,10 +114,10 @@ def _samples(robot: RobotModel) -> int:
     return min(SAMPLES, max(LEAST_SAMPLES, _PAIRS_TIMES_SAMPLES // max(1, checked)))
 
 
-def answer(question: MotionQuestion, mesh_roots: Sequence[Path] = ()) -> MotionAnswer:
+def answer(question: MotionQuestion, mesh_roots: Sequence[Path], budget: Budget) -> MotionAnswer:
     """Answer all parts of a question in the scene of the cell, every joint not asked about at its start."""
     try:
-        return _answer(question, mesh_roots, _budget())
+        return _answer(question, mesh_roots, budget)
     except (ModelError, LimitsError) as error:
         return MotionAnswer(refused=str(error))
     except BudgetError:
@@ -166,7 +173,7 @@ def planner_of(question: MotionQuestion, group: str, mesh_roots: Sequence[Path] 
     Raises:
         ModelError, LimitsError, BudgetError: the shapes or joints cannot be looked at, or take too long.
     """
-    scene, _ = _scene(question, mesh_roots, _budget())
+    scene, _ = _scene(question, mesh_roots, Budget(limits().planning_seconds, time.process_time))
     return _planner(next(item for item in question.groups if item.name == group), scene.model, scene)
 
 

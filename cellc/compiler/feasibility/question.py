@@ -121,9 +121,15 @@ def shapes_and_joints(cell: Cell) -> str:
     return render(manager_description(cell, "mock", ()), "")
 
 
-def motion_question(graph: CellGraph) -> MotionQuestion:
-    """Ask for every named pose and every goal whose place is known before the cell runs."""
-    cell = graph.cell
+def motion_question(graph: CellGraph, whole: CellGraph | None = None) -> MotionQuestion:
+    """Ask for every named pose and every goal whose place is known before the cell runs.
+
+    Args:
+        whole: the cell of which ``graph`` is a part, whose laws hold in the part too.
+    """
+    cell, of_whole = graph.cell, graph if whole is None else whole
+    known = of_whole.once(_laws)
+    laws = {device.name: known[device.name] for device in cell.devices if device.name in known}
     tips = {group.name: graph.frames.carrier(group.tip_frame) for group in cell.groups}
     joints = cell.joints_by_name
     return MotionQuestion(
@@ -137,19 +143,23 @@ def motion_question(graph: CellGraph) -> MotionQuestion:
             if goal.group in tips
             for question in _goal(graph.frames, goal, tips[goal.group][1])
         ),
-        views=tuple(_views(graph)),
+        views=tuple(views(graph)),
         allowed=tuple(pair for device in cell.devices for pair in device.body.allowed_collisions),
         carried=tuple(_carried(cell)),
         held=tuple(joint.name for device in cell.devices for joint in device.joints if joint.effort),
         areas=tuple(_areas(graph)),
-        laws=tuple(LawQuestion(name, law) for name, law in graph.once(_laws).items() if law.joints),
-        visits=_visits(cell, [name for name, law in graph.once(_laws).items() if law.part]),
-        start_outside=start_outside(cell),
+        laws=tuple(LawQuestion(name, law) for name, law in laws.items() if law.joints),
+        visits=_visits(cell, [name for name, law in laws.items() if law.part]),
+        start_outside=of_whole.once(_start_outside),
     )
 
 
 def _laws(graph: CellGraph) -> Mapping[str, ControlLaw]:
     return control_laws(graph.cell)
+
+
+def _start_outside(graph: CellGraph) -> float:
+    return start_outside(graph.cell)
 
 
 def _visits(cell: Cell, loadable: Sequence[str]) -> tuple[VisitQuestion, ...]:
@@ -204,7 +214,7 @@ def _carried(cell: Cell) -> Iterator[LinkMass]:
             yield LinkMass(link=device.body.tool_frame, mass_kg=rest_kg, center=center)
 
 
-def _views(graph: CellGraph) -> Iterator[ViewQuestion]:
+def views(graph: CellGraph) -> Iterator[ViewQuestion]:
     """Yield each object that is detected in the frame of a camera, with where the arm is then."""
     cell = graph.cell
     optical = {device.body.frames[name] for device in cell.devices for name in device.body.optical_frames}

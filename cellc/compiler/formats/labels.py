@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from math import ceil, floor
+from math import ceil, floor, inf
 
 from cellc.contract.frozen import dataclass
 
@@ -74,21 +74,29 @@ def placed(
         lines: what else is drawn.
     """
     ordered = sorted(labels, key=lambda label: (label.at[1], label.at[0], label.key))
-    taken = _Taken(letter * 20)
+    taken = _Taken(letter * 2)
     for item in ordered:
         taken.add(_around(item.at, letter * 0.4))
     for box in (box for line in lines for box in _along(*line, letter)):
         taken.add(box)
     placements = []
     for label in ordered:
-        choices = (
-            (_cost(box, taken.near(box), bounds) + distance, number, position, box)
-            for number, (position, box, distance) in enumerate(_choices(label, letter))
-        )
-        _, _, best, box = min(choices, key=lambda choice: choice[:2])
+        best, box = _best(label, letter, taken, bounds)
         taken.add(box)
         placements.append(best)
     return tuple(placements)
+
+
+def _best(label: Label, letter: float, taken: _Taken, bounds: _Box) -> tuple[Placed, _Box]:
+    """Return the place of the least cost, the first of them; a place is left once it costs more than another."""
+    choices = _choices(label, letter)
+    best, box, distance = next(choices)
+    least = _cost(box, taken.near(box), bounds, inf) + distance
+    for position, other, distance in choices:
+        cost = _cost(other, taken.near(other), bounds, least - distance) + distance
+        if cost < least:
+            best, box, least = position, other, cost
+    return best, box
 
 
 def _choices(label: Label, letter: float) -> Iterator[tuple[Placed, _Box, float]]:
@@ -124,10 +132,14 @@ def _along(start: Point, end: Point, letter: float) -> Iterator[_Box]:
         yield _around(at, letter / 4)
 
 
-def _cost(box: _Box, taken: Iterable[_Box], bounds: _Box) -> float:
-    """Return the area that is hidden or lies outside, ten times as dear as distance."""
-    whole = (box[2] - box[0]) * (box[3] - box[1])
-    return 10.0 * (sum(_shared(box, other) for other in taken) + whole - _shared(box, bounds))
+def _cost(box: _Box, taken: Iterable[_Box], bounds: _Box, most: float) -> float:
+    """Return the area that is hidden or lies outside, ten times as dear as distance; above ``most`` any that is."""
+    whole, inside, hidden = (box[2] - box[0]) * (box[3] - box[1]), _shared(box, bounds), 0.0
+    for other in taken:
+        hidden += _shared(box, other)
+        if 10.0 * (hidden + whole - inside) > most:
+            break
+    return 10.0 * (hidden + whole - inside)
 
 
 def _shared(one: _Box, other: _Box) -> float:

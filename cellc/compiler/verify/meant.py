@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import field, replace
 
 from cellc.compiler.cell.frame import Frame
+from cellc.compiler.deploy.files import manager_description_file
+from cellc.compiler.feasibility import part_with, parts_of
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.frame_tree import FrameTree
 from cellc.contract.frozen import dataclass
@@ -28,14 +31,24 @@ class Meant:
     Args:
         frames: pose of each fixed frame and link in the root, every joint at zero: m and unit quaternions.
         joints: the movable joints of the cell, mimic joints included.
+        parts: the same of files with a part of the cell, by their paths.
     """
 
     frames: Mapping[str, Pose]
     joints: Mapping[str, Limits]
+    parts: Mapping[str, Meant] = field(default_factory=dict)
 
 
 def meant_by(graph: CellGraph) -> Meant:
     """Return what a cell means."""
+    cell, parts = graph.cell, dict[str, Meant]()
+    for manager in cell.managers if len(parts_of(graph)) > 1 and len(cell.managers) > 1 else ():
+        part = _meant(CellGraph(part_with(graph, manager.devices)))
+        parts |= {manager_description_file(cell, manager, target): part for target in ("mock", "real")}
+    return replace(_meant(graph), parts=parts)
+
+
+def _meant(graph: CellGraph) -> Meant:
     joints = (joint for device in graph.cell.devices for joint in device.joints)
     limits = {joint.name: Limits(joint.lower, joint.upper, joint.velocity, joint.effort) for joint in joints}
     return Meant(cell_poses(graph.frames), limits)

@@ -85,7 +85,11 @@ def read_by_yourdfpy(urdf: str) -> tuple[Reading, dict[str, float]]:
     try:
         with held():
             # Transforms alone: no mesh is opened, nothing is looked up beside the text, and nothing is colored.
-            robot = import_yourdfpy().URDF.load(BytesIO(urdf.encode()), **_SCENE)
+            yourdfpy = import_yourdfpy()
+            read = yourdfpy.URDF.load(BytesIO(urdf.encode()), **_SCENE | {"build_collision_scene_graph": False}).robot
+            for link in read.links:
+                link.collisions.clear()  # for each shape trimesh hashes all links
+            robot = yourdfpy.URDF(read, **_SCENE)
     except Exception as error:  # it lets through whatever its parts raise
         raise RefusedError(f"yourdfpy refuses it: {type(error).__name__} {error}") from error
     movable = [joint for joint in robot.robot.joints if joint.type in _MOVABLE]
@@ -207,11 +211,17 @@ def _set(model: Any, configuration: Any, name: str, position: float) -> None:
 
 
 def _pinocchio_poses(model: Any, configuration: Any) -> dict[str, Pose]:
-    data = model.createData()
-    pinocchio.framesForwardKinematics(model, data, configuration)
+    """Return the pose of every link; without `Data` of the model, which has the third power of the joints in it."""
+    placements = [pinocchio.SE3.Identity()]
+    for index in range(1, model.njoints):
+        joint = model.joints[index]
+        moved = joint.createData()
+        joint.calc(moved, configuration)
+        placements.append(placements[model.parents[index]] * model.jointPlacements[index] * moved.M)
     poses = {}
-    for frame, placement in zip(model.frames, data.oMf, strict=True):
+    for frame in model.frames:
         if frame.type == pinocchio.FrameType.BODY:
+            placement = placements[frame.parentJoint] * frame.placement
             x, y, z = map(float, placement.translation)
             qx, qy, qz, qw = map(float, pinocchio.Quaternion(placement.rotation).coeffs())
             poses[frame.name] = Pose((x, y, z), (qx, qy, qz, qw))

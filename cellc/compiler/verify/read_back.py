@@ -49,7 +49,7 @@ def read_back(artifacts: Sequence[Artifact], meant: Meant) -> Iterator[Disagreem
     broken = {disagreement.path for disagreement in malformed}
     for artifact in artifacts:
         if artifact.path.endswith(".urdf") and artifact.path not in broken:
-            yield from check_description(artifact, meant)
+            yield from check_description(artifact, meant.parts.get(artifact.path, meant))
         elif artifact.path == SCENE and artifact.path not in broken:
             yield from check_scene(artifact, meant)
 

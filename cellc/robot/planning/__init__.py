@@ -6,7 +6,13 @@ joins; ``splines``, ``motion_law`` and ``trajectory`` give a path its times; ``p
 find the pairs of links that need no check; ``statics`` has what holds the robot still.
 """
 
-from cellc.robot.planning.collision_matrix import DisabledPair, DisabledReason, decided_collisions, disabled_collisions
+from cellc.robot.planning.collision_matrix import (
+    DisabledPair,
+    DisabledReason,
+    decided_collisions,
+    disabled_collisions,
+    standing_collisions,
+)
 from cellc.robot.planning.inverse_kinematics import IkSolution
 from cellc.robot.planning.model import RobotModel
 from cellc.robot.planning.pair_sampling import beyond_reach, meetings
@@ -54,5 +60,6 @@ __all__ = [
     "disabled_collisions",
     "holding_efforts",
     "meetings",
+    "standing_collisions",
     "time_parameterize",
 ]

@@ -82,6 +82,20 @@ def decided_collisions(
     return _without_never(model, configurations, margin_m, budget)[0]
 
 
+def standing_collisions(model: RobotModel, pairs: Iterable[LinkPair], *, margin_m: float) -> tuple[DisabledPair, ...]:
+    """Return those of some pairs of links on one rigid body that are neighbors, or within a margin in m of each other.
+
+    Args:
+        pairs: the lesser name first; others of the model are not looked at.
+    """
+    asked = set(pairs)
+    adjacent = asked & set(_adjacent(model))
+    check = PairCheck(model, asked - adjacent, margin_m=margin_m)
+    always = check.all_touching(draw_configurations(model, samples=1, rng_seed=0)[0])
+    reasons = {DisabledReason.ADJACENT: adjacent, DisabledReason.ALWAYS: always}
+    return tuple(sorted(DisabledPair(*pair, reason) for reason, found in reasons.items() for pair in found))
+
+
 def _without_never(
     model: RobotModel, configurations: Array, margin_m: float, budget: Budget
 ) -> tuple[tuple[DisabledPair, ...], set[LinkPair]]:
