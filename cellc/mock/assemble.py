@@ -40,7 +40,7 @@ from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.parts import Parts
 from cellc.mock.physics.dynamics import Dynamics
-from cellc.mock.physics.reading import planned_contacts
+from cellc.mock.physics.reading import fingers_by_gripper, planned_contacts
 from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.real_bring_up import played
 from cellc.mock.real_start import RealStart
@@ -241,8 +241,8 @@ def _note_jump(plant: Plant, jump: TimeJump) -> None:
 def _control(folder: GeneratedFolder, seed: int, horizon_s: float) -> ControlStack:
     contract, forces = folder.contract, None
     if folder.scene is not None:
-        planned = planned_contacts(folder.scene, contract, folder.description)
-        forces = Dynamics(folder.scene, planned, _leads_s(contract))
+        fingers = fingers_by_gripper(contract, folder.description)
+        forces = Dynamics(folder.scene, planned_contacts(folder.scene, fingers), fingers, _leads_s(contract))
     managers = _managers(folder, forces)
     control = ControlStack(managers, contract.managers, horizon_s, _adapters(contract), forces)
     for joint, nature in _natures(contract, seed).items():

@@ -32,6 +32,7 @@ from cellc.mock.reality import AS_STATED, Reality
 from cellc.mock.result import RehearsalResult, RunFailure, StageEvidence
 from cellc.mock.snapshot import SnapshotMemory, has_same_bring_up
 from cellc.mock.task.context import TaskContext
+from cellc.mock.task.mass import findings
 from cellc.mock.task.task import Task
 
 Watch = Callable[[Plant], None]
@@ -216,11 +217,11 @@ def _findings(plant: Plant) -> tuple[str, ...]:
         *plant.network.disconnections,
         *plant.control.dangers,
         *plant.effects.dangers,
+        *findings(plant),
     )
 
 
-_SHOWN = 12
-"""Links that are named in one line; all are counted."""
+_SHOWN = 12  # links that are named in one line; all are counted
 
 
 class MockCell:
@@ -240,8 +241,7 @@ class MockCell:
         return MockCell(folder, self._memory, realities)
 
     def __repr__(self) -> str:
-        named = ", ".join(self.rehearsals)
-        return f"<MockCell {self.contract.cell}: {named or 'no rehearsals'}>"
+        return f"<MockCell {self.contract.cell}: {', '.join(self.rehearsals) or 'no rehearsals'}>"
 
     @property
     def folder(self) -> GeneratedFolder:

@@ -11,6 +11,7 @@ from cellc.contract.transforms import Pose, Vector3
 from cellc.mock.control import JointFault
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.physics.dynamics import Dynamics
+from cellc.mock.physics.grips import Grip, grip_on
 from cellc.mock.world.world import World
 
 GRASP_TOLERANCE_M = 0.03
@@ -22,6 +23,7 @@ class Parts:
 
     Attributes:
         held: part by gripper.
+        grips: how a gripper presses on a part that has mass, by gripper.
         slipped_m: how far a held part has slipped between the fingers, by part.
     """
 
@@ -37,6 +39,7 @@ class Parts:
         self._dynamics = dynamics
         self._boxes = boxes or {}
         self.held: dict[str, str] = {}
+        self.grips: dict[str, Grip] = {}
         self.slipped_m: dict[str, float] = {}
         self._contract = contract
         self._control = control
@@ -67,7 +70,7 @@ class Parts:
         distances = [(math.dist(position, self._world.object_pose(name, now_ns).position), name) for name in present]
         near = min((entry for entry in distances if entry[0] <= GRASP_TOLERANCE_M), default=None)
         gripper = self._contract.devices[device].gripper
-        if near is None or gripper is None or (width_m := self._width_m(near[1])) is None:
+        if near is None or gripper is None or (width_m := self.width_m(near[1])) is None:
             return None if near is None else near[1]
         finger_at = self._world.joint_positions(now_ns).get(gripper.joint, gripper.open)
         blocked_by = gripper.position(width_m)
@@ -77,14 +80,15 @@ class Parts:
     def _has_mass(self, name: str) -> bool:
         return self._dynamics is not None and self._dynamics.moves(name)
 
-    def _width_m(self, name: str) -> float | None:
+    def width_m(self, name: str) -> float | None:
+        """Return how wide a part really is; None where that is not stated."""
         grasp = self.grasp(name)
         stated = None if grasp is None else grasp.width_m
         return None if stated is None else max(0.0, stated + self._wider_m.get(name, 0.0))
 
     def stop_fingers(self, device: str, name: str) -> None:
         """Let closing fingers come no farther than a part lets them; its width is not stated of every part."""
-        gripper, width_m = self._contract.devices[device].gripper, self._width_m(name)
+        gripper, width_m = self._contract.devices[device].gripper, self.width_m(name)
         if self._has_mass(name):
             return
         if gripper is not None and width_m is not None:
@@ -97,6 +101,8 @@ class Parts:
             in_hand: where the part is in what carries the fingers, m.
         """
         self._in_hand[name] = in_hand
+        if self._dynamics is not None and self._dynamics.moves(name):
+            self.grips[device] = grip_on(self._dynamics, name, self._dynamics.fingers[device])
         self._taken_from[name] = self._world.object_pose(name, now_ns).position
         self.held[device] = name
         self.slipped_m.pop(name, None)
@@ -115,6 +121,7 @@ class Parts:
         gripper = self._contract.devices[device].gripper
         if gripper is not None:
             self._block(gripper, None)
+        self.grips.pop(device, None)
         return self.held.pop(device, None)
 
     def lies(self, name: str, tip: str | None, now_ns: int) -> bool:

@@ -38,11 +38,13 @@ class _Block:
     Attributes:
         states: after each cycle, shape (cycles, numbers of a state).
         seen: contacts that are not planned, with the number of the cycle.
+        commands: of all drives in each cycle, shape (cycles, drives).
         followed: command and its step in each cycle, of the drives that are led ahead.
     """
 
     times_ns: Times
     states: Array
+    commands: Array
     seen: tuple[tuple[int, Seen], ...]
     followed: Mapping[int, tuple[Array, Array]]
 
@@ -78,18 +80,24 @@ class Dynamics:
     Args:
         scene: of the package.
         planned: pairs of bodies that may touch.
+        fingers: links by the gripper whose fingers they are.
         leads_s: joint → how far ahead of its command its drive is led, by the velocity of the command, s. Drives brake
             the motion of their joint: one that brakes the error alone is led by its damping over its stiffness.
     """
 
     def __init__(
-        self, scene: Scene, planned: frozenset[frozenset[str]], leads_s: Mapping[str, float] | None = None
+        self,
+        scene: Scene,
+        planned: frozenset[frozenset[str]],
+        fingers: Mapping[str, tuple[str, ...]],
+        leads_s: Mapping[str, float],
     ) -> None:
+        self.fingers = fingers
         self.scene = scene
         self.seen: list[Seen] = []
         self._planned = planned
         self._watched = scene.watched(planned)
-        self._leads_s = {scene.drives[joint]: lead for joint, lead in (leads_s or {}).items()}
+        self._leads_s = {scene.drives[joint]: lead for joint, lead in leads_s.items()}
         self._aims: dict[int, Array] = {}
         self._followed: dict[int, tuple[float, float]] = {}
         self._block: _Block | None = None
@@ -100,6 +108,7 @@ class Dynamics:
         self._state = self._bodies.state()
         self._times: list[int] = [0]
         self._states: list[Array] = [self._state]
+        self._commands: list[Array] = [scene.aims(self._state)]
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what a copy needs: what MuJoCo holds follows from it."""
@@ -136,6 +145,9 @@ class Dynamics:
         followed = {
             drive: self._steps(drive, targets) for drive, targets in self._aims.items() if drive in self._leads_s
         }
+        commands = np.tile(self._commands[-1], (len(times_ns), 1))
+        if len(columns):
+            commands[:, columns] = np.array(list(self._aims.values())).T
         led = np.array([self._led(drive, self._aims[drive], followed, times_ns) for drive in self._aims]).T
         seen: list[tuple[int, Seen]] = []
         for cycle, time_ns in enumerate(times_ns.tolist()):
@@ -146,7 +158,7 @@ class Dynamics:
             seen += [(cycle, Seen(time_ns, touch)) for touch in bodies.touches(self._watched)]
             at_ns = time_ns
         self._aims.clear()
-        self._block, self._adopted, self._ahead = _Block(times_ns, states, tuple(seen), followed), 0, True
+        self._block, self._adopted, self._ahead = _Block(times_ns, states, commands, tuple(seen), followed), 0, True
         try:
             bodies.refuse_unstable()
         except SceneError as error:
@@ -185,9 +197,18 @@ class Dynamics:
         self.seen += [seen for cycle, seen in block.seen if first <= cycle < cycles]
         self._times += block.times_ns[first:cycles].tolist()
         self._states.extend(block.states[first:cycles].copy())
+        self._commands.extend(block.commands[first:cycles].copy())
         self._state, self._adopted = self._states[-1], cycles
         for drive, (targets, steps) in block.followed.items():
             self._followed[drive] = float(targets[cycles - 1]), float(steps[cycles - 1])
+
+    def since(self, stamp_ns: int) -> tuple[Times, Array, Array]:
+        """Return the times of cycles after an instant, the states, and the commands of the drives in them."""
+        first = bisect_right(self._times, stamp_ns)
+        times = np.array(self._times[first:], dtype=np.int64)
+        rows = len(times)
+        states = np.array(self._states[first:]).reshape(rows, self.scene.size)
+        return times, states, np.array(self._commands[first:]).reshape(rows, len(self.scene.drives))
 
     @property
     def _computed(self) -> _Block:
@@ -247,6 +268,14 @@ class Dynamics:
         self._changes[part] = replace(before, seen_at=at if missing else None)
         self.put(part, _AWAY if missing else at)
 
+    def weight_n(self, part: str) -> float:
+        """Return what a part weighs."""
+        return self._now().weight_n(part)
+
+    def friction(self, part: str) -> float:
+        """Return the friction of a part's contacts."""
+        return self._now().friction(part)
+
     def pose(self, part: str, stamp_ns: int) -> Pose:
         """Return where a part is seen at a time, in the root frame."""
         change = self._changes.get(part)
@@ -271,4 +300,4 @@ class Dynamics:
     def _change(self, bodies: Bodies) -> None:
         """Adopt what somebody has moved at this instant."""
         self._state = bodies.state()
-        self._states[-1] = self._state
+        self._states[-1], self._commands[-1] = self._state, self.scene.aims(self._state)

@@ -55,14 +55,18 @@ def _meshes(scene: str, roots: tuple[Path, ...]) -> Mapping[str, bytes]:
     return found
 
 
-def planned_contacts(scene: Scene, contract: Contract, description: Description) -> frozenset[frozenset[str]]:
+def planned_contacts(scene: Scene, fingers: Mapping[str, tuple[str, ...]]) -> frozenset[frozenset[str]]:
     """Return the pairs of bodies that are to touch: parts and what they lie on, fingers and parts, and fingers."""
     pairs = [(part, other) for part in scene.parts for other in (*scene.fixed, *scene.parts)]
-    for device in contract.devices.values():
-        if device.gripper is not None:
-            fingers = fingers_of(description, device.gripper.joint)
-            pairs += [*product(scene.parts, fingers), *combinations(fingers, 2)]
+    for links in fingers.values():
+        pairs += [*product(scene.parts, links), *combinations(links, 2)]
     return frozenset(frozenset(pair) for pair in pairs)
+
+
+def fingers_by_gripper(contract: Contract, description: Description) -> dict[str, tuple[str, ...]]:
+    """Return the links of the fingers of each gripper."""
+    grippers = {name: device.gripper for name, device in contract.devices.items() if device.gripper is not None}
+    return {name: fingers_of(description, gripper.joint) for name, gripper in grippers.items()}
 
 
 def fingers_of(description: Description, joint: str) -> tuple[str, ...]:

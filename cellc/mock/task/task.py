@@ -16,6 +16,7 @@ from cellc.mock.stops import NORMAL
 from cellc.mock.task.call import call
 from cellc.mock.task.context import OUTCOME_OF_STOP, Attempt, AttemptError, Identity, TaskContext, current_state
 from cellc.mock.task.grip import grip
+from cellc.mock.task.mass import explained, require_untouched
 from cellc.mock.task.move import move
 from cellc.mock.task.switch import sense, switch
 
@@ -167,10 +168,12 @@ class Task:
     def _attempt(self, attempt: Attempt, step: StepEntry, before: AttemptError | None) -> Waiting[AttemptError | None]:
         """Run one step; return why the rehearsal has failed by now, which an acknowledgment alone undoes."""
         failure: AttemptError | None = None
+        started_ns = self._context.now_ns
         try:
             yield from self._step(attempt, step, stopped=before is not None)
+            require_untouched(self._context, started_ns)
         except AttemptError as raised:
-            failure = raised
+            failure = explained(self._context, raised, started_ns)
         self._close(attempt, failure)
         return (failure or before) if step.kind is not StepKind.ACKNOWLEDGE else failure
 

@@ -8,7 +8,7 @@ https://mujoco.readthedocs.io/en/3.3.0/computation/index.html (The State)
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -46,13 +46,19 @@ class Touch:
     force_n: float
     normal: Vector3
 
+    def is_between(self, body: str, others: Container[str]) -> bool:
+        """Tell whether a body touches one of others."""
+        return (self.one == body and self.other in others) or (self.other == body and self.one in others)
+
 
 class Scene:
     """What no run changes of a scene.
 
     Attributes:
         joints: that turn or slide, with the place of each position and velocity.
+        sliding: those that slide.
         drives: joint → number of its set point.
+        limits: what each drive gives at most, N m or N; infinite without a bound.
         parts: free body → place of its pose.
         bodies: by their numbers.
         fixed: those that never move.
@@ -92,6 +98,9 @@ class Scene:
             for index in range(model.njnt)
             if model.jnt_type[index] == _FREE
         }
+        self.sliding = frozenset(str(model.joint(at).name) for at in moving if model.jnt_type[at] == _SLIDE)
+        bounded = model.actuator_forcelimited.astype(bool)
+        self.limits: Array = np.where(bounded, model.actuator_forcerange[:, 1], np.inf)
         self.bodies = tuple(str(model.body(index).name) for index in range(model.nbody))
         self.fixed = tuple(name for name, weld in zip(self.bodies, model.body_weldid, strict=True) if weld == 0)
 
@@ -103,6 +112,15 @@ class Scene:
         """Return the positions of joints in some states, rad or m."""
         places: Rows = np.array([1 + self.joints[joint][0] for joint in joints], dtype=np.intp)
         return states[..., places]
+
+    def efforts(self, states: Array) -> Array:
+        """Return what each drive gives in some states, N m or N: of its set point, position and velocity, bounded."""
+        model, joints = self.model, list(self.drives)
+        aims = states[..., self.size - len(self.drives) :]
+        asked = model.actuator_gainprm[:, 0] * aims + model.actuator_biasprm[:, 1] * self.positions(states, joints)
+        asked = asked + model.actuator_biasprm[:, 2] * self.velocities(states, joints)
+        bounded: Array = np.clip(asked, -self.limits, self.limits)
+        return bounded
 
     def velocities(self, states: Array, joints: Sequence[str]) -> Array:
         """Return the velocities of joints in some states, rad/s or m/s."""
@@ -226,6 +244,14 @@ class Bodies:
         if any(self._data.warning[int(kind)].number for kind in bad):
             raise SceneError(f"what moves in it does not stay in one piece, {self._data.time:.3f} s after its begin")
 
+    def weight_n(self, part: str) -> float:
+        """Return what a free body weighs."""
+        return float(self.model.body(part).mass[0]) * float(np.linalg.norm(self.model.opt.gravity))
+
+    def friction(self, part: str) -> float:
+        """Return the friction of a free body's contacts."""
+        return float(self.model.geom_friction[_shapes_of(self.model, part)[0]][0])
+
     def touches(self, watched: NDArray[np.bool_] | None = None) -> Iterator[Touch]:
         """Yield what presses on what; ``watched`` says of which two shapes."""
         data, model = self._data, self.model
@@ -243,7 +269,3 @@ class Bodies:
     def look(self) -> None:
         """Compute what presses on what in a state that was just restored."""
         self._library.mj_forward(self.model, self._data)
-
-    def effort(self, joint: str) -> float:
-        """Return what the drive of a joint gives, N m or N."""
-        return float(self._data.actuator_force[self.scene.drives[joint]])

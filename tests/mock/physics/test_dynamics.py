@@ -21,7 +21,7 @@ _MS = 1_000_000
 
 
 def _made(**leads_s: float) -> Dynamics:
-    return Dynamics(Scene(_SCENE, {}), frozenset({frozenset({"part", "floor"})}), leads_s)
+    return Dynamics(Scene(_SCENE, {}), frozenset({frozenset({"part", "floor"})}), {}, leads_s)
 
 
 def _run(bodies: Dynamics, until_ms: int, target: float = 0.0, first_ms: int = 1) -> None:
