@@ -66,7 +66,7 @@ def grippers(contract: Contract) -> frozenset[str]:
 
 
 def findings(plant: Plant) -> Iterator[str]:
-    """Yield what a run with masses shows that its task was not told."""
+    """Yield what a run with masses shows that its task does not see."""
     dynamics = plant.control.dynamics
     if dynamics is None:
         return
