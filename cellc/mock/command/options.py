@@ -76,6 +76,7 @@ class RehearsalOptions(FolderOptions):
         images: draw what cameras see into the bags.
         physics: give joints and parts their masses.
         among: nodes on a ROS graph that are run for real; None where all are played.
+        against: run each rehearsal without masses too, and say where the two part.
     """
 
     rehearsals: tuple[str, ...] = ()
@@ -84,6 +85,7 @@ class RehearsalOptions(FolderOptions):
     images: bool = False
     physics: bool = False
     among: AmongNodes | None = None
+    against: bool = False
 
     def extras(self) -> Iterator[Extra]:
         """Yield what it needs beyond what cellc is installed with."""

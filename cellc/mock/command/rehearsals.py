@@ -88,6 +88,10 @@ def run_rehearsals(options: RehearsalOptions) -> int:
     Returns:
         0: every rehearsal passed; 1: one did not, or the folder has none; 2: the folder or a name is unusable.
     """
+    if options.against:
+        from cellc.mock.command.against import compare
+
+        return compare(options)
     if options.records is not None:
         refuse_foreign(Path(options.records))  # before the minutes that a run may take
     cell = load_seeded(options, physics=options.physics)

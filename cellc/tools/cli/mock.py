@@ -12,6 +12,7 @@ from cellc.mock.command.options import RehearsalOptions
 from cellc.tools.cli.fleet import MATRIX, FleetOptions, fan_options, named_by, read_matrix, refuse_for_many
 from cellc.tools.cli.limit_option import limit_option
 from cellc.tools.cli.run_options import (
+    AGAINST,
     EDITED,
     EVIDENCE,
     FOLDERS,
@@ -53,6 +54,13 @@ class _Mock(click.Command):
             raise
 
 
+def _refuse_mixed(options: RehearsalOptions) -> None:
+    if options.against and not options.physics:
+        raise click.UsageError("--against needs --physics.")
+    if options.against and (options.evidence or options.records or options.live or options.among):
+        raise click.UsageError("--against cannot be combined with --evidence, --records, --live or --ros.")
+
+
 @click.command(cls=_Mock)
 @FOLDERS
 @REHEARSALS
@@ -60,6 +68,7 @@ class _Mock(click.Command):
 @EVIDENCE
 @IMAGES
 @PHYSICS
+@AGAINST
 @JSON
 @SEED
 @STAGE
@@ -92,6 +101,7 @@ def mock(options: RehearsalOptions, folders: tuple[str, ...], matrix: tuple[str,
         return
     if options.fan != USUAL:
         raise click.UsageError(f"{'--jobs' if options.fan.cluster is None else '--cluster'} needs several folders.")
+    _refuse_mixed(options)
     from cellc.mock.command.rehearsals import run_rehearsals
 
     raise click.exceptions.Exit(run_rehearsals(replace(options, folder=named.paths[0])))

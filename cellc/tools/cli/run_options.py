@@ -52,6 +52,9 @@ EVIDENCE = click.option(
 IMAGES = click.option("--images", is_flag=True, help="With --evidence: draw what cameras see into the bags.")
 SEED = click.option("--seed", default=0, show_default=True, help="Seed of all random draws.")
 PHYSICS = click.option("--physics", is_flag=True, help="Give joints and parts mass, drives, contacts and friction.")
+AGAINST = click.option(
+    "--against", is_flag=True, help="With --physics: run without masses too, and say where the two part."
+)
 STAGE = click.option("--stage", default="", metavar="PERCENT", help="Plan in this stage of commissioning.")
 EDITED = click.option(
     "--edited", is_flag=True, help="Run an edited folder; every result is marked, and no gate is signed."
