@@ -22,6 +22,7 @@ from typing import TextIO
 from cellc.contract.diagnostics.unsafe_text import escaped, harmless_line
 from cellc.contract.errors import reason_of
 from cellc.contract.extras import MissingExtraError
+from cellc.contract.folding import LEAST, Piece, folded
 from cellc.contract.frozen import dataclass
 from cellc.contract.signals import CLOSED_PIPE, drop_output
 
@@ -101,9 +102,10 @@ class Stream(Enum):
 
 
 def show(*lines: Line | WorkflowCommand, to: Stream = Stream.OUT) -> None:
-    """Print lines, colored where that is wanted."""
+    """Print lines, colored where that is wanted, and folded at the width of a terminal."""
     stream = to.opened()
-    _write(stream, as_text(lines, color=wants_color(stream.isatty(), os.environ)))
+    wide = max(shutil.get_terminal_size().columns, LEAST) if stream.isatty() else 0
+    _write(stream, as_text(lines, color=wants_color(stream.isatty(), os.environ), wide=wide))
 
 
 def refuse(reason: str) -> None:
@@ -133,27 +135,33 @@ def show_document(text: str) -> None:
     _write(sys.stdout, as_text(text.removesuffix("\n").split("\n"), color=False) if text else "")
 
 
-def as_text(lines: Iterable[Line | WorkflowCommand], *, color: bool) -> str:
-    """Return lines as they are printed, each ending in a line break."""
-    return "".join(f"{_line(line, color)}\n" for line in lines)
+def as_text(lines: Iterable[Line | WorkflowCommand], *, color: bool, wide: int = 0) -> str:
+    """Return lines as they are printed, each ending in a line break.
+
+    Args:
+        wide: columns of the terminal; zero where lines have no end.
+    """
+    return "".join(f"{_line(line, color, wide)}\n" for line in lines)
 
 
-def _line(line: Line | WorkflowCommand, color: bool) -> str:
+def _line(line: Line | WorkflowCommand, color: bool, wide: int) -> str:
     if isinstance(line, WorkflowCommand):
         return line.text()
-    if isinstance(line, str):
-        return harmless_line(escaped(line))
-    plain = "".join(escaped(piece if isinstance(piece, str) else piece.text) for piece in line)
+    pieces = [_piece(piece) for piece in ((line,) if isinstance(line, str) else line)]
+    plain = "".join(text for text, _ in pieces)
     harmless = harmless_line(plain)
     if not color or harmless != plain:  # nothing of ours looks like a command
-        return harmless
-    return "".join(_piece(piece) for piece in line)
+        pieces = [(harmless, "")]
+    return "\n".join("".join(map(_shown, each)) for each in folded(pieces, wide))
 
 
-def _piece(piece: str | Styled) -> str:
-    if isinstance(piece, str):
-        return escaped(piece)
-    return f"{piece.style.value}{escaped(piece.text)}{_RESET}" if piece.text else ""
+def _piece(piece: str | Styled) -> Piece:
+    return (escaped(piece), "") if isinstance(piece, str) else (escaped(piece.text), piece.style.value)
+
+
+def _shown(piece: Piece) -> str:
+    text, style = piece
+    return f"{style}{text}{_RESET}" if style and text else text
 
 
 def _write(stream: TextIO, text: str) -> None:
@@ -306,21 +314,6 @@ def stage(text: str) -> None:
     """Show the stage of a command where its progress is shown; elsewhere do nothing."""
     if _progress is not None:
         _progress.stage(text)
-
-
-_MINUTES_FROM_S = 120.0
-
-
-def time_left(done: int, total: int, seconds: float) -> str:
-    """Return how long the rest takes at the pace so far, such as ``, 40 s left``; empty where nothing is done.
-
-    Args:
-        seconds: in which as many as are done were done.
-    """
-    if not done:
-        return ""
-    left_s = (total - done) * max(seconds, 1e-3) / done
-    return f", {left_s / 60:.0f} min left" if left_s >= _MINUTES_FROM_S else f", {left_s:.0f} s left"
 
 
 class _ProgressLine:

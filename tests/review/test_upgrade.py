@@ -223,7 +223,7 @@ def test_json_is_what_its_schema_says_and_markdown_is_a_comment() -> None:
     upgrade = _upgrade("ur5e_pick", Distro.KILTED)
     jsonschema.validate(json.loads(upgrade.model_dump_json()), schema)
     text = upgrade_markdown(upgrade)
-    assert text.startswith("### `ur5e_pick: jazzy to kilted: 6 pins change, 2 questions`\n")
+    assert text.startswith("### `ur5e_pick`: jazzy to kilted: 6 pins change, 2 questions\n")
     assert text.count("<details") == text.count("</details>")
     assert len(text) <= 65_000
 

@@ -68,13 +68,28 @@ def matrix_of(entry: RehearsalEntry, ends: Sequence[RunEnd]) -> Matrix:
     return Matrix(entry.name, tuple(_title(step) for step in entry.steps), rows)
 
 
-def matrix_lines(matrix: Matrix) -> Iterator[str]:
-    """Yield a matrix for a terminal; a run that failed has an exclamation mark."""
+def matrix_lines(matrix: Matrix, wide: int = 0) -> Iterator[str]:
+    """Yield a matrix for a terminal; a run that failed has an exclamation mark.
+
+    Args:
+        wide: columns of the terminal, zero for a file; steps that do not fit follow in a table of their own.
+    """
     numbers = [str(number) for number in range(1, len(matrix.steps) + 1)]
     rows = ((fault, *map(cell_text, row)) for fault, row in matrix.rows)
     steps = ", ".join(f"{number} {title}" for number, title in zip(numbers, matrix.steps, strict=True))
     yield f"{matrix.rehearsal}: {steps}"
-    yield from aligned((("fault", *numbers), *rows))
+    for block in _blocks([("fault", *numbers), *rows], wide):
+        yield from aligned(block, wide)
+
+
+def _blocks(rows: Sequence[Sequence[str]], wide: int) -> Iterator[list[tuple[str, ...]]]:
+    """Yield a table as tables of as many columns as fit below the names of their rows."""
+    widths = [max(map(len, column)) + 2 for column in zip(*rows, strict=True)]
+    steps = range(1, len(widths))
+    fits = not wide or sum(widths) - 2 <= wide
+    at_once = max(1, len(steps) if fits else (wide - 2) // max(widths[1:]))
+    for first in steps[::at_once]:
+        yield [(row[0], *row[first : first + at_once]) for row in rows]
 
 
 def cell_text(ends: Sequence[RunEnd]) -> str:
@@ -103,10 +118,14 @@ ReplayCommand = Callable[[str], str]
 """Returns the command line that runs one run again, by its identifier."""
 
 
-def campaign_lines(campaign: Campaign, replay: ReplayCommand) -> Iterator[str]:
-    """Yield the matrix of each rehearsal, pairs, outcomes with their bounds, limits, and what failed."""
+def campaign_lines(campaign: Campaign, replay: ReplayCommand, wide: int = 0) -> Iterator[str]:
+    """Yield the matrix of each rehearsal, pairs, outcomes with their bounds, limits, and what failed.
+
+    Args:
+        wide: columns of the terminal, zero for a file.
+    """
     for baseline in campaign.baselines:
-        yield from matrix_lines(matrix_of(baseline.run.entry, campaign.ends))
+        yield from matrix_lines(matrix_of(baseline.run.entry, campaign.ends), wide)
         yield ""
     if campaign.ends:
         yield legend(campaign.ends)

@@ -12,8 +12,9 @@ from cellc.contract.compute.fan import Fan
 from cellc.contract.compute.processes import usable_cores
 from cellc.contract.compute.work import ComputeError, ExecutorFactory
 from cellc.contract.diagnostics import nearest
+from cellc.contract.diagnostics.wording import time_left
 from cellc.contract.limits import limits, option
-from cellc.contract.printing import progress, remark, show, show_document, time_left
+from cellc.contract.printing import columns, progress, remark, show, show_document
 from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
@@ -42,7 +43,7 @@ def run_campaign(options: CampaignOptions) -> int:
     if options.as_json:
         show_document(campaign_json(campaign, cell.notes, options.replayed_by))
     else:
-        show(*(f"note: {note}" for note in cell.notes), *campaign_lines(campaign, options.replayed_by))
+        show(*(f"note: {note}" for note in cell.notes), *campaign_lines(campaign, options.replayed_by, columns(0)))
     return 0 if campaign.passed else 1
 
 

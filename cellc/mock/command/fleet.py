@@ -10,10 +10,11 @@ from time import perf_counter, process_time
 from typing import Literal
 
 from cellc.contract.compute.work import Work, in_order, stream
+from cellc.contract.diagnostics.wording import time_left
 from cellc.contract.fleet import FleetRehearsal, FleetRow, FleetSweep
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import limits, option
-from cellc.contract.printing import progress, time_left
+from cellc.contract.printing import progress
 from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import cell_of, in_turn, read_to_run
 from cellc.mock.command.campaign import executor

@@ -21,9 +21,10 @@ from cellc.compiler.catalog.compiled import DEVICE_FILE
 from cellc.compiler.rules.shared_domain import Presence, presence_of, shared_domains
 from cellc.contract.compute.fan import USUAL, Fan
 from cellc.contract.diagnostics.diagnostic import Findings
+from cellc.contract.diagnostics.wording import time_left
 from cellc.contract.file_names import SPEC_FILE
 from cellc.contract.limits import Limits, children_seconds, limits, use
-from cellc.contract.printing import progress, remark, time_left
+from cellc.contract.printing import progress, remark
 from cellc.contract.signals import within
 from cellc.contract.store.cache import passing_answers
 from cellc.contract.store.regular_file import open_regular

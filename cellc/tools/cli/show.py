@@ -6,7 +6,7 @@ import click
 
 from cellc.compiler.pipeline import check
 from cellc.contract.diagnostics import did_you_mean
-from cellc.contract.printing import Style, Styled
+from cellc.contract.printing import Style, Styled, columns
 from cellc.contract.printing import show as show_lines
 from cellc.tools.cli.findings import linked
 from cellc.tools.cli.limit_option import limit_option
@@ -35,7 +35,9 @@ def show(file: str, path: str) -> None:
     if not leaves:
         show_lines(f"`{path}` is empty")
     width = max((len(name) for name, _ in leaves), default=0)
-    show_lines(*((f"{name:<{width}}  {leaf.text}", Styled(f"  # {leaf.origin}", Style.DIM)) for name, leaf in leaves))
+    width = min(width, columns(2 * width) // 2)  # on a terminal the other half is for the values
+    values = ((name, leaf.text or "(empty)", leaf.origin) for name, leaf in leaves)
+    show_lines(*((f"{name:<{width}}  {text}", Styled(f"  # {origin}", Style.DIM)) for name, text, origin in values))
 
 
 def _at(tree: Tree, path: str) -> Tree:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.diagnostics import Span
 from cellc.contract.diagnostics.unsafe_text import escaped_character
-from cellc.contract.printing import Line, Style, Styled
+from cellc.contract.folding import LEAST, cells
+from cellc.contract.printing import Line, Style, Styled, columns
 
 _TAB_STOP = 4
-_WIDEST = 110
+WIDEST = 110
 _CONTEXT = 24
 _CUT = "..."
 
@@ -25,7 +25,7 @@ class Excerpt:
     marked_cells: int
 
 
-def excerpt(line: str, start: int, end: int) -> Excerpt:
+def excerpt(line: str, start: int, end: int, widest: int = WIDEST) -> Excerpt:
     """Return the visible part of ``line`` with the characters ``start`` to ``end`` marked.
 
     Tabs become spaces, control characters escapes; wide characters count two cells and combining ones none. A long line
@@ -34,29 +34,30 @@ def excerpt(line: str, start: int, end: int) -> Excerpt:
     Args:
         start: index of the first marked character; behind the line for its end.
         end: index after the last marked character.
+        widest: cells that are shown, beside the signs of a cut.
     """
-    first = _window_start(line, start)
-    cells, offset = [_CUT] if first else [], len(_CUT) if first else 0
+    first = _window_start(line, start, widest)
+    pieces, offset = [_CUT] if first else [], len(_CUT) if first else 0
     marked_from = marked_until = None
     for index in range(first, len(line)):
         shown = _shown(line[index], offset)
-        width = _width(shown)
-        if offset + width > _WIDEST:
-            cells.append(_CUT)
+        width = cells(shown)
+        if offset + width > widest:
+            pieces.append(_CUT)
             break
         marked_from = offset if index == start else marked_from
         offset += width
         marked_until = offset if index < end else marked_until
-        cells.append(shown)
+        pieces.append(shown)
     begin = marked_from if marked_from is not None else offset
-    return Excerpt("".join(cells).rstrip(), begin, max(1, (marked_until or 0) - begin))
+    return Excerpt("".join(pieces).rstrip(), begin, max(1, (marked_until or 0) - begin))
 
 
-def _window_start(line: str, start: int) -> int:
+def _window_start(line: str, start: int, widest: int) -> int:
     """Return the index at which the window begins: the start of the line where the culprit fits without a cut."""
     start = min(start, len(line))
     # No character but an escaped one is wider than two cells, so half the width always fits.
-    return 0 if start <= _WIDEST // 2 else start - _CONTEXT
+    return 0 if start <= widest // 2 else start - min(_CONTEXT, widest // 4)
 
 
 def _shown(character: str, offset: int) -> str:
@@ -65,16 +66,10 @@ def _shown(character: str, offset: int) -> str:
     return escaped_character(character)
 
 
-def _width(shown: str) -> int:
-    return sum(_character_width(character) for character in shown)
-
-
-def _character_width(character: str) -> int:
-    if character.isascii():
-        return 1
-    if unicodedata.category(character) in ("Mn", "Me"):
-        return 0
-    return 2 if unicodedata.east_asian_width(character) in ("W", "F") else 1
+def _room(gutter: int) -> int:
+    """Return the cells of a line behind its number and bar, and before the sign of a cut."""
+    beside = gutter + len(" | ") + len(_CUT)
+    return min(WIDEST, max(columns(WIDEST + beside), LEAST) - beside)
 
 
 Texts = Mapping[str, Sequence[str]]
@@ -95,7 +90,7 @@ def render_snippet(span: Span, texts: Texts, *, gutter: int, mark: str, style: S
         return shown
     line = file[span.line - 1]
     end = span.end_column - 1 if span.end_line == span.line else len(line)
-    part = excerpt(line, span.column - 1, end)
+    part = excerpt(line, span.column - 1, end, _room(gutter))
     carets = Styled(mark * part.marked_cells, style)
     shown.append((f"{margin} ", bar))
     shown.append((Styled(f"{span.line:>{gutter}}", Style.BLUE), " ", bar, f" {part.text}".rstrip()))

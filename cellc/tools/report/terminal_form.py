@@ -8,17 +8,15 @@ from itertools import groupby
 from textwrap import wrap
 
 from cellc.contract.diagnostics.wording import aligned
+from cellc.contract.folding import LEAST
 from cellc.contract.printing import columns, show, show_document
-
-_LEAST = 40
-"""Columns below which nothing is folded any further."""
 
 
 def show_markdown(text: str) -> None:
     """Print a document: as it is for a file or another program, and in the form of a terminal on one."""
     wide = columns(0)
     if wide:
-        show(*terminal_form(text, max(wide, _LEAST)))
+        show(*terminal_form(text, max(wide, LEAST)))
     else:
         show_document(text)
 

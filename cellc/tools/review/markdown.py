@@ -84,8 +84,8 @@ def _of_group(group: Group, room: int) -> tuple[list[str], int]:
         f"<details><summary>{', '.join(grades_of(group.changes))}</summary>",
         "",
         *([asks[2:], ""] if asks else []),
-        "| grade | area | what | before | after | difference | approval |",
-        "|---|---|---|---|---|---|---|",
+        "| grade | area | what | change | approval |",
+        "|---|---|---|---|---|",
     ]
     ends = ["", "</details>", ""]
     if _length(lines) + _length(ends) > room:
@@ -107,16 +107,22 @@ def _row(change: ReviewChange) -> str:
     approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {owner}"
     if approval and change.beside is not None:
         approval += f"<br>{change.beside}: {as_prose(change.beside_owner) or 'no owner'}"
-    cells = (
-        change.grade,
-        change.area,
-        what,
-        _value(change.before),
-        _value(change.after),
-        _value(change.delta),
-        approval,
-    )
-    return f"| {' | '.join(cells)} |"
+    return f"| {' | '.join((change.grade, change.area, what, _values(change), approval))} |"
+
+
+_SHORT = 48
+
+
+def _values(change: ReviewChange) -> str:
+    """Return both values with their difference; of lists what they lost and gained, where that is shorter."""
+    before, after, delta = change.before or "nothing", change.after or "nothing", change.delta
+    if delta.startswith(("lost ", "new ")):
+        if len(delta) < len(before) + len(after):
+            lost, _, new = delta.partition("; new ")
+            return _value(lost) + (f"<br>{_value(f'new {new}')}" if new else "")
+        delta = ""
+    between = " -> " if len(before) + len(after) <= _SHORT else "<br>-> "
+    return f"{_value(before)}{between}{_value(after)}" + (f"<br>{_value(delta)}" if delta else "")
 
 
 def _tail(review: Review) -> Iterator[str]:

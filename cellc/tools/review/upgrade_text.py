@@ -8,7 +8,7 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.upgrade import Upgrade, UpgradeInterface, UpgradeParameter, UpgradePin
 from cellc.contract.vocabulary import UNKNOWN
-from cellc.tools.review.markdown import LONGEST, as_code, folded, render_markdown
+from cellc.tools.review.markdown import LONGEST, as_code, as_prose, folded, render_markdown
 from cellc.tools.review.text import finding_lines, gate_line, render_review
 
 _FEW = 6
@@ -41,16 +41,16 @@ def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
     Args:
         longest: characters; what does not fit is counted.
     """
-    head = [f"### {as_code(summed_up(upgrade))}", "", *(f"- {as_code(fact)}" for fact in upgrade.facts), ""]
-    head += folded("To decide", map(as_code, upgrade.questions), is_open=True)
-    errors = (f"{as_code(finding.code)}: {as_code(finding.message)}" for finding in upgrade.errors)
+    head = [f"### {as_prose(summed_up(upgrade))}", "", *(f"- {as_prose(fact)}" for fact in upgrade.facts), ""]
+    head += folded("To decide", map(as_prose, upgrade.questions), is_open=True)
+    errors = (f"{as_code(finding.code)}: {as_prose(finding.message)}" for finding in upgrade.errors)
     head += folded("Errors of the check", errors, is_open=True)
-    pins = (f"{as_code(_moved(pin))} {pin.answer}: {as_code(pin.evidence)}" for pin in upgrade.pins)
+    pins = (f"{as_prose(_moved(pin))} {pin.answer}: {as_prose(pin.evidence)}" for pin in upgrade.pins)
     head += folded("Version tuple", pins, is_open=True)
-    head += folded("Declared parameters", (as_code(parameter_line(row)) for row in _alike(upgrade.parameters)))
-    head += folded("Names at the ROS graph", (as_code(interface_line(interface)) for interface in upgrade.interfaces))
+    head += folded("Declared parameters", (as_prose(parameter_line(row)) for row in _alike(upgrade.parameters)))
+    head += folded("Names at the ROS graph", (as_prose(interface_line(interface)) for interface in upgrade.interfaces))
     if upgrade.review is None:
-        return "\n".join((*head, *folded("Gates to repeat", (as_code(gate_line(gate)) for gate in upgrade.gates))))
+        return "\n".join((*head, *folded("Gates to repeat", (as_prose(gate_line(gate)) for gate in upgrade.gates))))
     text = "\n".join(head) + "\n"
     return text + render_markdown(upgrade.review, longest - len(text))
 
