@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 LEAST = 40
 """Columns below which nothing is folded any further."""
 _WORD = re.compile(r"(?:`[^`]*`|(?<=\d) (?=[A-Za-z%]{1,3}\b)|\S)+")
-"""What stays whole: a word, a number with its unit, or what stands in backticks, which is copied."""
+"""What stays whole: a word, a number with its unit, or what is in backticks, which is copied."""
 _SIGN = re.compile(r" *(?:[-*] |\d+\. )?")
 _COLUMN = re.compile(r"(?<=\S)  +(?=\S)")
 
@@ -29,7 +29,7 @@ def _cells_of(character: str) -> int:
 
 
 def folded(pieces: Sequence[Piece], wide: int) -> Iterator[Sequence[Piece]]:
-    """Yield the pieces of each line of the terminal; what goes on stands below the last column of its line.
+    """Yield the pieces of each line of the terminal; what goes on is below the last column of its line.
 
     Args:
         wide: columns; a longer word is left whole, so that it can be copied. Zero for no end of a line.

@@ -88,7 +88,7 @@ def test_values_and_their_difference_are_one_cell_and_a_list_says_only_what_it_l
         "850 mm -> 1300 mm<br>+450 mm",
         "lost e<br>new f",
         "`a, b` -> `c, d`",
-        f"nothing<br>-> `{'x' * 60}`",
+        f"not stated<br>-> `{'x' * 60}`",
     ]
 
 

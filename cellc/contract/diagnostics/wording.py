@@ -10,7 +10,7 @@ def aligned(rows: Iterable[Iterable[str]], wide: int = 0) -> list[str]:
 
     Args:
         rows: of one length; the first may name the columns.
-        wide: columns of a terminal; where a row is wider, a long first cell stands above the others. Zero for a file.
+        wide: columns of a terminal; where a row is wider, a long first cell is above the others. Zero for a file.
     """
     table = [tuple(row) for row in rows]
     widths = [max(map(len, column)) for column in zip(*table, strict=True)]

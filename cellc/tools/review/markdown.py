@@ -26,7 +26,7 @@ _OPEN_FINDINGS = 4
 _PLAIN = re.compile(r"[-+]?[0-9]{1,6}(?:[.-][0-9]{1,6})*%?|[A-Za-z]{1,30}|->|[-+%]|")
 """Words that no reader of Markdown takes for anything else."""
 _CODE = re.compile(r"(?<![^\s(])`([^`\s][^`]*)`(?![^\s.,;:)])")
-_WORD = re.compile(r"(\(*)(.*?)([.,;:)]*)")
+_WORD = re.compile(r"(\(*)(.*?)([.,;:?)]*)")
 
 
 def render_markdown(review: Review, longest: int = LONGEST) -> str:
@@ -115,7 +115,7 @@ _SHORT = 48
 
 def _values(change: ReviewChange) -> str:
     """Return both values with their difference; of lists what they lost and gained, where that is shorter."""
-    before, after, delta = change.before or "nothing", change.after or "nothing", change.delta
+    before, after, delta = change.before or "not stated", change.after or "not stated", change.delta
     if delta.startswith(("lost ", "new ")):
         if len(delta) < len(before) + len(after):
             lost, _, new = delta.partition("; new ")

@@ -45,7 +45,7 @@ def upgrade_markdown(upgrade: Upgrade, longest: int = LONGEST) -> str:
     head += folded("To decide", map(as_prose, upgrade.questions), is_open=True)
     errors = (f"{as_code(finding.code)}: {as_prose(finding.message)}" for finding in upgrade.errors)
     head += folded("Errors of the check", errors, is_open=True)
-    pins = (f"{as_prose(_moved(pin))} {pin.answer}: {as_prose(pin.evidence)}" for pin in upgrade.pins)
+    pins = (f"{as_prose(_moved(pin))}; **{pin.answer}**: {as_prose(pin.evidence)}" for pin in upgrade.pins)
     head += folded("Version tuple", pins, is_open=True)
     head += folded("Declared parameters", (as_prose(parameter_line(row)) for row in _alike(upgrade.parameters)))
     head += folded("Names at the ROS graph", (as_prose(interface_line(interface)) for interface in upgrade.interfaces))
