@@ -11,6 +11,6 @@ for (const table of document.querySelectorAll("[role=main] table")) {
     text.replaceWith(...parts.flatMap((part, at) => (at ? [document.createElement("wbr"), part] : [part])));
   }
 }
-// A block of code that scrolls is reached by the keyboard; the bar above is found by a screen reader.
-for (const block of document.querySelectorAll("pre")) block.tabIndex = 0;
+// What scrolls is reached by the keyboard; the bar above is found by a screen reader.
+for (const block of document.querySelectorAll("pre, p:has(> img)")) block.tabIndex = 0;
 document.querySelector(".navbar").setAttribute("role", "navigation");

@@ -15,6 +15,7 @@ from cellc.tools.attempt.signals import Signals
 from tests.attempt.hand_made import JOINTS, MS, HandMade, arrived, attempted, protective_stop
 from tests.cells import generated
 from tests.cli.run import run
+from tests.view.page import unheard
 
 
 class Page(HTMLParser):
@@ -140,5 +141,6 @@ def test_sliding_joints_are_lengths(tmp_path: Path) -> None:
     assert ran.code == 0
     bag = sorted(folder.glob("*.mcap"))[0]
     shown = run("attempt", bag.as_posix(), "--package", generated("rail_arm").as_posix(), "--format", "html").out
+    assert unheard(shown) == []
     assert re.search(r"state [−0-9.]+ … [−0-9.]+ m<", shown)
     assert re.search(r"state [−0-9.]+ … [−0-9.]+ rad<", shown)

@@ -15,6 +15,7 @@ import pytest
 from tests.cells import ROOT
 from tests.cli.run import run
 from tests.evidence.attempts import complete, notes, observe, package
+from tests.view.page import unheard
 
 PACKAGE = ("--package", package("ur5e_pick").as_posix())
 
@@ -98,6 +99,7 @@ class _Page(HTMLParser):
 
 def test_the_page_is_alone_and_has_a_line_to_sign_for_every_gate(whole: Path) -> None:
     text = run("evidence", whole.as_posix(), *PACKAGE, "--format", "html").out
+    assert unheard(text) == []
     page = _Page()
     page.feed(text)
     assert not page.tags & {"script", "link", "img", "iframe", "object"}

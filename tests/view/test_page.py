@@ -24,7 +24,7 @@ from tests.cells import ROOT, spec_text
 from tests.cells import written as written_spec
 from tests.cli.run import PICK, Ran, run
 from tests.report.findings import finding
-from tests.view.page import Page
+from tests.view.page import Page, unheard
 
 HOSTILE = "</script><script>alert(1)</script><!--<script>\u2028<img src=x onerror=alert(1)>\"'&lt;"
 
@@ -57,6 +57,15 @@ def test_the_page_loads_nothing_and_names_nothing_to_load(written: Path, page: P
     assert {name for name in named if not name.startswith(("#", "data:image/svg+xml;base64,"))} == set()
     assert not any(re.search(r"url\(|@import", style) for style in page.styles)
     assert written.stat().st_size < 2_000_000
+
+
+def test_a_screen_reader_has_a_word_for_everything(written: Path) -> None:
+    assert unheard(written.read_text(encoding="utf-8")) == []
+
+
+def test_a_drawing_that_scrolls_is_reached_by_the_keyboard(page: Page) -> None:
+    scrolling = [found for tag, found in page.elements if tag == "div" and "tabindex" in found]
+    assert {found["aria-label"] for found in scrolling} >= {"From two sides", "Who talks to whom"}
 
 
 def test_the_browser_is_told_to_run_the_scripts_of_the_page_alone(page: Page) -> None:

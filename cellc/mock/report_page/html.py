@@ -51,7 +51,7 @@ def _parts(child: Child, tag_name: str) -> Iterator[Child]:
 def cards(names: Sequence[str], rows: Iterable[Sequence[Child]]) -> Element:
     """Return a table whose rows are cards on a phone, each value with its name; a value may be a cell already."""
     body = (tag("tr", *(_named(cell, name) for name, cell in zip(names, row, strict=True))) for row in rows)
-    head = tag("thead", tag("tr", *(tag("th", name) for name in names)))
+    head = tag("thead", tag("tr", *(tag("th" if name else "td", name) for name in names)))
     return tag("div", tag("table", head, tag("tbody", *body), class_="cards"), class_="wide")
 
 

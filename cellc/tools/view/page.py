@@ -219,7 +219,8 @@ def _pictures(pictures: Mapping[str, str]) -> Iterator[Element]:
         id_, title, words = _CAPTIONS[file]
         # As a picture, nothing in it runs, even in an untrusted file.
         sheets = [tag("img", src=_source(sheet), alt=words) for sheet in _sheets(text)]
-        yield section(title, tag("figure", tag("div", *sheets, class_="wide")), id_=id_)
+        pushed = tag("div", *sheets, class_="wide", tabindex="0", role="group", aria_label=title)
+        yield section(title, tag("figure", pushed), id_=id_)
 
 
 def _source(picture: str) -> str:
@@ -272,7 +273,8 @@ def _offered(content: Content) -> set[str]:
 
 
 def _titled(title: str, content: Element) -> tuple[Element, Element]:
-    return tag("h3", title), content
+    content.attrib.update({"role": "group", "aria-label": title})
+    return tag("p", title, class_="title"), content
 
 
 def _layer(name: str, words: str, checked: bool) -> Element:

@@ -12,6 +12,7 @@ import pytest
 from cellc.mock import MockCell
 from cellc.mock.cell import cell_of
 from tests.mock.conftest import Written, received, write_evidence
+from tests.view.page import unheard
 
 
 class Page(HTMLParser):
@@ -40,6 +41,10 @@ def text(written: Written) -> str:
 @pytest.fixture(scope="module")
 def page(text: str) -> Page:
     return Page(text)
+
+
+def test_a_screen_reader_has_a_word_for_everything(text: str) -> None:
+    assert unheard(text) == []
 
 
 def test_report_needs_nothing_from_outside(text: str, page: Page) -> None:
