@@ -36,6 +36,9 @@ class Graph:
         self.plant: Plant | None = None
         self.clock_ns = 0
         self.published: list[str] = []
+        self.ahead_ns = -(10**9)
+        """By how much the newest joint state was ahead of the time at which an image was published, at most."""
+        self._states_ns = 0
         self.distro = str(changes.get("distro", "jazzy"))
         self.seen = frozenset(changes.get("nodes", {"/perception"}))
         self.ends: Mapping[str, Sequence[GraphEnd]] = {
@@ -89,7 +92,11 @@ class Graph:
         self.published.append(topic)
         if topic == "/clock":
             self.clock_ns = _stamp_ns(data)
+        elif topic == "/joint_states":
+            self._states_ns = _stamp_ns(data)
         elif topic == IMAGES:
+            if self.plant is not None:
+                self.ahead_ns = max(self.ahead_ns, self._states_ns - self.plant.now_ns)
             for name, said in self.node(self, _stamp_ns(data)):
                 self._said.append(Received(self._channels[name], said))
 
