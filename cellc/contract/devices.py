@@ -45,6 +45,11 @@ class ContractGripper(ContractModel):
         None, description="Angle between the cranks of its jaws and its fingers when closed; null where jaws slide."
     )
 
+    @property
+    def unit(self) -> str:
+        """Unit of the positions of its joint: jaws that slide have lengths."""
+        return "m" if self.swing is None else "rad"
+
     def position(self, width_m: float) -> float:
         """Return the position of its joint with the jaws so far apart, rad or m.
 
@@ -79,7 +84,9 @@ class ContractCamera(ContractModel):
 
     topic: str = Field(description="Full name of the image topic.")
     frame: str = Field(description="Optical frame of the images.")
-    rate_hz: Rate = Field(description="Frames a second.")
+    rate_hz: Annotated[Rate, Graded(ReviewArea.DEVICES, "rate of images", share=False)] = Field(
+        description="Frames a second."
+    )
     exposure_s: Annotated[Seconds, Graded(ReviewArea.TIME)] = Field(description="Exposure time.")
     clock: str = Field(description="Clock domain of the stamps.")
     images: tuple[ContractImages, ...] = Field((), description="Its streams, where their size and view are known.")

@@ -98,7 +98,7 @@ def test_joint_states_that_stop_are_stale_state(tmp_path: Path) -> None:
     bag.end_move(610 * MS, CANCELED, canceled_ns=600 * MS)
     finding = read(bag.write(tmp_path / "frozen"))["attempts"][-1]["finding"]
     assert finding["layer"] == "stale state"
-    assert finding["message"] == "joint state is 0.202 s old, 0.1 s allowed"
+    assert finding["message"] == "joint state is 0.202 s old, 0.100 s allowed"
 
 
 def test_tolerance_is_the_words_of_the_controller(tmp_path: Path) -> None:

@@ -21,7 +21,10 @@ def _claim(controller: str) -> tuple[str, str]:
 
 
 def test_claim_of_a_controller_of_the_mock_alone_reaches_no_hardware() -> None:
-    assert _claim("hand_action") == ("fr3_finger_joint1/position", "only on the mock; active from startup")
+    assert _claim("hand_action") == (
+        "fr3_finger_joint1/position",
+        "only on the mock, through mock_components/GenericSystem; active from startup",
+    )
 
 
 def test_claim_that_differs_between_the_targets_is_told_of_each() -> None:

@@ -58,9 +58,9 @@ action annotates what is new, and what fails (`cellc check --format github --aga
 of each cell that changed in one page (`cellc view SPEC --against REVISION`).
 
 Of a device with another model the heading has reach, payload, stroke and force before and after, how far its shapes
-get from the mount, and what its links weigh in the description. Joints and links that one model alone has are one
-change. What the spec states for the model before and was left (the payload of the arm that carries it, frames on it,
-its mount, poses, the width of parts) is listed as left as it was.
+get from the mount, and what its links weigh in the description, of a camera range, view and resolution. Joints and
+links that one model alone has are one change. What the spec states for the model before and was left (the payload of
+the arm that carries it, frames on it, its mount, poses, the width of parts) is listed as left as it was.
 
 A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line with what it
 names, with how many names follow and which of those break consumers. What else changed is compared under the new

@@ -115,7 +115,7 @@ def test_a_new_measurement_is_one_cause_with_what_it_measured() -> None:
     (group,) = groups_of(found)
     assert group.title.startswith("calibrations.hand_eye (cell.yaml:59, 50): revision 4 -> 5, ")
     # By hand: sqrt(1 + 1 + 0.25) mm, and of two turns of 0.2 and 0.1 deg about axes at right angles 0.224 deg.
-    assert group.figures == ("camera_bottom_screw_frame moves 1.5 mm, turns 0.2236 deg",)
+    assert group.figures == ("camera_bottom_screw_frame moves 1.5 mm, turns 0.224 deg",)
     assert {change.area.value for change in group.changes} == {"frames", "calibration"}
 
 

@@ -176,7 +176,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "xyz 491.9 133.3 1114.9 mm, rpy 180 0 179 deg | turns 1 deg",
             "review interfaces | /camera/color/image_raw | rate | 30 Hz -> 15 Hz | -50 %",
             "review QoS | /object_pose subscribers task | quality of service reliability | reliable -> best_effort",
-            "review devices | camera | device camera.rate_hz | 30 Hz -> 15 Hz | -50 %",
+            "review devices | camera | rate of images | 30 Hz -> 15 Hz | -15 Hz",
             "review start order | launch/goal.launch.xml | 1 line (not classified) | "
             f"{_first_goal(0.04363323129985824, 2.5)} -> {_first_goal(0.08726646259971647, 2.5)}",
             f"safe documents | audit.md | 2 lines (not classified) | {_ages(41.33)} -> {_ages(74.67, 300)}",
@@ -195,11 +195,11 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
         ),
         [
             f"dangerous limits | {ARM} | velocity | 90 deg/s -> 108 deg/s | +20 %",
-            f"dangerous control | {OF_TRAJECTORY} | path tolerance | 11.45916 deg -> 17.18873 deg | +50 %",
+            f"dangerous control | {OF_TRAJECTORY} | path tolerance | 0.2 rad -> 0.3 rad | +50 %",
             "dangerous control | arm_trajectory | time past the end | 1 s -> 2 s | +100 %",
             "review model | table | collision shapes | box 900 1200 40 mm -> box 900 1200 60 mm"
             " | gains 10 mm on each side in z",
-            f"review control | {OF_TRAJECTORY} | goal tolerance | 0.572958 deg -> 0.286479 deg | -50 %",
+            f"review control | {OF_TRAJECTORY} | goal tolerance | 0.01 rad -> 0.005 rad | -50 %",
             "review motion | pick | approach | 0 0 -100 mm -> 0 0 -80 mm",
             "review motion | home manipulator | joint positions | 0 -90 90 -90 -90 0 deg -> 90 -90 90 -90 -90 0 deg",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
@@ -208,7 +208,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             # A fifth more than 6.055 m/s: 90 deg/s at 1.212, 1.212, 0.787, 0.372 and 0.273 m from the axes.
             f"safe documents | audit.md | 4 lines (not classified) | {_tips(0.61, 1.6, 3.1)} -> "
             f"{_tips(0.73, 1.9, 3.7)}",
-            f"safe limits | {ARM} | acceleration | 143.2394 deg/s^2 -> 114.5916 deg/s^2 | -20 %",
+            f"safe limits | {ARM} | acceleration | 143.24 deg/s^2 -> 114.59 deg/s^2 | -20 %",
         ],
     ),
     "what it is made of": (

@@ -10,6 +10,7 @@ import zlib
 import pytest
 
 from cellc.contract.review import Review
+from cellc.contract.vocabulary import Grade
 from cellc.tools.review.review import review
 from cellc.tools.review.short import MOST_LINES, render_short
 from cellc.tools.review.sides import package_of
@@ -45,6 +46,7 @@ def _is_taken(leaf: SpecLeaf, *, every: bool) -> bool:
 def test_a_leaf_that_changed_is_a_fact_with_a_name(cell: str, request: pytest.FixtureRequest) -> None:
     taken = [leaf for leaf in leaves_of(cell) if _is_taken(leaf, every=request.config.option.long)]
     silent, contradicting, long, tried = dict[str, str](), list[str](), list[str](), 0
+    unreasoned = list[str]()
     for leaf in taken:
         other = changed(leaf)
         if other is None or leaf.name in WITHOUT_EFFECT:
@@ -55,6 +57,7 @@ def test_a_leaf_that_changed_is_a_fact_with_a_name(cell: str, request: pytest.Fi
         if not names_a_fact(found):
             silent[leaf.name] = f"{leaf.text} -> {text}"
         contradicting += [leaf.name] if _contradicts(found) else []
+        unreasoned += [leaf.name for change in found.changes if change.grade is Grade.DANGEROUS and not change.why][:1]
         long += [leaf.name] if len(list(render_short(found))) > MOST_LINES else []
-    assert (silent, contradicting, long) == ({}, [], [])
+    assert (silent, contradicting, long, unreasoned) == ({}, [], [], [])
     assert tried > 0.5 * len(taken) or len(taken) < 40

@@ -21,7 +21,7 @@ def _facts(spec: Path) -> dict[str, Leaf]:
     ("path", "value"),
     [
         ("spec/safety/stop/authority", "safety_plc"),
-        ("spec/bringup/first_motion/arm/joint_6/direction", "+"),
+        ("spec/bringup/first_motion/arm/direction", "+"),
         ("spec/network/domain_id", 42),
         ("spec/targets/mock/hardware", "mock"),
         ("frame/fixture_A/reference_points", 3),

@@ -6,7 +6,7 @@ import pytest
 
 from cellc.contract.base import Json
 from cellc.contract.transforms import Pose
-from cellc.tools.review.leaves import Leaf, flatten, said, same
+from cellc.tools.review.leaves import Leaf, differences, flatten, said, same
 from cellc.tools.review.revisions import _leads_out
 
 
@@ -22,6 +22,10 @@ from cellc.tools.review.revisions import _leads_out
 )
 def test_an_entry_in_words(entry: Json, words: str) -> None:
     assert said(entry) == words
+
+
+def test_nothing_is_no_difference_from_an_empty_list() -> None:
+    assert differences({("a",): (), ("b",): ("x",)}, {("b",): ("x",), ("c",): ""}) == ()
 
 
 def test_entries_with_names_of_their_own_are_told_by_them() -> None:

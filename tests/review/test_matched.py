@@ -195,6 +195,14 @@ def test_lines_of_the_folder_of_a_device_cause_what_they_change_and_an_arm_that_
     assert [change.quantity for change in quicker.changes] == ["acceleration"]
 
 
+def test_a_file_that_a_description_includes_from_outside_of_its_folder_is_named(tmp_path: Path) -> None:
+    inertia = ("../shapes.xacro", "${mass * (y**2 + z**2) / 12}", "${mass * (y**2 + z**2) / 6}")
+    found = review(_on_own_axis(tmp_path / "before"), _on_own_axis(tmp_path / "after", inertia))
+    (group,) = groups_of(found)
+    assert group.title.startswith("devices/shapes.xacro inertia ixx: ${mass * (y**2 + z**2) / 12} -> ")
+    assert {change.quantity for change in group.changes} == {"inertia ixx"}
+
+
 def test_texts_of_the_folder_of_a_device_cause_nothing(tmp_path: Path) -> None:
     before = _on_own_axis(tmp_path / "before")
     after = _on_own_axis(tmp_path / "after", ("device.yaml", "summary: carriage", "summary: a carriage"))

@@ -8,7 +8,9 @@ import pytest
 
 from cellc.contract.printing import as_text
 from cellc.contract.review import Review, ReviewChange
+from cellc.tools.review.effects import _of_measured
 from cellc.tools.review.groups import groups_of
+from cellc.tools.review.replaced import MASS, Measured
 from cellc.tools.review.short import MOST_LINES, render_short
 from tests.review.edits import review_of
 
@@ -33,6 +35,50 @@ def test_a_larger_gripper_begins_with_stroke_force_and_length() -> None:
     assert told.index("stroke") < told.index("left as it was: devices.arm.payload {mass: 1.0 kg")
     for kept in ("frames.tcp.xyz 0 0 162 mm", "frames.object.grasp.width 77 mm", "devices.gripper.mount.xyz 0 0 11 mm"):
         assert kept in told
+
+
+def test_another_camera_begins_with_what_it_sees() -> None:
+    found = review_of("ur5e_pick", ("model: realsense_d435i", "model: realsense_d455"))
+    (group,) = groups_of(found)
+    # Intel 337029: the D455 measures from 0.52 m on, and its color sensor sees 90 by 65 deg, the D435i 69 by 42 deg.
+    assert group.figures[:3] == (
+        "range of depth 0.1 to 10 m -> 0.52 to 6 m",
+        "range of color 0.1 to 10 m -> 0.52 to 6 m",
+        "field of view of color 69 x 42 deg -> 90 x 65 deg",
+    )
+
+
+def test_a_mass_without_the_inertia_of_a_link_has_no_difference() -> None:
+    told = _of_measured(Measured("arm", MASS, 21.7, 8.571, (0, 3)))
+    assert (told.before, told.after, told.delta) == ("21.7 kg", "8.571 kg (3 links have no inertia)", "")
+    assert _of_measured(Measured("arm", MASS, 20.0, 25.0)).delta == "+25 %"
+
+
+def test_a_joint_that_turns_without_end_has_no_missing_limit() -> None:
+    found = review_of(
+        "gen3_2f",
+        ("model: kinova_gen3_2f_85", "model: kinova_gen3_6dof_2f_85"),
+        ("0 15 180 -130 0 55 90 deg", "0 15 -130 0 55 90 deg"),
+        ("arm/joint_7", "arm/joint_6"),
+    )
+    lower = _change(found, "lower position", "joint_4")
+    assert lower.after == "no end (continuous)"
+    assert (lower.before or "").endswith(" deg")
+    first, *_ = groups_of(found)
+    assert first.title.startswith("devices.arm.model: ")  # and not the first motion that follows from it
+
+
+def test_a_value_has_the_unit_of_the_line_that_causes_it() -> None:
+    found = review_of("rail_arm", ("path_tolerance: 0.2 rad 20 mm", "path_tolerance: 0.3 rad 3 cm"))
+    told = {(change.before, change.after, change.delta) for change in found.changes}
+    assert told == {("0.2 rad", "0.3 rad", "+50 %"), ("2 cm", "3 cm", "+50 %")}
+
+
+def test_positions_of_fingers_that_turn_and_that_slide_have_each_their_unit() -> None:
+    found = review_of("ur5e_pick", ("model: robotiq_2f_85", "model: franka_hand"))
+    told = _change(found, "least joint position that holds it")
+    assert [(text or "").split()[-1] for text in (told.before, told.after)] == ["deg", "mm"]
+    assert told.delta == ""
 
 
 def test_joints_and_links_of_a_model_are_one_change_that_breaks_consumers_of_the_frames() -> None:

@@ -15,7 +15,7 @@ from cellc.tools.review.groups import groups_of
 from cellc.tools.review.leaves import Delta
 from cellc.tools.review.markdown import render_markdown
 from cellc.tools.review.review import review
-from cellc.tools.review.short import MOST_LINES, render_short
+from cellc.tools.review.short import MOST_LINES, cut, render_short
 from cellc.tools.review.sides import package_of
 from tests.cells import spec_of
 from tests.review.edits import package_before, review_of
@@ -151,6 +151,14 @@ def test_stiffness_of_a_joint_is_dangerous_and_both_safety_and_control_are_asked
     assert "stiffness of the joint" in {change.quantity for change in found.changes if change.grade == "dangerous"}
     assert {group.asks for group in groups_of(found)} == {"safety (safety), controller (controls)"}
     assert not [change.quantity for change in found.changes if "law." in change.quantity]
+
+
+def test_what_is_cut_says_how_much_is_left() -> None:
+    assert cut("a b c") == "a b c"
+    assert cut("one two three four five six", 24) == "one two ... 4 words more"
+    found = review_of("ur5e_pick", ("model: robotiq_2f_85", "model: franka_hand"))
+    lines = as_text(render_short(found), color=False).splitlines()
+    assert not [line for line in lines if line.endswith("...")]
 
 
 def test_who_is_asked_is_never_cut_and_the_head_counts_as_every_other_form_does() -> None:

@@ -179,8 +179,9 @@ def claim_facts(
     owner = cell.owners.responsibilities.command
     yield f"owner {owner}; on a violation: {controller.on_violation}; watchdog: {watchdog(device)}"
     state = "active from startup" if controller.active else "alternate, inactive at startup"
-    driver = real_driver(device)
-    on_mock = "only on the mock, " + NO_DRIVER if driver == NO_DRIVER else "only on the mock"
+    driver, plugins = real_driver(device), {} if device.control.hardware is None else device.control.hardware.plugins
+    on_mock = f"only on the mock, through {plugins.get('mock', 'no plugin')}"
+    on_mock += f"; {NO_DRIVER}" if driver == NO_DRIVER else ""
     through = f"through {driver}" if "real" in controller.targets else on_mock
     yield f"{through}; {state}; architecture: {device.architecture}"
 

@@ -148,7 +148,7 @@ def check_command(
         return Refusal(RefusalReason.WRONG_SIZE, text)
     age_s = (now_ns - command.stamp_ns) / 1e9
     if abs(age_s) > model.command_timeout_s:
-        text = f"command is {age_s:.3f} s old, {model.command_timeout_s:g} s allowed"
+        text = f"command is {age_s:.4f} s old, {model.command_timeout_s:.4f} s allowed"
         return Refusal(RefusalReason.STALE, text)
     for joint, position, before in zip(model.joints, command.positions, last, strict=True):
         refusal = _check_joint(joint, position, before, model.command_period_s)

@@ -134,13 +134,10 @@ class TrajectoryFollower:
     def _follow(self, state: DeviceState) -> None:
         away, joint = self._worst(state)
         if away > self._path_tolerance:
-            name = self._adapter.model.joint_names[joint]
-            self._give_up(
-                FollowerResult(
-                    FollowerStatus.PATH_TOLERANCE_VIOLATED,
-                    f"`{name}` is {away:.4g} away from its command, {self._path_tolerance:g} allowed",
-                )
-            )
+            model, allowed = self._adapter.model, self._path_tolerance
+            name, unit = model.joint_names[joint], model.joints[joint].unit.value
+            text = f"`{name}` is {away:.4f} {unit} away from its command, {allowed:.4f} {unit} allowed"
+            self._give_up(FollowerResult(FollowerStatus.PATH_TOLERANCE_VIOLATED, text))
             return
         now_ns = self._adapter.now_ns()
         elapsed_s = (now_ns - self._begun_ns) / 1e9

@@ -50,3 +50,18 @@ def time_left(done: int, total: int, seconds: float) -> str:
         return ""
     left_s = (total - done) * max(seconds, 1e-3) / done
     return f", {left_s / 60:.0f} min left" if left_s >= _MINUTES_FROM_S else f", {left_s:.0f} s left"
+
+
+def both(value: float, bound: float) -> tuple[str, str]:
+    """Return two figures that are compared: with as many digits, and enough to see which is larger."""
+    texts = ("", "")
+    for digits in range(3, 10):
+        texts = (f"{value:.{digits}f}", f"{bound:.{digits}f}")
+        if texts[0] != texts[1]:
+            break
+    return texts
+
+
+def percent(share: float) -> str:
+    """Return a share of 1 in percent, with at most four digits and no zero at the end."""
+    return f"{100.0 * share:.4g} %"

@@ -10,7 +10,7 @@ import numpy as np
 
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import json_document
-from cellc.contract.diagnostics.wording import aligned
+from cellc.contract.diagnostics.wording import aligned, percent
 from cellc.contract.uncertainty import WHOLE, Uncertainty
 from cellc.mock.sweep.draws import draw
 from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
@@ -60,7 +60,7 @@ def count_lines(sweep: Sweep) -> Iterator[str]:
     runs, succeeded, rate = len(sweep.runs), len(sweep.runs) - len(sweep.failed), sweep.rate
     yield f"{sweep.rehearsal}: {runs} runs with seed {sweep.seed}, {succeeded} succeeded"
     yield (
-        f"success: {succeeded / runs:.2%}, between {rate.low:.2%} and {rate.high:.2%} "
+        f"success: {percent(succeeded / runs)}, between {percent(rate.low)} and {percent(rate.high)} "
         f"with confidence {rate.confidence:.4g} ({METHOD_INTERVAL})"
     )
     counted = Counter(run.outcome for run in sweep.runs)
@@ -90,7 +90,7 @@ def verdict_line(sweep: Sweep) -> str:
     expected, runs = sweep.expected, len(sweep.runs)
     if expected is None:
         return f"no verdict: the cell states no expected success rate for `{sweep.rehearsal}`"
-    wanted = f"{100.0 * expected.success:.6g}% of the runs must succeed, with confidence {expected.confidence:.4g}"
+    wanted = f"{percent(expected.success)} of the runs must succeed, with confidence {expected.confidence:.4g}"
     if sweep.verdict is None:
         return f"UNKNOWN: {wanted}; {runs} runs do not decide it"
     after = f"certain after {runs} of {sweep.asked} runs" if runs < sweep.asked else f"certain after {runs} runs"
@@ -129,7 +129,7 @@ def explained_table(sweep: Sweep) -> Table:
     rows = []
     for explanation in explanations(sweep) if sweep.failed else ():
         if explanation.explains:
-            half = "not known" if explanation.halved is None else f"{explanation.halved:.2%} fail"
+            half = "not known" if explanation.halved is None else f"{percent(explanation.halved)} fail"
             rows.append((explanation.name, f"{explanation.statistic:.2f}", f"{explanation.critical:.2f}", half))
     return [("explains failures", "distance", "by chance", "if half as uncertain"), *rows] if rows else ()
 

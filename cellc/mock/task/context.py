@@ -7,6 +7,7 @@ from dataclasses import field, fields
 
 from cellc.contract.attempt import AttemptFields, AttemptRecord, PacketStep, TracePoint
 from cellc.contract.contract import Contract, ContractBand
+from cellc.contract.diagnostics.wording import both
 from cellc.contract.errors import CellcError
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
@@ -121,9 +122,10 @@ def current_state(plant: Plant) -> CurrentState:
     stamp_ns, taken_ns, oldest = min(stamps, key=lambda one: one[:2])
     age_s = plant.clocks.age_ns(plant.task.name, stamp_ns) / 1e9
     if abs(age_s) > allowed_s:
-        aged = f"{age_s:.3f} s old, {allowed_s:g} s allowed" if age_s > 0 else f"stamped {-age_s:.3f} s in the future"
+        age, allowed = both(abs(age_s), allowed_s)
+        aged = f"{age} s old" if age_s > 0 else f"stamped {age} s in the future"
         why = starved_states(plant, oldest, allowed_s)
-        raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is {aged}; {why}")
+        raise AttemptError(AttemptOutcome.STALE_STATE, f"joint state is {aged}, {allowed} s allowed; {why}")
     return CurrentState(stamp_ns, taken_ns, age_s, positions)
 
 
@@ -278,8 +280,10 @@ class TaskContext:
                 if newest is not None:
                     position = float(feed.history.positions[newest, feed.history.names.index(band.joint)])
                     if not band.lower <= position <= band.upper:
-                        text = f"lost: joint {band.joint} of {device} is at {position:.4g}, with a part expected from"
-                        text += f" {band.lower:.4g} to {band.upper:.4g}"
+                        gripper = self.contract.devices[device].gripper
+                        unit = "" if gripper is None else f" {gripper.unit}"
+                        text = f"lost: joint {band.joint} of {device} is at {position:.4g}{unit}, with a part expected"
+                        text += f" from {band.lower:.4g} to {band.upper:.4g}{unit}"
                         raise AttemptError(AttemptOutcome.GRIP_FAILURE, text)
 
     def _check_time(self) -> None:

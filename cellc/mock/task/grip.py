@@ -61,7 +61,8 @@ def _require_part(state: CurrentState, facts: ContractGripper, band: ContractBan
     position = state.positions.get(band.joint, math.nan)
     if band.lower <= position <= band.upper:
         return
-    found = f"joint {band.joint} is at {position:.4g}, with a part expected from {band.lower:.4g} to {band.upper:.4g}"
+    expected = f"with a part expected from {band.lower:.4g} to {band.upper:.4g} {facts.unit}"
+    found = f"joint {band.joint} is at {position:.4g} {facts.unit}, {expected}"
     within = max(facts.goal_tolerance, _ROUNDING)
     if not abs(position - facts.open) > within:  # an unknown position is no arrival either
         raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, f"not closed: {found}")
@@ -74,7 +75,7 @@ def _require_arrival(state: CurrentState, facts: ContractGripper, expected: floa
     allowed = ARRIVAL_SHARE * abs(facts.closed - facts.open)
     position = state.positions.get(facts.joint, math.nan)
     if not abs(position - expected) <= allowed:  # an unknown position is no arrival either
-        text = f"joint {facts.joint} is at {position:.4g}, expected {expected:.4g} within {allowed:.2g}"
+        text = f"joint {facts.joint} is at {position:.4g}, expected {expected:.4g} within {allowed:.2g} {facts.unit}"
         raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, text)
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from cellc.contract.attempt import Layer
+from cellc.contract.diagnostics.wording import both
 from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome, Need
 from cellc.mock.task.bounds import action_timeout_s, goal_timeout_s, grip_timeout_s, joint_state_age_s
@@ -131,13 +132,15 @@ def _stale(scene: Scene, made: Made) -> Finding | None:
             text = f"stamps of {jump.topic} are {jump.by_s:.3f} s ahead of those before: a clock was set"
             return Finding(Layer.STALE, AttemptOutcome.STALE_STATE, jump.at_ns, jump.topic, text)
     if seen.joints_ns is not None and abs(seen.at_ns - seen.joints_ns) / 1e9 > allowed_s:
-        text = f"joint state is {(seen.at_ns - seen.joints_ns) / 1e9:.3f} s old, {allowed_s:g} s allowed"
+        age, allowed = both((seen.at_ns - seen.joints_ns) / 1e9, allowed_s)
+        text = f"joint state is {age} s old, {allowed} s allowed"
         return Finding(Layer.STALE, AttemptOutcome.STALE_STATE, seen.at_ns, "joint states", text)
     for frame, most_s in _acted_on(scene, made).items():
         stamp_ns = seen.observed.get(frame)
         if stamp_ns is None or (seen.at_ns - stamp_ns) / 1e9 >= most_s:
-            age = "never observed" if stamp_ns is None else f"{(seen.at_ns - stamp_ns) / 1e9:.3f} s old"
-            text = f"newest observation of {frame} is {age}, {most_s:g} s allowed"
+            age, allowed = both(0.0 if stamp_ns is None else (seen.at_ns - stamp_ns) / 1e9, most_s)
+            told = "never observed" if stamp_ns is None else f"{age} s old"
+            text = f"newest observation of {frame} is {told}, {allowed} s allowed"
             return Finding(Layer.STALE, AttemptOutcome.STALE_STATE, seen.at_ns, f"observations of {frame}", text)
     return None
 

@@ -122,8 +122,13 @@ def attributed(
     )
 
 
+def is_model(path: YamlPath) -> bool:
+    """Tell whether a value of a spec is the model of a device, which more follows from than from any other."""
+    return path[:1] == ("devices",) and path[2:] == ("model",)
+
+
 def _leading_first(cause: Cause, changes: Sequence[Change]) -> Cause:
-    """Return the edits of a cause that cannot be tried one by one, that first whose name most of the changes hold."""
+    """Return the edits of a cause that cannot be tried one by one: a model first, or whose name most changes hold."""
 
     def held(edit: SpecEdit) -> int:
         name = re.compile(rf"(?<!\w){re.escape(str(edit.path[-1]))}(?!\w)")
@@ -131,7 +136,7 @@ def _leading_first(cause: Cause, changes: Sequence[Change]) -> Cause:
             any(name.search(text or "") for text in (change.subject, change.before, change.after)) for change in changes
         )
 
-    first = max(cause, key=held)
+    first = max(cause, key=lambda edit: (is_model(edit.path), held(edit)))
     return (first, *(edit for edit in cause if edit is not first))
 
 

@@ -2,13 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Collection
+from dataclasses import dataclass, field, replace
 
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.leaves import Leaf
+from cellc.tools.review.units import difference, shown_both
 
 PRESENT = "present"
 """Value of what is there as a whole."""
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """Values of a change in SI, with the unit of each there, and whether the difference is a share."""
+
+    before: Leaf | None
+    after: Leaf | None
+    units: tuple[str, str]
+    share: bool
+
+    def texts(self, wanted: Collection[str] = ()) -> tuple[str | None, str | None, str]:
+        """Return values and difference as people read them, in units that they wrote."""
+        was, now = shown_both(self.before, self.after, self.units, wanted)
+        unit, other = self.units
+        is_one = unit == other
+        delta = difference(self.before, self.after, unit, share=self.share, wanted=wanted) if is_one else ""
+        return was, now, delta
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +40,7 @@ class Change:
         words: words and figures that it explains in other files.
         names: names of things added or removed with it.
         approval: that of its area where it is None.
+        figures: what its texts were made of, where units may be chosen.
     """
 
     area: ReviewArea
@@ -31,6 +53,17 @@ class Change:
     breaking: bool = False
     why: str = ""
     approval: ApprovalArea | None = None
+    figures: Figures | None = field(default=None, compare=False)
     words: frozenset[str] = field(default=frozenset(), compare=False)
     names: frozenset[str] = field(default=frozenset(), compare=False)
     differing: frozenset[str] = field(default=frozenset(), compare=False)
+
+
+def in_units(change: Change, wanted: Collection[str]) -> Change:
+    """Return a change with its figures in the units in which the line was written that causes it."""
+    figures = change.figures
+    if figures is None or not wanted:
+        return change
+    was, now, delta = figures.texts(wanted)
+    was, now = change.before if was is None else was, change.after if now is None else now
+    return replace(change, before=was, after=now, delta=delta)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import PurePosixPath
@@ -11,11 +12,12 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.grading import Graded, Rule
 from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
-from cellc.tools.review.change import PRESENT, Change
+from cellc.tools.review.change import PRESENT, Change, Figures
 from cellc.tools.review.effects import effects
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import place_difference
 from cellc.tools.review.grading import ELSEWHERE, grade, is_reaching
+from cellc.tools.review.joint_units import units_of
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
 from cellc.tools.review.replaced import PAIRS, with_models
@@ -23,7 +25,7 @@ from cellc.tools.review.rooms import box_difference
 from cellc.tools.review.rows import FOLLOWS, ROWS
 from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
 from cellc.tools.review.steps import with_step_names
-from cellc.tools.review.units import difference, shown, unit_in
+from cellc.tools.review.units import shown, unit_in
 
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 """A spec that was moved makes the same package: its path is in the head of every file."""
@@ -37,8 +39,6 @@ UNCLASSIFIED = "(not classified)"
 """How the quantity of lines ends that no row of the table explains."""
 WHOLE = "cell"
 """Subject of what belongs to the cell itself."""
-_OF_JOINTS = {"effort": ("N", "N m"), "stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad")}
-"""Units of what differs between joints that are straight and joints that turn."""
 _PINNED = ("contract", "version_tuple")
 _SHOWS = ("graph/", "README.md", "sim/")
 """Files that show people and simulators what the others say: they are reported where a hand edited them."""
@@ -277,7 +277,9 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         and same(delta.before, delta.after, ordered=row.grade.ordered)
     ):
         return None
-    unit = _unit(row.grade.unit or unit_in(delta.path[-1]), fit.subject, before, after)
+    units = units_of(row.grade.unit or unit_in(delta.path[-1]), fit.subject, before, after)
+    figures = Figures(delta.before, delta.after, units, row.grade.share)
+    was, now, size = figures.texts()
     verdict = grade(row.grade.rule, delta, before, after)
     if delta.path[0] == "pair" and None in (delta.before, delta.after):
         return _of_pair(delta, row, verdict.grade)
@@ -285,29 +287,38 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         verdict.area or row.grade.area,
         " ".join(fit.subject) or WHOLE,
         quantity_of(row, fit),
-        shown(delta.before, unit),
-        shown(delta.after, unit),
+        _endless(delta.path, before) if was is None else was,
+        _endless(delta.path, after) if now is None else now,
         verdict.grade,
-        _difference(delta, unit, row, before, after),
+        _difference(delta, before, after) or size,
         row.grade.breaking and delta.before is not None,
         verdict.why or (row.grade.why if verdict.grade is Grade.DANGEROUS else ""),
         verdict.approval,
+        None if _difference(delta, before, after) else figures,
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),
     )
 
 
-def _difference(delta: Delta, unit: str, row: Row, before: Facts, after: Facts) -> str:
-    """Return how much a value differs; of a box, on which sides."""
-    if delta.path[:2] == ("real", "shapes") or delta.path[::2] == ("area", "size"):
+def _endless(path: Path, facts: Facts) -> str | None:
+    """Return what is said of a joint that turns without end where a limit of its position would be; else None."""
+    joint = next((each for each in facts.description.joints if each.name == path[2]), None) if len(path) > 2 else None
+    is_limit = path[:2] == ("contract", "joint_limits") and path[-1] in ("lower", "upper")
+    return "no end (continuous)" if is_limit and joint is not None and joint.type == "continuous" else None
+
+
+def _difference(delta: Delta, before: Facts, after: Facts) -> str:
+    """Return how much a box or a place differs, which is more than its values; empty of anything else."""
+    if delta.path[::2] == ("area", "size"):
+        return box_difference(delta.path, before, after)
+    if delta.path[:2] == ("real", "shapes"):
         told = box_difference(delta.path, before, after)
         if told:
             return told
-    if delta.path[:1] == ("placement",):
-        told = place_difference(delta.path[1], before, after)
-        if told:
-            return told
-    return difference(delta.before, delta.after, unit, share=row.grade.share)
+        if isinstance(delta.before, tuple) and isinstance(delta.after, tuple) and len(delta.before) > 1:
+            same_ones = sum((Counter(delta.before) & Counter(delta.after)).values())
+            return f"{len(delta.before) - same_ones} of {len(delta.before)} replaced by {len(delta.after) - same_ones}"
+    return place_difference(delta.path[1], before, after) if delta.path[:1] == ("placement",) else ""
 
 
 def _of_pair(delta: Delta, row: Row, taken: Grade) -> Change:
@@ -338,19 +349,6 @@ def _row(path: Path) -> tuple[Row, Fit]:
 def area_of_file(file: str) -> ReviewArea:
     """Return what a file of the package concerns, where nothing else tells it."""
     return next((area for start, area in AREA_OF_FILE if file.startswith(start)), ReviewArea.DOCUMENTS)
-
-
-def _unit(unit: str, names: Sequence[str], before: Facts, after: Facts) -> str:
-    """Return the unit of a value of a joint, or of the joints of a group: those of a gripper may be lengths."""
-    if not unit.startswith(("joint", *_OF_JOINTS)):
-        return unit
-    groups = (side.contract.groups.get(name) for side in (after, before) for name in names)
-    wanted = {*names, *(joint for group in groups if group is not None for joint in group.joints)}
-    joints = (joint for side in (after, before) for joint in side.description.joints if joint.name in wanted)
-    is_straight = any(joint.type == "prismatic" for joint in joints)
-    if unit in _OF_JOINTS:
-        return _OF_JOINTS[unit][not is_straight]
-    return unit.replace("joint", "m" if is_straight else "rad")
 
 
 def _of_lines(left: LinesLeft) -> Change:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -29,6 +30,10 @@ _NOT_OF_FOLDERS = (ReviewArea.GATES,)
 """Areas of what else has no line of the spec: a finding that a comment excuses."""
 _MOST_LINES = 10_000
 _LONGEST = 60
+_INCLUDE = re.compile(
+    r"""(?:<xacro:include\s[^>]*?filename=["']|load_yaml\(['"])"""
+    r"""(?:\$\(find\s+(?P<package>[\w-]+\)/[^"'$]+)|(?P<path>[^"'$]+))["']"""
+)
 _ATTRIBUTE = re.compile(r'([\w:]+)="([^"]*)"')
 
 
@@ -104,20 +109,36 @@ def _in_folder(device: str, before: tuple[str, Path], after: tuple[str, Path]) -
     for file in now:
         if was.get(file, now[file]) == now[file]:
             continue
+        shown = os.path.normpath(f"{after[0]}/{file}").replace(os.sep, "/")
         if file == _FILE:
-            values = tuple(_of_yaml(before[1] / file, after[1] / file, f"{after[0]}/{file}"))
+            values = tuple(_of_yaml(before[1] / file, after[1] / file, shown))
         else:
-            values = tuple(_of_lines(was[file], now[file], f"{after[0]}/{file}"))
+            values = tuple(_of_lines(was[file], now[file], shown))
         if values:
-            yield FolderCause(device, file != _FILE, _cause(f"{after[0]}/{file}", values))
+            yield FolderCause(device, file != _FILE, _cause(shown, values))
 
 
 def _texts(folder: Path) -> Mapping[str, str]:
-    """Return what says facts of a device: its own file and its descriptions, those that are no link."""
+    """Return what says facts of a device: its own file and its descriptions with what they include, that is no link."""
     files = sorted(islice(folder.rglob("*"), limits().folder_entries))
-    wanted = [file for file in files if file == folder / _FILE or file.suffix in _DESCRIPTIONS]
-    texts = {file.relative_to(folder).as_posix(): _text(file) for file in wanted if not file.is_symlink()}
-    return {name: text for name, text in texts.items() if text is not None}
+    open_ = [file for file in files if file == folder / _FILE or file.suffix in _DESCRIPTIONS]
+    texts = dict[str, str]()
+    while open_ and len(texts) < limits().folder_entries:
+        file = open_.pop(0)
+        name = Path(os.path.relpath(file, folder)).as_posix()
+        text = None if name in texts or file.is_symlink() else _text(file)
+        if text is not None:
+            texts[name] = text
+            open_ += _included(file, text)
+    return texts
+
+
+def _included(file: Path, text: str) -> Iterator[Path]:
+    """Yield the files that a description includes or loads: by their path from it, or in a package above it."""
+    for found in _INCLUDE.finditer(text):
+        package, _, rest = (found["package"] or "").replace(")", "", 1).partition("/")
+        wanted = [file.parent / found["path"]] if not package else [each / package / rest for each in file.parents]
+        yield from islice((Path(os.path.normpath(path)) for path in wanted if path.is_file()), 1)
 
 
 def _text(file: Path) -> str | None:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.change import Change
 from cellc.tools.review.edges import edge_changes, offers_less
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.geometry import moved_bases, moved_places
 from cellc.tools.review.grading import ELSEWHERE, bases
-from cellc.tools.review.replaced import MASS, measured_of
+from cellc.tools.review.replaced import MASS, Measured, measured_of
 from cellc.tools.review.units import difference, shown
 
 
@@ -38,12 +39,7 @@ def effects(before: Facts, after: Facts) -> Iterator[Change]:
             why=ELSEWHERE,
             approval="safety",
         )
-    for device, quantity, was, now in measured_of(before, after):
-        unit = "kg" if quantity == MASS else "m"
-        area = ReviewArea.PAYLOAD if quantity == MASS else ReviewArea.MODEL
-        yield Change(
-            area, device, quantity, shown(was, unit), shown(now, unit), Grade.REVIEW, difference(was, now, unit)
-        )
+    yield from map(_of_measured, measured_of(before, after))
     for subject, missed in offers_less(before.contract, after.contract):
         why = "subscribers outside the cell that request the old offer no longer connect"
         yield Change(ReviewArea.QOS, subject, "offered QoS", "compatible", missed, Grade.REVIEW, breaking=True, why=why)
@@ -53,3 +49,18 @@ def effects(before: Facts, after: Facts) -> Iterator[Change]:
         yield Change(
             ReviewArea.QOS, edge.subject, "edge", edge.before, edge.after, taken, breaking=not edge.connects, why=why
         )
+
+
+def _of_measured(each: Measured) -> Change:
+    """Return what a model weighs or how far it reaches; a mass that a link lacks on a side has no difference."""
+    unit, area = ("kg", ReviewArea.PAYLOAD) if each.quantity == MASS else ("m", ReviewArea.MODEL)
+    was, now = (
+        f"{shown(value, unit)}{_lacking(bare)}"
+        for value, bare in zip((each.before, each.after), each.weightless, strict=True)
+    )
+    delta = "" if any(each.weightless) else difference(each.before, each.after, unit)
+    return Change(area, each.device, each.quantity, was, now, Grade.REVIEW, delta)
+
+
+def _lacking(links: int) -> str:
+    return f" ({count(links, 'link')} {'has' if links == 1 else 'have'} no inertia)" if links else ""

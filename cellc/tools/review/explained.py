@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.causes import State, as_cause, attributed, causes_between, facts_of_document
-from cellc.tools.review.change import Change
+from cellc.tools.review.causes import Cause, State, as_cause, attributed, causes_between, facts_of_document, flow_of
+from cellc.tools.review.change import Change, in_units
 from cellc.tools.review.compare import change_of, changes_between, follows, merged, order_of, reported
 from cellc.tools.review.device_folders import by_folders, folder_causes
 from cellc.tools.review.facts import Facts
@@ -19,6 +19,7 @@ from cellc.tools.review.kept import kept_beside
 from cellc.tools.review.leaves import Leaf, Path, Prose, differences, same
 from cellc.tools.review.renames import Names, Rename, names_of, renamed, renames_between
 from cellc.tools.review.sides import Package
+from cellc.tools.review.units import units_in
 
 _FEW = 4
 _LETTERS = "[A-Za-z0-9]"
@@ -46,6 +47,8 @@ def explained(before: Package, after: Package) -> Explained:
     causes, found = attributed(changes, causes_between(base.document, now.document), base, now)
     first = [_as_cause(rename) for rename in leading]
     in_folders = folder_causes(was.document, now.document) if any(number is None for number, _ in found) else ()
+    wanted = [_units_of(cause) for cause in causes]
+    found = [(number, change if number is None else in_units(change, wanted[number])) for number, change in found]
     of_folders, found = by_folders(found, in_folders, len(causes), base.facts, now.facts)
     numbered: list[tuple[int | None, Change]] = list(enumerate(names))
     numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
@@ -62,6 +65,12 @@ def explained(before: Package, after: Package) -> Explained:
         _with_echoes(merged(numbered, before.facts, after.facts)),
         renames,
     )
+
+
+def _units_of(cause: Cause) -> frozenset[str]:
+    """Return the units in which the lines of a cause are written now, or were where they are gone."""
+    written = [edit.after or edit.before for edit in cause]
+    return frozenset().union(*(units_in(flow_of(child)) for child in written if child is not None))
 
 
 def _with_echoes(changes: Sequence[ReviewChange]) -> tuple[ReviewChange, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -28,6 +29,7 @@ from cellc.robot.description.model import Box, Collision, Cylinder, Description,
 from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.robot.description.yaml_values import load_values
+from cellc.tools.review.cameras import of_cameras, without_images
 from cellc.tools.review.graded import graded_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.tools.review.rights import COMMON, POLICY, of_checklist, rights
@@ -204,7 +206,7 @@ def _of_manifest(manifest: Manifest) -> Iterator[tuple[Path, Leaf]]:
 
 def _of_contract(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
     """Yield the contract with the ends of its interfaces named by what they are, and without what others tell."""
-    data = _dumped(contract)
+    data = _dumped(contract.model_copy(update={"devices": without_images(contract.devices)}))
     interfaces = data.pop("interfaces")
     for name, interface in contract.interfaces.items():
         facts = interfaces[name] if isinstance(interfaces, dict) else None
@@ -221,6 +223,7 @@ def _of_contract(contract: Contract) -> Iterator[tuple[Path, Leaf]]:
         del data[key]
     for name, inner in data.items():
         yield from flatten(inner, ("contract", name))
+    yield from of_cameras(contract.devices)
 
 
 def _ends(interface: ContractInterface) -> tuple[str, str]:
@@ -333,8 +336,11 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
     yield from flatten(as_json(cell.safety), ("spec", "safety"))
     yield from flatten(as_json(cell.surroundings), ("spec", "surroundings"))
     yield ("spec", "bringup", "gates"), cell.bringup.gates
+    moving = Counter(first.name.partition("/")[0] for first in cell.bringup.first_motions)
     for first in cell.bringup.first_motions:
-        yield from flatten(_without_place(as_json(first)), ("spec", "bringup", "first_motion", first.name))
+        of = first.name.partition("/")[0]
+        path = ("spec", "bringup", "first_motion", of if moving[of] == 1 else first.name)
+        yield from flatten(_without_place(as_json(first)), path)
     if cell.bringup.caps is not None:
         yield from flatten(as_json(cell.bringup.caps), ("spec", "bringup", "commissioning"))
     yield from flatten(as_json(cell.recording), ("spec", "recording"))

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.change import PRESENT
 from cellc.tools.review.compare import UNCLASSIFIED
 from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.replaced import LENGTH, MASS
 from cellc.tools.review.titles import Quote, title_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
-_VALUED = ("stroke", "grip force", "reach", "largest payload", LENGTH, MASS)
+_SEEN = tuple(f"{what} of {of}" for of in ("depth", "color") for what in ("range", "field of view", "resolution"))
+_VALUED = ("stroke", "grip force", "reach", "largest payload", *_SEEN, "rate of images", LENGTH, MASS)
 """Quantities of a model: a heading has their values, before and after."""
 _TELLING = (
     *_VALUED,
@@ -25,7 +28,12 @@ _TELLING = (
     "place in the root frame",
 )
 """Quantities that say the most about a cause with many changes, in this order."""
+_PLACES = re.compile(r" \([^():]+:[0-9, ]+\)")
+"""Files and lines in a heading."""
+_MODEL = "model"
 _SAID, _HOME = 4, "home"
+_WHOLE = (" added", " removed")
+"""How the quantity of what was added or removed as a whole ends."""
 NAME_OF = "name of the "
 """How the quantity of another name begins."""
 
@@ -64,7 +72,8 @@ class Group:
         while len(parts) > 2 and len(self._title("." * 3 + ".".join(parts))) > width:
             parts = parts[1:]
         is_whole = self.cause is None or len(parts) == len(self.cause.line.split("."))
-        return self.title if is_whole else self._title("..." + ".".join(parts))
+        title = self.title if is_whole else self._title("..." + ".".join(parts))
+        return title if len(title) <= width else _PLACES.sub("", title)
 
     def _without_place(self, width: int) -> str:
         cause = self.cause
@@ -110,13 +119,18 @@ class Group:
         """How far the most telling of its quantities changed, where it has several changes."""
         if len(self.changes) < 2:
             return ()
-        sized = [change for change in self.changes if change.delta and change.quantity in _TELLING]
+        sized = [
+            change
+            for change in self.changes
+            if (change.delta and change.quantity in _TELLING) or change.quantity in _VALUED
+        ]
         listed = dict[str, None]()
         for change in sorted(
             sized, key=lambda change: (_TELLING.index(change.quantity), _HOME not in change.subjects[0])
         ):
             listed[_figure(change)] = None
-        return tuple(listed)[:_SAID]
+        valued = sum(change.quantity in _VALUED for change in sized)
+        return tuple(listed)[: max(_SAID, valued)]
 
     @property
     def asks(self) -> str:
@@ -142,11 +156,19 @@ def broken_by(changes: Sequence[ReviewChange]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(told))
 
 
+def values_of(change: ReviewChange) -> str:
+    """Return the values before and after, with a difference that has a size; of what is added or removed, that."""
+    if change.quantity.endswith(_WHOLE):
+        return "" if PRESENT in (change.before, change.after) else change.after or change.before or ""
+    values = f"{change.before or 'not stated'} -> {change.after or 'not stated'}"
+    return f"{values} ({change.delta})" if change.delta else values
+
+
 def _figure(change: ReviewChange) -> str:
     if change.quantity == "tip":
         return f"tip in {change.subjects[0].partition(' in ')[2]} {change.delta}"
-    if change.quantity in _VALUED and change.before is not None and change.after is not None:
-        return f"{change.quantity} {change.before} -> {change.after} ({change.delta})"
+    if change.quantity in _VALUED:
+        return f"{change.quantity} {values_of(change)}"
     return f"{change.subjects[0]} {change.delta.partition('; ')[0]}"
 
 
@@ -164,9 +186,10 @@ def groups_of(review: Review) -> tuple[Group, ...]:
 
 def _order(group: Group) -> tuple[int, int]:
     worst = [change for change in group.changes if change.grade is group.grade]
-    # What else changed is read with the names after.
+    # What else changed is read with the names after, and beside another model.
     is_name = group.cause is not None and group.cause.renamed
-    return -tuple(Grade).index(group.grade), -1 if is_name else min(map(_rank, worst))
+    is_model = any(change.quantity == _MODEL and change.area is ReviewArea.DEVICES for change in group.changes)
+    return -tuple(Grade).index(group.grade), -2 if is_name else -1 if is_model else min(map(_rank, worst))
 
 
 def _rank(change: ReviewChange) -> int:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.vocabulary import UNKNOWN
-from cellc.tools.review.causes import Cause, flow_of
+from cellc.tools.review.causes import Cause, flow_of, is_model
 
 _OF_DEVICE = ("payload", "grip", "limits", "serial", "collision", "impedance", "tool_connector")
 """What is stated of the device itself, what counts most first."""
@@ -19,7 +19,7 @@ _MOST = 6
 
 def kept_beside(cause: Cause, before: SourceDocument, after: SourceDocument) -> tuple[str, ...]:
     """Return what was stated for the model that a cause replaces, and is the same after; empty of another cause."""
-    devices = [edit.path[1] for edit in cause if edit.path[:1] == ("devices",) and edit.path[2:] == ("model",)]
+    devices = [edit.path[1] for edit in cause if is_model(edit.path)]
     paths = dict.fromkeys(path for device in devices for path in _belonging(str(device), after))
     told = [
         f"{'.'.join(map(str, path))} {flow_of(now)}"

@@ -147,9 +147,14 @@ class Delta:
     after: Leaf | None
 
 
+_NOTHING: frozenset[object] = frozenset((None, (), ""))
+"""What says nothing: a list that is empty is as good as one that is not there."""
+
+
 def differences(before: Leaves, after: Leaves) -> tuple[Delta, ...]:
     """Return the leaves that differ, in the order of paths."""
     deltas = (Delta(path, before.get(path), after.get(path)) for path in sorted({*before, *after}))
+    deltas = (delta for delta in deltas if not {delta.before, delta.after} <= _NOTHING)
     return tuple(
         delta for delta in deltas if delta.before is None or delta.after is None or not same(delta.before, delta.after)
     )

@@ -80,17 +80,33 @@ def _body(device: str, facts: Facts) -> tuple[frozenset[str], frozenset[str]]:
     return frozenset(links), frozenset(joints)
 
 
-def measured_of(before: Facts, after: Facts) -> Iterator[tuple[str, str, float, float]]:
-    """Yield device, quantity and values, in kg and m, of what the links of two models weigh and how far they reach."""
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What the links of a device with another model weigh in kg, or how far they reach in m.
+
+    Attributes:
+        weightless: of a mass, how many links with a shape have no inertia on each side.
+    """
+
+    device: str
+    quantity: str
+    before: float
+    after: float
+    weightless: tuple[int, int] = (0, 0)
+
+
+def measured_of(before: Facts, after: Facts) -> Iterator[Measured]:
+    """Yield what the links of two models weigh, and of what is no arm how far they reach."""
     for each in replaced(before, after):
         sides = [(facts, _body(each.device, facts)[0]) for facts in (before, after)]
         masses = [_mass(facts.description, links) for facts, links in sides]
         lengths = [_length(facts, each.device, links) for facts, links in sides]
         if all(masses) and abs(masses[0] - masses[1]) > _NOTICED:
-            yield each.device, MASS, round(masses[0], 3), round(masses[1], 3)
+            bare = [_weightless(facts.description, links) for facts, links in sides]
+            yield Measured(each.device, MASS, round(masses[0], 3), round(masses[1], 3), (bare[0], bare[1]))
         is_tool = not is_reaching(before.contract, each.device)
         if is_tool and all(lengths) and abs(lengths[0] - lengths[1]) > _NOTICED:
-            yield each.device, LENGTH, round(lengths[0], 4), round(lengths[1], 4)
+            yield Measured(each.device, LENGTH, round(lengths[0], 4), round(lengths[1], 4))
 
 
 _NOTICED = 1e-4
@@ -99,6 +115,11 @@ _NOTICED = 1e-4
 
 def _mass(body: Description, links: Collection[str]) -> float:
     return sum(link.inertial.mass for link in body.links if link.name in links and link.inertial is not None)
+
+
+def _weightless(body: Description, links: Collection[str]) -> int:
+    shaped = [link for link in body.links if link.name in links and (link.collisions or link.visuals)]
+    return sum(link.inertial is None for link in shaped)
 
 
 def _length(facts: Facts, device: str, links: Collection[str]) -> float:

@@ -15,7 +15,17 @@ from cellc.compiler.cell.site import Bringup, Host, Safety
 from cellc.contract.bring_up import BringUpStep
 from cellc.contract.contract import Contract, ContractController, ContractManager
 from cellc.contract.entities import ContractEndpoint, ContractInterface
-from cellc.contract.grading import DEVIATES, FURTHER, OTHER_MASS, PLANNED, SECOND_CLIENT, UNAVOIDED, Graded, Rule
+from cellc.contract.grading import (
+    DEVIATES,
+    FURTHER,
+    GRIPPED,
+    OTHER_MASS,
+    PLANNED,
+    SECOND_CLIENT,
+    UNAVOIDED,
+    Graded,
+    Rule,
+)
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.stated import Network
 from cellc.contract.vocabulary import ReviewArea
@@ -75,6 +85,16 @@ _ALL: Sequence[Row] = (
         Graded(_A.MOTION, "mass of the part to grip", Rule.LOOSER, "kg", why=OTHER_MASS),
     ),
     *(
+        Row(
+            f"contract frames {{frame}} grasp bands {{device}} {end}",
+            Graded(_A.MOTION, what, Rule.DANGEROUS, "joint", why=GRIPPED),
+        )
+        for end, what in (
+            ("lower", "least joint position that holds it"),
+            ("upper", "largest joint position that holds it"),
+        )
+    ),
+    *(
         Row(f"spec safety stop {name}", Graded(_A.SAFETY, quantity, Rule.LOST, ordered=False))
         for name, quantity in (
             ("independent_of", "what the stop is independent of"),
@@ -96,6 +116,11 @@ _ALL: Sequence[Row] = (
     Row("spec program {device} played_by", Graded(_A.SAFETY, "who starts the program", Rule.DANGEROUS, why=_STARTS)),
     Row("spec surroundings {part} none", Graded(_A.SAFETY, "reason why there is nothing", Rule.DANGEROUS)),
     Row("spec surroundings {part} ...", Graded(_A.SAFETY, "what is stated around the arms", Rule.LOST, ordered=False)),
+    # What a camera sees.
+    Row("camera {device} range {what}", Graded(_A.DEVICES, "range of")),
+    Row("camera {device} view {what}", Graded(_A.DEVICES, "field of view of")),
+    Row("camera {device} resolution {what}", Graded(_A.DEVICES, "resolution of")),
+    Row("camera {device} images {stream} {what}", Graded(_A.INTERFACES, "images:")),
     # Frames and what measured them.
     Row("placement {frame}", Graded(_A.FRAMES, "pose in its parent", Rule.PLACED)),
     Row(

@@ -13,9 +13,9 @@ from cellc.contract.review import Review, ReviewChange
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.compare import UNCLASSIFIED, WHOLE
 from cellc.tools.review.grading import UNMEASURED
-from cellc.tools.review.groups import NAME_OF, Group, areas_of, asked_of, broken_by, groups_of, quantities_of
+from cellc.tools.review.groups import NAME_OF, Group, areas_of, asked_of, broken_by, groups_of, quantities_of, values_of
 from cellc.tools.review.replaced import PAIRS
-from cellc.tools.review.text import STYLES, outcomes, summed_up, values_of
+from cellc.tools.review.text import STYLES, outcomes, summed_up
 
 MOST_LINES = 25
 _WIDTH = 80
@@ -57,10 +57,14 @@ def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds)
         # Not every cause has room for who is asked, and for what breaks.
         head += [(Styled(text, Style.DIM),) for text in _broken(f"asks {asked_of(_telling_in(groups))}", "  ")]
         head += (
-            _broken(f"breaks consumers of {', '.join(broken)}", "  ") if (broken := broken_by(review.changes)) else []
+            _broken(f"breaks consumers of {_first_of(broken)}", "  ") if (broken := broken_by(review.changes)) else []
         )
     new, foot = [*_findings(review, folds.findings)], [*_foot(review)]
     return [*head, *new, *_of_groups(groups, most - len(head) - len(new) - len(foot), folds), *foot]
+
+
+def _first_of(names: Sequence[str]) -> str:
+    return ", ".join(names[:_FEW]) + (f" and {len(names) - _FEW} more" if len(names) > _FEW else "")
 
 
 def _telling_in(groups: Sequence[Group]) -> list[ReviewChange]:
@@ -87,9 +91,16 @@ def _broken(text: str, indent: str) -> list[str]:
 
 
 def cut(text: str, width: int = _WIDTH) -> str:
-    """Return a text that fits into a line of the terminal."""
+    """Return a text that fits into a line of the terminal: between words, with how many are left out."""
     shown = escaped(text)
-    return shown if len(shown) <= width else f"{shown[: width - 3]}..."
+    if len(shown) <= width:
+        return shown
+    words = shown.split(" ")
+    for kept in range(len(words) - 1, 0, -1):
+        line = f"{' '.join(words[:kept])} ... {count(len(words) - kept, 'word')} more"
+        if len(line) <= width and line.strip():
+            return line
+    return f"{shown[: width - 3]}..."
 
 
 def _sides(review: Review) -> Iterator[Line]:
@@ -160,7 +171,8 @@ def _inner(group: Group, most: int, fold: _Fold, *, is_listed: bool) -> Iterator
     )
     figures: _Lines = [cut(f"  {text.replace('`', '')}") for text in group.unmeasured]
     figures += [(Styled(line, Style.BOLD),) for line in _broken(f"  {'; '.join(group.figures)}", "    ")]
-    figures += _broken(f"  {group.kept}", "    ")
+    kept = _broken(f"  {group.kept}", "    ")
+    figures += kept if len(figures) + len(kept) + len(asked) < most else [cut(f"  {group.kept}")][: len(kept)]
     worst = _alike([change for change in changes if change.grade is group.grade or change.breaking])
     others = len(changes) - sum(map(len, worst.values()))
     room = min(_FEW, most - len(figures) - len(asked) - (others > 0))
@@ -169,7 +181,10 @@ def _inner(group: Group, most: int, fold: _Fold, *, is_listed: bool) -> Iterator
     rest = [change for change in changes if not any(change in worst[text] for text in listed)]
     if rest:
         lines.append((Styled(cut(_rest(rest, group, is_whole=not listed)), Style.DIM),))
-    yield from (*lines[: max(most - len(asked), 0)], *asked)[: max(most, 0)]
+    room = max(most - len(asked), 0)
+    if len(lines) > room > 0:
+        lines = [*lines[: room - 1], (Styled(cut(f"  {_listed(changes, group)}"), Style.DIM),)]
+    yield from (*lines[:room], *asked)[: max(most, 0)]
 
 
 def _is_of_lines(change: ReviewChange) -> bool:
@@ -184,18 +199,28 @@ def _values(line: str, changes: Sequence[ReviewChange], fold: _Fold) -> list[str
         why = "" if change.why.startswith(UNMEASURED) else change.why.partition(", before ")[0].replace("`", "")
         why = why if change.grade is not Grade.SAFE and not change.breaking else ""
         return [*fold(line, "    "), *(fold(f"    because {why}", "      ") if why else [])]
-    delta = f" ({change.delta})" if change.delta else ""
-    head = line.partition(delta)[0] if delta and delta in line else line
-    is_cut = delta and head != line and len(escaped(line)) > _WIDTH
-    return [cut(head, _WIDTH - len(escaped(delta))) + escaped(delta)] if is_cut else fold(line, "    ")
+    texts = (f"{change.area}  {change.quantity} {change.delta}".rstrip(), f"{change.area}  {change.quantity}")
+    shorter = (_line(text, changes) for text in texts if not change.quantity.startswith(NAME_OF))
+    fitting = (each for each in (line, *shorter) if len(escaped(each)) <= _WIDTH)
+    return [next((escaped(each) for each in fitting), cut(line))]
 
 
 def _rest(rest: Sequence[ReviewChange], group: Group, *, is_whole: bool) -> str:
     """Return what there is no room for: one change itself, of more those of each area, or of one area of each kind."""
     if len(rest) == 1:
         return _line(_said(rest[0]), rest)
-    kinds = areas_of(rest) if group.cause is not None else quantities_of(rest)
-    return f"  {count(len(rest), 'change')}: {kinds}" if is_whole else f"  {len(rest)} more: {kinds}"
+    return f"  {_listed(rest, group, count(len(rest), 'change') if is_whole else f'{len(rest)} more')}"
+
+
+def _listed(changes: Sequence[ReviewChange], group: Group, head: str = "") -> str:
+    """Return how many changes there are of each area, or of one area of each kind, as many as a line has room for."""
+    head = head or count(len(changes), "change")
+    kinds = (areas_of(changes) if group.cause is not None else quantities_of(changes)).split(", ")
+    lines = (
+        f"{head}: {', '.join(kinds[:kept])}" + (f" and {len(kinds) - kept} more" if kept < len(kinds) else "")
+        for kept in range(len(kinds), 0, -1)
+    )
+    return next((line for line in lines if len(line) <= _WIDTH - 2), f"{head}: {kinds[0]}")
 
 
 def _alike(changes: Sequence[ReviewChange]) -> dict[str, list[ReviewChange]]:

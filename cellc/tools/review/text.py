@@ -8,13 +8,10 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.change import PRESENT
-from cellc.tools.review.groups import groups_of
+from cellc.tools.review.groups import groups_of, values_of
 
 STYLES = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
 _FEW = 4
-_WHOLE = (" added", " removed")
-"""How the quantity of what was added or removed as a whole ends."""
 
 
 def render_review(review: Review) -> Iterator[Line]:
@@ -60,14 +57,6 @@ def subjects_of(change: ReviewChange, few: int = _FEW) -> str:
     shown = change.subjects if len(change.subjects) <= few else change.subjects[:few]
     more = len(change.subjects) - len(shown)
     return ", ".join(shown) + (f" and {more} more" if more else "")
-
-
-def values_of(change: ReviewChange) -> str:
-    """Return the values before and after, with a difference that has a size; of what is added or removed, that."""
-    if change.quantity.endswith(_WHOLE):
-        return "" if PRESENT in (change.before, change.after) else change.after or change.before or ""
-    values = f"{change.before or 'not stated'} -> {change.after or 'not stated'}"
-    return f"{values} ({change.delta})" if change.delta else values
 
 
 def outcomes(rehearsal: ReviewRehearsal) -> str:

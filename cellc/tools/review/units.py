@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from collections.abc import Collection
 
 from cellc.contract.transforms import Pose, apart
 from cellc.tools.review.leaves import Leaf, Prose, said
@@ -14,13 +15,31 @@ _FIGURE = re.compile(r"-?[0-9]{1,15}(?:\.[0-9]{1,15})?")
 _FEW = 6
 """Entries of a list that are shown; of a longer one, those that differ."""
 _PLACE = 3
+_TURNED = math.radians(1e-3)
 
 
-def shown(value: Leaf | None, unit: str) -> str | None:
+def shown_both(
+    before: Leaf | None, after: Leaf | None, units: tuple[str, str], wanted: Collection[str] = ()
+) -> tuple[str | None, str | None]:
+    """Return two values with their units, with few digits where these tell them apart."""
+    few, all_digits = (
+        (shown(before, units[0], wanted, digits), shown(after, units[1], wanted, digits))
+        for digits in (_LEGIBLE, _EVERY)
+    )
+    return all_digits if few[0] == few[1] else few
+
+
+_LEGIBLE, _EVERY = 5, 7
+"""Digits of a figure that people compare, and of any other."""
+
+
+def shown(value: Leaf | None, unit: str, wanted: Collection[str] = (), digits: int = 7) -> str | None:
     """Return a value with its unit.
 
     Args:
         unit: SI unit of numbers, empty where they have none.
+        wanted: units in which a person wrote it: of one dimension the one of them, else what reads best.
+        digits: of a number that is no part of a list or a pose.
     """
     if value is None:
         return None
@@ -30,10 +49,10 @@ def shown(value: Leaf | None, unit: str) -> str | None:
         turn = " ".join(_number(math.degrees(angle)) for angle in value.rpy())
         return f"xyz {_numbers(value.position, 1e3)} mm, rpy {turn} deg"
     if isinstance(value, tuple):
-        return _shown_list(value, unit)
+        return _shown_list(value, unit, wanted)
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return value if isinstance(value, str) else _with_unit(value, unit)
+    return value if isinstance(value, str) else _with_unit(value, unit, wanted, digits)
 
 
 _ENDS = (("_s", "s"), ("_hz", "Hz"), ("_m", "m"), ("_kg", "kg"), ("center_of_mass", "m"))
@@ -44,9 +63,9 @@ def unit_in(name: str) -> str:
     return next((unit for end, unit in _ENDS if name.endswith(end)), "")
 
 
-def _shown_list(value: tuple[str | float | int | bool, ...], unit: str) -> str:
+def _shown_list(value: tuple[str | float | int | bool, ...], unit: str, wanted: Collection[str]) -> str:
     if value and all(isinstance(item, (int, float)) and not isinstance(item, bool) for item in value):
-        factor, name = _SHOWN.get(unit, (1.0, unit))
+        factor, name = _scale(unit, wanted)
         return f"{_numbers(tuple(float(item) for item in value), factor)} {name}".rstrip()
     return ", ".join(said(item) for item in value) if len(value) <= _FEW else f"{len(value)} entries"
 
@@ -63,26 +82,48 @@ _SHOWN = {
 }
 
 
-def _with_unit(value: float, unit: str) -> str:
-    if unit == "s" and 0.0 < abs(value) < 1.0:
-        return f"{_number(value * 1e3)} ms"
-    factor, name = _SHOWN.get(unit, (1.0, unit))
-    return f"{_number(value * factor)} {name}".rstrip()
+def _with_unit(value: float, unit: str, wanted: Collection[str] = (), digits: int = 7) -> str:
+    factor, name = _scale(unit, wanted)
+    if name == unit == "s" and 0.0 < abs(value) < 1.0 and unit not in wanted:
+        return f"{_number(value * 1e3, digits)} ms"
+    return f"{_number(value * factor, digits)} {name}".rstrip()
+
+
+def _scale(unit: str, wanted: Collection[str]) -> tuple[float, str]:
+    """Return the factor from SI and the name of the unit in which a value is shown."""
+    base, slash, rest = unit.partition("/")
+    kind = UNITS.get(base, ("", 1.0))[0]
+    written = {each for each in wanted if each and kind and UNITS[each][0] == kind}
+    if len(written) != 1:
+        return _SHOWN.get(unit, (1.0, unit))
+    (name,) = written
+    return 1.0 / UNITS[name][1], name + slash + rest
+
+
+def units_in(text: str) -> frozenset[str]:
+    """Return the units of the quantities in a text of a spec."""
+    return frozenset(word for word in _APART.split(text) if word in UNITS)
+
+
+_APART = re.compile(r"[\s,:{}\[\]]+")
 
 
 def _numbers(values: tuple[float, ...], factor: float) -> str:
     return " ".join(_number(value * factor) for value in values)
 
 
-def _number(value: float) -> str:
-    return f"{round(value, 6) + 0.0:.7g}"
+def _number(value: float, digits: int = 7) -> str:
+    return f"{round(value, 6) + 0.0:.{digits}g}" if abs(value) < 10.0 ** (digits - 1) else f"{value:.7g}"
 
 
-def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: bool = True) -> str:
+def difference(
+    before: Leaf | None, after: Leaf | None, unit: str, *, share: bool = True, wanted: Collection[str] = ()
+) -> str:
     """Return how much a value differs; empty where that has no size.
 
     Args:
         share: whether it is shown as a share of what was there.
+        wanted: as of `shown`.
     """
     if isinstance(before, Pose) and isinstance(after, Pose):
         return motion(*apart(before, after))
@@ -99,7 +140,7 @@ def difference(before: Leaf | None, after: Leaf | None, unit: str, *, share: boo
     if share and before > 0.0 <= after and (after or unit not in ("m", "rad")):
         return f"{_rounded(100.0 * (after - before) / before):+.10g} %"
     sign = "+" if after > before else ""
-    return sign + _with_unit(after - before, unit)
+    return sign + _with_unit(after - before, unit, wanted)
 
 
 def _of_quantities(before: str, after: str) -> str:
@@ -132,7 +173,9 @@ def _quantity(text: str) -> tuple[tuple[float, ...], str]:
 def motion(meters: float, radians: float) -> str:
     """Return how far something moves and turns."""
     parts = [f"moves {length(meters)}"] if meters > 1e-9 else []
-    parts += [f"turns {_number(round(math.degrees(radians), 4))} deg"] if radians > 1e-7 else []
+    # Beside a motion, what rounding turns is left out.
+    turns = radians > (1e-7 if meters <= 1e-9 else _TURNED)
+    parts += [f"turns {_number(_rounded(math.degrees(radians)))} deg"] if turns else []
     return ", ".join(parts)
 
 

@@ -41,14 +41,14 @@ def test_a_rate_is_judged_by_its_sweep_which_is_cited(pick: MockCell, verdict: b
     assert check.evidence == (
         f"pick_and_place: 800 runs with seed 7, 799 succeeded, {pick.contract.configuration_id}",
         # One failure of 800: 0.0032 % to 0.694 % by the quantiles of the beta distribution.
-        "success: 99.88%, between 99.31% and 100.00% with confidence 0.95 (Clopper-Pearson)",
+        "success: 99.88 %, between 99.31 % and 100 % with confidence 0.95 (Clopper-Pearson)",
     )
 
 
 def test_a_sweep_that_decides_nothing_leaves_the_line_unknown(pick: MockCell) -> None:
     check = _judged(pick, _swept(pick, None))
     assert check.verdict is Verdict.UNKNOWN
-    assert "`cellc gates --sweep N` above 800; success: 99.88%" in check.evidence[0]
+    assert "`cellc gates --sweep N` above 800; success: 99.88 %" in check.evidence[0]
 
 
 def test_another_sweep_is_another_signature(pick: MockCell) -> None:

@@ -23,7 +23,7 @@ def test_a_sweep_says_rate_margins_draws_and_verdict_and_a_run_is_made_again(nes
     assert lines[1].endswith("with confidence 0.975 (Clopper-Pearson)")
     drawn = "nest x, y, z normal, deviation in space 1 mm calibrations.nest.residual"
     assert drawn in [" ".join(line.split()) for line in lines]
-    assert lines[-1] == "UNKNOWN: 85% of the runs must succeed, with confidence 0.95; 6 runs do not decide it"
+    assert lines[-1] == "UNKNOWN: 85 % of the runs must succeed, with confidence 0.95; 6 runs do not decide it"
     failed = next(line.split()[1].rstrip(":") for line in lines if line.startswith("FAILED"))
     told = json.loads(run("sweep", str(nest_folder), "--runs", "6", "--jobs", "1", "--journal", journal, "--json").out)
     number = int(failed.removeprefix("sweep:"))

@@ -1,0 +1,37 @@
+"""The units of what joints have: of one that slides and one that turns, on each side of a change its own."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from cellc.robot.description.model import Joint
+from cellc.tools.review.facts import Facts
+
+_OF_JOINTS = {"effort": ("N", "N m"), "stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad")}
+"""Units of what differs between joints that slide and joints that turn."""
+
+
+def units_of(unit: str, names: Sequence[str], before: Facts, after: Facts) -> tuple[str, str]:
+    """Return the unit of a value on each side; of a joint, of the joints of a group, or of the fingers of a gripper.
+
+    Args:
+        unit: as a row of the table has it.
+        names: those of the subject; a joint that one side alone has counts for both.
+    """
+    if not unit.startswith(("joint", *_OF_JOINTS)):
+        return unit, unit
+    joints = [_joints(names, facts) for facts in (before, after)]
+    return _unit(unit, joints[0] or joints[1]), _unit(unit, joints[1] or joints[0])
+
+
+def _unit(unit: str, joints: Collection[Joint]) -> str:
+    slides = any(joint.type == "prismatic" for joint in joints)
+    return _OF_JOINTS[unit][not slides] if unit in _OF_JOINTS else unit.replace("joint", "m" if slides else "rad")
+
+
+def _joints(names: Sequence[str], facts: Facts) -> Collection[Joint]:
+    groups = [facts.contract.groups[name] for name in names if name in facts.contract.groups]
+    wanted = {*names, *(joint for group in groups for joint in group.joints)}
+    parts = [facts.contract.frames[name].grasp for name in names if name in facts.contract.frames]
+    wanted |= {band.joint for part in parts if part is not None for of, band in part.bands.items() if of in names}
+    return [joint for joint in facts.description.joints if joint.name in wanted]
