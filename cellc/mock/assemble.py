@@ -242,9 +242,10 @@ def _control(folder: GeneratedFolder, seed: int, horizon_s: float) -> ControlSta
     contract, forces = folder.contract, None
     if folder.scene is not None:
         fingers = fingers_by_gripper(contract, folder.description)
-        forces = Dynamics(folder.scene, planned_contacts(folder.scene, fingers), fingers, _leads_s(contract))
+        planned, owners = planned_contacts(folder.scene, fingers), len(contract.managers) + len(contract.adapters)
+        forces = Dynamics(folder.scene, planned, fingers, _leads_s(contract), owners)
     managers = _managers(folder, forces)
-    control = ControlStack(managers, contract.managers, horizon_s, _adapters(contract), forces)
+    control = ControlStack(managers, contract.managers, horizon_s, _adapters(contract, forces), forces)
     for joint, nature in _natures(contract, seed).items():
         for server in control.servers_of_joint(joint):
             server.disturbances.disturb(joint, nature)
@@ -276,11 +277,11 @@ def _managers(folder: GeneratedFolder, forces: Dynamics | None) -> Mapping[str, 
     }
 
 
-def _adapters(contract: Contract) -> Mapping[str, AdapterServer]:
+def _adapters(contract: Contract, forces: Dynamics | None) -> Mapping[str, AdapterServer]:
     known = contract.clocks
     clocks = {device: known[name].domain for device, name in contract.clock_of.items() if name in known}
     return {
-        device: AdapterServer(device, facts, contract.joint_limits, clocks.get(device, DEFAULT))
+        device: AdapterServer(device, facts, contract.joint_limits, clocks.get(device, DEFAULT), forces)
         for device, facts in contract.adapters.items()
     }
 

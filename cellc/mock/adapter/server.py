@@ -36,6 +36,7 @@ from cellc.mock.control import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
+from cellc.mock.control.hardware.forces import Forces
 from cellc.mock.control.journal import Cause, CommandJournal
 
 START_TOLERANCE = 0.01
@@ -123,13 +124,19 @@ class AdapterServer:
     """
 
     def __init__(
-        self, device: str, facts: ContractAdapter, limits: Mapping[str, ContractJointLimits], clock: str
+        self,
+        device: str,
+        facts: ContractAdapter,
+        limits: Mapping[str, ContractJointLimits],
+        clock: str,
+        forces: Forces | None = None,
     ) -> None:
-        """Bind the device, which is not connected yet."""
+        """Bind the device, which is not connected yet; ``forces`` moves its joints, None where they are led alone."""
+        self._forces = forces
         self.now_ns = 0
         self.period_ns = round(facts.command_period_s * 1e9)
         model = adapter_model(device, facts, limits, clock)
-        self.adapter = SimulatedAdapter(model, facts.start_positions, lambda: self.now_ns)
+        self.adapter = SimulatedAdapter(model, facts.start_positions, lambda: self.now_ns, forces)
         self.disturbances = AdapterDisturbances(self.adapter)
         self.journal = CommandJournal()
         self.journal.interface_names += [f"{name}/position" for name in facts.joints]
@@ -237,6 +244,10 @@ class AdapterServer:
         """Publish the state of one period and send the pending command."""
         self.now_ns = self._next_ns
         self._next_ns += self.period_ns
+        if self._forces is not None:
+            self.adapter.aim(self._forces)
+            self._forces.advance(np.array([self.now_ns], dtype=np.int64))
+            self._forces.commit(1)
         result = None if self._follower is None else self._follower.step()
         self._keep_command()
         state = self.adapter.read()

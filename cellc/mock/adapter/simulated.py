@@ -10,6 +10,7 @@ from cellc.contract.adapter import AdapterModel, DeviceState, JointCommand, Phas
 from cellc.contract.control_law import ControlLaw
 from cellc.mock.adapter.measured import MeasuredMotion
 from cellc.mock.control.hardware import JointFault, JointFaults
+from cellc.mock.control.hardware.forces import Forces
 from cellc.robot.planning import Springs
 
 WATCHDOG_FAULT = "no command within the watchdog's time"
@@ -22,8 +23,17 @@ class SimulatedAdapter:
         joints: what is wrong with each joint.
     """
 
-    def __init__(self, model: AdapterModel, positions: tuple[float, ...], now_ns: Callable[[], int]) -> None:
-        """Bind the device at its initial positions; ``now_ns`` is its clock."""
+    def __init__(
+        self,
+        model: AdapterModel,
+        positions: tuple[float, ...],
+        now_ns: Callable[[], int],
+        forces: Forces | None = None,
+    ) -> None:
+        """Bind the device at its initial positions; ``now_ns`` is its clock, and ``forces`` moves its joints."""
+        self._forces = forces
+        if forces is not None:
+            forces.begin(dict(zip(model.joint_names, positions, strict=True)))
         self.joints = JointFaults()
         self._model = model
         self._clock = now_ns
@@ -57,16 +67,27 @@ class SimulatedAdapter:
     def settled(self) -> bool:
         """Whether the joints come to rest where they are, without a command."""
         springs = self._springs
+        if self._forces is not None:
+            return False
         return springs is None or (springs.settled and not self._leads())
 
     def bind(self, law: ControlLaw, springs: Springs) -> None:
-        """Let the joints follow by a law from where they are; a law that binds them already gets another load."""
+        """Let the joints follow by a law from where they are; a law that binds them already gets another load.
+
+        Drives of joints that have mass know their law.
+        """
+        if self._forces is not None:
+            return
         if self._measured is not None:
             self._measured.load(springs)
             return
         names, now_ns = self._model.joint_names, self.now_ns()
         period_ns = round(self._model.command_period_s * 1e9)
         self._measured = MeasuredMotion(law, springs, names, self._motion(now_ns)[0], period_ns, now_ns)
+
+    def aim(self, forces: Forces) -> None:
+        """Lead the drives of the joints to where the device leads them now."""
+        forces.aim(self._model.joint_names, np.array([self._motion(self.now_ns())[0]]))
 
     def now_ns(self) -> int:
         """Return the device's time."""
@@ -221,6 +242,12 @@ class SimulatedAdapter:
 
     def _state(self, at_ns: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Return measured positions and velocities at an instant that is not before the last one asked about."""
+        if self._forces is not None:
+            standing, moving = (
+                self._forces.standing(self._model.joint_names),
+                self._forces.moving(self._model.joint_names),
+            )
+            return tuple(standing.tolist()), tuple(moving.tolist())
         springs = self._springs
         if springs is None:
             return self._motion(at_ns)

@@ -238,7 +238,8 @@ class ControlStack:
             servers[0].advance(until_ns)
             until_ns = servers[0].now_ns
         elif servers:
-            until_ns = min(until_ns, min(server.now_ns for server in servers) + _LOCKSTEP_NS)
+            lockstep_ns = _LOCKSTEP_NS if self.dynamics is None else min(server.period_ns for server in servers)
+            until_ns = min(until_ns, min(server.now_ns for server in servers) + lockstep_ns)
             for server in servers:
                 while server.now_ns < until_ns:
                     server.advance(until_ns)

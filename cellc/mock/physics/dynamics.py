@@ -76,11 +76,13 @@ class Dynamics:
     Attributes:
         scene: that it is made of.
         seen: contacts that are not planned, one for each two bodies and cycle.
+        shared: joints have several owners.
 
     Args:
         scene: of the package.
         planned: pairs of bodies that may touch.
         fingers: links by the gripper whose fingers they are.
+        owners: managers and adapters that move joints.
         leads_s: joint → how far ahead of its command its drive is led, by the velocity of the command, s. Drives brake
             the motion of their joint: one that brakes the error alone is led by its damping over its stiffness.
     """
@@ -91,8 +93,10 @@ class Dynamics:
         planned: frozenset[frozenset[str]],
         fingers: Mapping[str, tuple[str, ...]],
         leads_s: Mapping[str, float],
+        owners: int = 1,
     ) -> None:
         self.fingers = fingers
+        self.shared = owners > 1
         self.scene = scene
         self.seen: list[Seen] = []
         self._planned = planned
@@ -138,9 +142,12 @@ class Dynamics:
         Raises:
             MockError: the scene does not stay in one piece.
         """
+        if int(times_ns[-1]) <= self._times[-1]:
+            self._recall(times_ns)
+            return
         bodies, at_ns = self._now(), self._times[-1]
         states = np.empty((len(times_ns), self.scene.size))
-        aims = self.scene.aims(self._state).copy()
+        aims = self._commands[-1].copy()
         columns: NDArray[np.intp] = np.array(list(self._aims), dtype=np.intp)
         followed = {
             drive: self._steps(drive, targets) for drive, targets in self._aims.items() if drive in self._leads_s
@@ -163,6 +170,12 @@ class Dynamics:
             bodies.refuse_unstable()
         except SceneError as error:
             raise MockError(SCENE_FILE, str(error)) from None
+
+    def _recall(self, times_ns: Times) -> None:
+        """Answer for a time that another owner has asked for; what is asked of the drives waits for the next one."""
+        at = [max(0, bisect_right(self._times, time_ns) - 1) for time_ns in times_ns.tolist()]
+        states, commands = (np.array([kept[row] for row in at]) for kept in (self._states, self._commands))
+        self._block, self._adopted = _Block(times_ns, states, commands, (), {}), len(at)
 
     def _steps(self, drive: int, targets: Array) -> tuple[Array, Array]:
         """Return the commands of a drive in the next cycles, and how far each is from the one before."""
@@ -187,6 +200,10 @@ class Dynamics:
         """Return how fast joints are in the cycles that were computed last, rad/s or m/s."""
         return self.scene.velocities(self._computed.states, joints)
 
+    def moving(self, joints: Sequence[str]) -> Array:
+        """Return how fast joints are now, rad/s or m/s."""
+        return self.scene.velocities(self._state, joints)
+
     def standing(self, joints: Sequence[str]) -> Array:
         """Return where joints are now, rad or m."""
         return self.scene.positions(self._state, joints)
@@ -194,6 +211,8 @@ class Dynamics:
     def commit(self, cycles: int) -> None:
         """Adopt the first cycles of what was computed last."""
         block, first = self._computed, self._adopted
+        if first >= cycles:
+            return
         self.seen += [seen for cycle, seen in block.seen if first <= cycle < cycles]
         self._times += block.times_ns[first:cycles].tolist()
         self._states.extend(block.states[first:cycles].copy())

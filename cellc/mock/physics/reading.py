@@ -25,16 +25,10 @@ def with_scene(read: GeneratedFolder, folder: Path) -> GeneratedFolder:
 
     Raises:
         MissingExtraError: MuJoCo is not installed.
-        MockError: it has no scene, one that cannot be used, or more than one owner of joints.
+        MockError: it has no scene, or one that cannot be used.
     """
     if SCENE_FILE not in read.listed:
         raise MockError(folder.as_posix(), f"holds no {SCENE_FILE}, which `--physics` needs; build it again")
-    owners = [*read.contract.managers, *read.contract.adapters]
-    if len(owners) != 1:
-        named = ", ".join(f"`{name}`" for name in owners) or "none"
-        raise MockError(
-            folder.as_posix(), f"`--physics` needs one controller manager that moves all joints, got {named}"
-        )
     text = read_text(folder, SCENE_FILE)
     try:
         return replace(read, scene=Scene(text, _meshes(text, read.mesh_roots)))

@@ -13,15 +13,14 @@ from cellc.mock import MockCell
 from cellc.mock.cell import load
 from cellc.mock.errors import MockError
 from cellc.mock.plant import Plant
-from tests.cells import generated
+from tests.cells import EVERY_CELL, generated
 from tests.cli.run import run
 
-_ALONE = ("ur5e_pick", "gen3_2f", "fr3_hand", "minimal", "rail_arm", "openarm_bimanual")
-"""Cells whose joints one controller manager moves."""
 _DIFFERENT = {
     # An arm behind springs swings once it is told to hold: the mock without mass stands at once.
     ("fr3_hand", "canceled"): "timeout",
     ("openarm_bimanual", "canceled"): "timeout",
+    ("hybrid_sdk", "canceled"): "timeout",
     # It hangs through by 30 mrad, and its hands pass the bench with less room than that.
     ("openarm_bimanual", "both_reach"): "tolerance_violation",
     ("openarm_bimanual", "brought_up"): "tolerance_violation",
@@ -34,7 +33,7 @@ def _cell(name: str) -> MockCell:
     return load(generated(name), physics=True)
 
 
-@pytest.mark.parametrize("name", _ALONE)
+@pytest.mark.parametrize("name", EVERY_CELL)
 def test_rehearsals_end_as_they_are_expected_to_but_for_those_that_are_explained(name: str) -> None:
     cell = _cell(name)
     ended = {entry.name: str(cell.run(entry.name).outcome) for entry in cell.entries}
@@ -61,13 +60,23 @@ def test_a_run_is_the_same_again_after_a_copy_and_however_far_it_is_computed_ahe
     assert repr(asdict(fresh.rehearse(entry, watch=_often))) == first
 
 
-def test_several_owners_of_joints_are_refused() -> None:
-    ended = run("mock", generated("dual_ur").as_posix(), "--physics")
-    assert (ended.code, ended.out) == (2, "")
-    assert (
-        "`--physics` needs one controller manager that moves all joints, got `loading`, `unloading`"
-        in ended.err.replace("\n", " ")
-    )
+@pytest.mark.parametrize(("cell", "rehearsal"), [("dual_ur", "load_and_unload"), ("hybrid_sdk", "polished")])
+def test_a_run_of_several_owners_is_the_same_again(cell: str, rehearsal: str) -> None:
+    known = load(generated(cell), physics=True)
+    entry = known.entry(rehearsal)
+    first = repr(asdict(known.rehearse(entry)))
+    assert repr(asdict(known.rehearse(entry))) == first
+    assert repr(asdict(known.rehearse(entry, watch=_nobody))) == first
+
+
+def test_owners_of_joints_share_one_world() -> None:
+    """Each manager reports all joints: both read the same positions of both arms, to the last bit, at every stamp."""
+    known, plants = load(generated("dual_ur"), physics=True), list[Plant]()
+    known.rehearse(known.entry("canceled"), watch=plants.append)
+    one, other = plants[-1].control.managers.values()
+    assert one.now_ns == other.now_ns
+    assert one.joint_positions() == other.joint_positions()
+    assert len({at for at in one.joint_positions().values() if at}) > 6
 
 
 def test_a_folder_without_a_scene_is_refused(tmp_path: Path) -> None:

@@ -14,8 +14,14 @@ from cellc.mock.control.interfaces import Array
 class Forces(Protocol):
     """Drives, masses and contacts of all joints of a cell.
 
-    Cycles that are computed ahead are adopted or void, as those of the hardware are.
+    Cycles that are computed ahead are adopted or void, as those of the hardware are. Where several owners share the
+    joints, time goes on in single cycles: who asks first for a time computes it, with what the others asked for before.
     """
+
+    @property
+    def shared(self) -> bool:
+        """Whether joints have several owners."""
+        ...
 
     def begin(self, positions: Mapping[str, float]) -> None:
         """Let joints be somewhere before anything moves, rad or m."""
@@ -35,6 +41,10 @@ class Forces(Protocol):
 
     def velocities(self, joints: Sequence[str]) -> Array:
         """Return how fast joints are in the cycles that were computed last, rad/s or m/s."""
+        ...
+
+    def moving(self, joints: Sequence[str]) -> Array:
+        """Return how fast joints are now, rad/s or m/s."""
         ...
 
     def standing(self, joints: Sequence[str]) -> Array:

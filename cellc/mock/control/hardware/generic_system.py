@@ -187,8 +187,17 @@ class GenericSystem:
             motion.acceleration[:, child] = mimic.multiplier * motion.acceleration[:, parent]
         self._motion = motion
         if self._forces is not None:
-            self._forces.aim(self._names, motion.position)
+            self._aim(self._forces, motion.position, command)
         return cycles
+
+    def _aim(self, forces: Forces, positions: Array, command: Array) -> None:
+        """Lead the joints that are commanded: one that another manager commands is led by that alone."""
+        columns = [self._moving_columns[kind] for kind in _MODES]
+        led = {
+            int(i) for of, column in columns for i, at in zip(of, column, strict=True) if not np.isnan(command[0, at])
+        }
+        indices = sorted(led)
+        forces.aim([self._names[index] for index in indices], positions[:, indices])
 
     def _brake(self, cycles: int) -> None:
         """Let drives that hear no command hold their joints where they were when that began."""

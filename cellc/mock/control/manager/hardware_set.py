@@ -242,7 +242,9 @@ class HardwareSet:
         return failed
 
     def single_cycles_only(self, rate: int) -> bool:
-        """Whether a component reads more rarely than the manager cycles."""
+        """Whether a component reads more rarely than the manager cycles, or joints have other owners too."""
+        if self._forces is not None and self._forces.shared:
+            return True
         return any(0 < component.system.info.rw_rate < rate for component in self.components.values())
 
 
