@@ -84,8 +84,9 @@ class GeneratedFolder:
 
     @property
     def staged(self) -> tuple[str, ...]:
-        """One line on the stage, where another than the last may be meant."""
-        return (f"motion is planned in stage {self.stage} % of commissioning",) if self.stage else ()
+        """A line on the stage, where another than the last may be meant, and one where joints and parts have mass."""
+        stage = (f"motion is planned in stage {self.stage} % of commissioning",) if self.stage else ()
+        return stage if self.scene is None else (*stage, "joints and parts have mass, drives and contacts: `--physics`")
 
     @property
     def edited(self) -> bool:

@@ -172,7 +172,7 @@ class Dynamics:
             raise MockError(SCENE_FILE, str(error)) from None
 
     def _recall(self, times_ns: Times) -> None:
-        """Answer for a time that another owner has asked for; what is asked of the drives waits for the next one."""
+        """Take what was computed for another owner at a time; what is asked of the drives waits for the next one."""
         at = [max(0, bisect_right(self._times, time_ns) - 1) for time_ns in times_ns.tolist()]
         states, commands = (np.array([kept[row] for row in at]) for kept in (self._states, self._commands))
         self._block, self._adopted = _Block(times_ns, states, commands, (), {}), len(at)

@@ -79,6 +79,15 @@ def test_owners_of_joints_share_one_world() -> None:
     assert len({at for at in one.joint_positions().values() if at}) > 6
 
 
+def test_results_say_that_joints_have_mass_and_evidence_is_the_same_run(tmp_path: Path) -> None:
+    folder, records = generated("minimal").as_posix(), tmp_path / "records.jsonl"
+    told = run("mock", folder, "--physics", "--records", records.as_posix())
+    assert told.out.startswith("note: joints and parts have mass, drives and contacts: `--physics`\n")
+    assert "note: joints" not in run("mock", folder).out
+    assert run("mock", folder, "--physics", "--evidence", (tmp_path / "evidence").as_posix()).code == 0
+    assert (tmp_path / "evidence" / "ready.records.jsonl").read_bytes() == records.read_bytes()
+
+
 def test_a_folder_without_a_scene_is_refused(tmp_path: Path) -> None:
     folder = tmp_path / "minimal"
     shutil.copytree(generated("minimal"), folder)
