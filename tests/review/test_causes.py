@@ -134,6 +134,11 @@ def test_what_an_adapter_is_given_is_told_once() -> None:
         assert [change.quantity for change in review_of("hybrid_sdk", (old, new)).changes] == [told]
 
 
+def test_what_a_sweep_draws_is_asked_of_who_owns_data() -> None:
+    found = review_of("fr3_hand", ("box: 4 4 0 mm, yaw: 4 deg", "box: 1 1 0 mm, yaw: 1 deg"))
+    assert {(change.area.value, change.owner) for change in found.changes} == {("rehearsals", "data")}
+
+
 def test_consumers_of_names_that_changed_break() -> None:
     (change,) = _renamed("ur5e_pick", {"arm_trajectory": "motion_ctl"}).changes
     assert change.breaking

@@ -153,6 +153,18 @@ def test_stiffness_of_a_joint_is_dangerous_and_both_safety_and_control_are_asked
     assert not [change.quantity for change in found.changes if "law." in change.quantity]
 
 
+def test_a_danger_has_its_reason_where_lines_are_cut() -> None:
+    found = review_of(
+        "ur5e_pick",
+        ("rate: 30 Hz\n    max_age: 100 ms", "rate: 15 Hz\n    max_age: 150 ms"),
+        ("{reliability: best_effort, depth: 1}", "{reliability: reliable, depth: 5}"),
+    )
+    lines = as_text(render_short(found), color=False).splitlines()
+    at = lines.index("  time  oldest sample that may be used +50 %: /camera/color/image_raw")
+    assert lines[at + 1] == "    because older data may be used, or a failure goes unseen for longer"
+    assert len(lines) <= MOST_LINES
+
+
 def test_what_is_cut_says_how_much_is_left() -> None:
     assert cut("a b c") == "a b c"
     assert cut("one two three four five six", 24) == "one two ... 4 words more"

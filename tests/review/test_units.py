@@ -60,6 +60,7 @@ def test_value_with_its_unit(value: Leaf, unit: str, text: str) -> None:
         (0.0, 2.0, "kg", "+2 kg"),
         (-1.0, -0.5, "m", "+500 mm"),  # a place has no share of a negative one
         (0.1, 0.0, "m", "-100 mm"),
+        (0.99, 0.9, "ratio", "-9 points"),  # a share of a share misleads
         (0.0, math.pi / 6, "rad", "+30 deg"),
         (0.0, 0.2, "s", "+200 ms"),
         (3.0, 4.0, "", "+33.3 %"),

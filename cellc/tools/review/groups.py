@@ -19,8 +19,7 @@ _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "
 _SEEN = tuple(f"{what} of {of}" for of in ("depth", "color") for what in ("range", "field of view", "resolution"))
 _VALUED = ("stroke", "grip force", "reach", "largest payload", *_SEEN, "rate of images", LENGTH, MASS)
 """Quantities of a model: a heading has their values, before and after."""
-_TELLING = (
-    *_VALUED,
+_PLACED = (
     "base in its parent",
     "base in the root frame",
     "tip",
@@ -98,6 +97,11 @@ class Group:
         return title_of(cause, line, quote)
 
     @property
+    def is_model(self) -> bool:
+        """Whether a device has another model by it."""
+        return any(change.quantity == _MODEL and change.area is ReviewArea.DEVICES for change in self.changes)
+
+    @property
     def unmeasured(self) -> tuple[str, ...]:
         """What was measured with a part that changed, and not again since."""
         told = [change.why for change in self.changes if change.why.startswith(UNMEASURED)]
@@ -119,18 +123,18 @@ class Group:
         """How far the most telling of its quantities changed, where it has several changes."""
         if len(self.changes) < 2:
             return ()
+        valued = _VALUED if self.is_model else ()
         sized = [
             change
             for change in self.changes
-            if (change.delta and change.quantity in _TELLING) or change.quantity in _VALUED
+            if change.quantity in valued or (change.delta and change.quantity in _PLACED)
         ]
         listed = dict[str, None]()
         for change in sorted(
-            sized, key=lambda change: (_TELLING.index(change.quantity), _HOME not in change.subjects[0])
+            sized, key=lambda change: ((*_VALUED, *_PLACED).index(change.quantity), _HOME not in change.subjects[0])
         ):
             listed[_figure(change)] = None
-        valued = sum(change.quantity in _VALUED for change in sized)
-        return tuple(listed)[: max(_SAID, valued)]
+        return tuple(listed)[: max(_SAID, sum(change.quantity in valued for change in sized))]
 
     @property
     def asks(self) -> str:
@@ -188,8 +192,7 @@ def _order(group: Group) -> tuple[int, int]:
     worst = [change for change in group.changes if change.grade is group.grade]
     # What else changed is read with the names after, and beside another model.
     is_name = group.cause is not None and group.cause.renamed
-    is_model = any(change.quantity == _MODEL and change.area is ReviewArea.DEVICES for change in group.changes)
-    return -tuple(Grade).index(group.grade), -2 if is_name else -1 if is_model else min(map(_rank, worst))
+    return -tuple(Grade).index(group.grade), -2 if is_name else -1 if group.is_model else min(map(_rank, worst))
 
 
 def _rank(change: ReviewChange) -> int:

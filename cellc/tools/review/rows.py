@@ -217,9 +217,12 @@ _ALL: Sequence[Row] = (
     Row("step real {step} ...", Graded(_A.START_ORDER, "request on hardware", Rule.DANGEROUS, ordered=False)),
     Row("step mock {step} ...", Graded(_A.START_ORDER, "step on the mock", ordered=False)),
     Row("spec bringup commissioning stages", Graded(_A.LIMITS, "stages of commissioning", Rule.DANGEROUS)),
-    Row("spec bringup commissioning {what}", Graded(_A.LIMITS, "commissioning", Rule.MORE, why=FURTHER)),
-    Row("stage {stage} {joint} velocity", Graded(_A.LIMITS, "share of its velocity", Rule.MORE, why=FURTHER)),
-    Row("stage {stage} {joint} acceleration", Graded(_A.LIMITS, "share of its acceleration", Rule.MORE, why=FURTHER)),
+    Row("spec bringup commissioning {what}", Graded(_A.LIMITS, "commissioning", Rule.MORE, "ratio", why=FURTHER)),
+    Row("stage {stage} {joint} velocity", Graded(_A.LIMITS, "share of its velocity", Rule.MORE, "ratio", why=FURTHER)),
+    Row(
+        "stage {stage} {joint} acceleration",
+        Graded(_A.LIMITS, "share of its acceleration", Rule.MORE, "ratio", why=FURTHER),
+    ),
     Row(f"stage {{stage}} {_STRAIGHT}.max_trans_dec", Graded(_A.LIMITS, "deceleration", Rule.LESS, why=FURTHER)),
     Row("stage {stage} ...", Graded(_A.LIMITS, "cap", Rule.MORE, why=FURTHER)),
     Row("check first_motion {device} {what}", Graded(_A.GATES, "first motion", Rule.DANGEROUS)),
@@ -232,12 +235,13 @@ _ALL: Sequence[Row] = (
     ),
     Row(
         "file config/uncertainty.json expected {rehearsal} success",
-        Graded(_A.REHEARSALS, "required success rate", Rule.FEWER),
+        Graded(_A.REHEARSALS, "required success rate", Rule.FEWER, "ratio"),
     ),
     Row(
         "file config/uncertainty.json expected {rehearsal} confidence",
-        Graded(_A.REHEARSALS, "required confidence", Rule.FEWER),
+        Graded(_A.REHEARSALS, "required confidence", Rule.FEWER, "ratio"),
     ),
+    Row("file config/uncertainty.json quantities {quantity} {what}", Graded(_A.REHEARSALS, "sweep quantity")),
     Row(
         "file {_} {_} ros__parameters moveit_simple_controller_manager {controller} {what}",
         Graded(_A.CONTROL, "parameter in MoveIt's controller list:"),

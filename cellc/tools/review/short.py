@@ -23,6 +23,7 @@ _FEW = 4
 _NOTES = 2
 _FEW_PAIRS = 2
 _LONG = 40
+_MOSTLY = 60
 _UNBOUNDED = 10_000
 
 _Lines: TypeAlias = list[Line]
@@ -34,6 +35,8 @@ class _Folds(NamedTuple):
     findings: _Fold
     titles: _Fold
     values: _Fold
+    reasons: bool
+    """Whether each danger has its reason, where a line of values is cut."""
 
 
 def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
@@ -42,12 +45,17 @@ def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
     Long ones are broken where everything has room then; else values are cut first, then findings, then titles.
     """
     groups = groups_of(review)
-    for found, titles, values in ((_broken, _broken, _broken), (_broken, _broken, _cut), (_cut, _broken, _cut)):
-        lines = _rendered(review, groups, _UNBOUNDED, _Folds(found, titles, values))
+    for folds in (
+        _Folds(_broken, _broken, _broken, reasons=True),
+        _Folds(_broken, _broken, _cut, reasons=True),
+        _Folds(_broken, _broken, _cut, reasons=False),
+        _Folds(_cut, _broken, _cut, reasons=False),
+    ):
+        lines = _rendered(review, groups, _UNBOUNDED, folds)
         if len(lines) <= most:
             yield from lines
             return
-    yield from _rendered(review, groups, most, _Folds(_cut, _cut, _cut))
+    yield from _rendered(review, groups, most, _Folds(_cut, _cut, _cut, reasons=False))
 
 
 def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
@@ -139,7 +147,7 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
     left = room - sum(map(len, titles)) - (len(shown) < len(groups))
     for number, (group, title) in enumerate(zip(shown, titles, strict=True)):
         share = max(left // (len(shown) - number), min(left, _FEW))
-        inner = [*_inner(group, share, folds.values, is_listed=folds.titles is _cut)]
+        inner = [*_inner(group, share, folds, is_listed=folds.titles is _cut)]
         left -= len(inner)
         yield from title
         yield from inner
@@ -157,7 +165,7 @@ def _title(group: Group, fold: _Fold) -> _Lines:
     return [(Styled(grade, STYLES[group.grade]), first[len(grade) :]), *more]
 
 
-def _inner(group: Group, most: int, fold: _Fold, *, is_listed: bool) -> Iterator[Line]:
+def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterator[Line]:
     """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for.
 
     Args:
@@ -177,7 +185,7 @@ def _inner(group: Group, most: int, fold: _Fold, *, is_listed: bool) -> Iterator
     others = len(changes) - sum(map(len, worst.values()))
     room = min(_FEW, most - len(figures) - len(asked) - (others > 0))
     listed = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
-    lines = [*figures, *(line for text in listed for line in _values(_line(text, worst[text]), worst[text], fold))]
+    lines = [*figures, *(line for text in listed for line in _values(_line(text, worst[text]), worst[text], folds))]
     rest = [change for change in changes if not any(change in worst[text] for text in listed)]
     if rest:
         lines.append((Styled(cut(_rest(rest, group, is_whole=not listed)), Style.DIM),))
@@ -192,17 +200,27 @@ def _is_of_lines(change: ReviewChange) -> bool:
     return change.quantity.endswith(UNCLASSIFIED) or change.quantity.startswith("file ")
 
 
-def _values(line: str, changes: Sequence[ReviewChange], fold: _Fold) -> list[str]:
+def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds) -> list[str]:
     """Return a change with what it means where there is room for that; how much it changed is never cut."""
-    change = changes[0]
+    change, fold = changes[0], folds.values
+    why = "" if change.why.startswith(UNMEASURED) else change.why.partition(", before ")[0].replace("`", "")
+    is_told = folds.reasons and change.grade is not Grade.SAFE and not change.breaking
+    reason = fold(f"    because {why}", "      ") if why and is_told else []
     if fold is _broken:
-        why = "" if change.why.startswith(UNMEASURED) else change.why.partition(", before ")[0].replace("`", "")
-        why = why if change.grade is not Grade.SAFE and not change.breaking else ""
-        return [*fold(line, "    "), *(fold(f"    because {why}", "      ") if why else [])]
-    texts = (f"{change.area}  {change.quantity} {change.delta}".rstrip(), f"{change.area}  {change.quantity}")
-    shorter = (_line(text, changes) for text in texts if not change.quantity.startswith(NAME_OF))
-    fitting = (each for each in (line, *shorter) if len(escaped(each)) <= _WIDTH)
-    return [next((escaped(each) for each in fitting), cut(line))]
+        return [*fold(line, "    "), *reason]
+    return [_fitting(line, changes), *reason]
+
+
+def _fitting(line: str, changes: Sequence[ReviewChange]) -> str:
+    """Return a change in one line: whole, else by how much, else with its values or its subject, what is shorter."""
+    change = changes[0]
+    head = f"{change.area}  {change.quantity}"
+    is_name = change.quantity.startswith(NAME_OF)
+    sized = [_line(f"{head} {change.delta}", changes)] if change.delta and not is_name else []
+    whole = next((escaped(each) for each in (line, *sized) if len(escaped(each)) <= _WIDTH), None)
+    if whole is not None:
+        return whole
+    return cut(line if is_name or len(line.partition(": ")[0]) <= _MOSTLY else _line(head, changes))
 
 
 def _rest(rest: Sequence[ReviewChange], group: Group, *, is_whole: bool) -> str:

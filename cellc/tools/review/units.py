@@ -73,6 +73,7 @@ def _shown_list(value: tuple[str | float | int | bool, ...], unit: str, wanted: 
 _SHOWN = {
     "m": (1e3, "mm"),
     "rad": (math.degrees(1.0), "deg"),
+    "ratio": (100.0, "%"),
     "m/s": (1e3, "mm/s"),
     "rad/s": (math.degrees(1.0), "deg/s"),
     "m/s^2": (1e3, "mm/s^2"),
@@ -137,6 +138,8 @@ def difference(
         return ""
     if isinstance(before, int) and isinstance(after, int):
         return ""
+    if unit == "ratio":
+        return f"{'+' * (after > before)}{_number(100.0 * (after - before))} points"
     if share and before > 0.0 <= after and (after or unit not in ("m", "rad")):
         return f"{_rounded(100.0 * (after - before) / before):+.10g} %"
     sign = "+" if after > before else ""
