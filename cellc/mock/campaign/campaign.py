@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 from cellc.contract.compute.work import ExecutorFactory, Work, stream
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Limits, limits, use
+from cellc.contract.rehearsals import RehearsalEntry
 from cellc.mock.campaign.limits import LimitsReport, check_limits, merge
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun, RunEnd
-from cellc.mock.cell import MockCell, cell_of
+from cellc.mock.cell import MockCell, Watch, cell_of
 from cellc.mock.control.journal import CommandJournal, CommandSamples, Interruption
 from cellc.mock.errors import MockError
 from cellc.mock.faults.cases import FaultCase
@@ -19,9 +20,15 @@ from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult, RunFailure, to_json_lines
 from cellc.robot.description.packages import package_path, use_packages
 
+Rehearse = Callable[[RehearsalEntry, Watch], RehearsalResult]
+"""Runs a rehearsal in another way than all of it on the mock."""
 
-def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
+
+def execute(cell: MockCell, run: CampaignRun, seed: int, rehearse: Rehearse | None = None) -> RunEnd:
     """Execute a run; the same cell, run and seed give the same end to the last bit.
+
+    Args:
+        rehearse: how, where some nodes are not played.
 
     Raises:
         MockError: a fault names what the contract does not have.
@@ -35,7 +42,10 @@ def execute(cell: MockCell, run: CampaignRun, seed: int) -> RunEnd:
             journals.append(server.journal)
 
     try:
-        result = cell.rehearse(run.entry, seed=seed, watch=watch, from_off=False)
+        if rehearse is None:
+            result = cell.rehearse(run.entry, seed=seed, watch=watch, from_off=False)
+        else:
+            result = rehearse(run.entry, watch)
     except MockError:
         raise
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it
@@ -148,11 +158,15 @@ class Campaign:
 
 
 def run_all(
-    cell: MockCell, runs: Sequence[CampaignRun], seed: int, factory: ExecutorFactory | None
+    cell: MockCell,
+    runs: Sequence[CampaignRun],
+    seed: int,
+    factory: ExecutorFactory | None,
+    rehearse: Rehearse | None = None,
 ) -> Iterator[tuple[int, RunEnd]]:
-    """Yield the ends of runs with their numbers, as they come."""
-    if factory is None:
-        return ((number, execute(cell, run, seed)) for number, run in enumerate(runs))
+    """Yield the ends of runs with their numbers, as they come; in this process alone where ``rehearse`` is given."""
+    if factory is None or rehearse is not None:
+        return ((number, execute(cell, run, seed, rehearse)) for number, run in enumerate(runs))
     return stream(Work(_begin, Assignment.of(cell, seed), _identifier), runs, factory)
 
 
@@ -160,7 +174,9 @@ def _identifier(run: CampaignRun) -> str:
     return run.identifier
 
 
-def make_plan(cell: MockCell, cases: Sequence[FaultCase], seed: int) -> tuple[CampaignPlan, tuple[RunEnd, ...]]:
+def make_plan(
+    cell: MockCell, cases: Sequence[FaultCase], seed: int, rehearse: Rehearse | None = None
+) -> tuple[CampaignPlan, tuple[RunEnd, ...]]:
     """Run what is undisturbed, and plan faults for what succeeds; a rehearsal that fails by itself is reported as
     failed.
 
@@ -170,7 +186,7 @@ def make_plan(cell: MockCell, cases: Sequence[FaultCase], seed: int) -> tuple[Ca
     undisturbed = [CampaignRun.undisturbed(entry) for entry in cell.entries if entry.is_plain]
     if not undisturbed:
         raise MockError(cell.contract.files.rehearsals, "has no rehearsal without faults to run a campaign over")
-    baselines = tuple(execute(cell, run, seed) for run in undisturbed)
+    baselines = tuple(execute(cell, run, seed, rehearse) for run in undisturbed)
     return CampaignPlan(cases, [baseline for baseline in baselines if baseline.named]), baselines
 
 
@@ -182,6 +198,7 @@ def conduct(
     seed: int,
     factory: ExecutorFactory | None,
     progress: Progress,
+    rehearse: Rehearse | None = None,
 ) -> Campaign:
     """Execute runs in this process or by an executor, with the same result.
 
@@ -191,7 +208,7 @@ def conduct(
     """
     ends: dict[int, RunEnd] = {}
     failed = 0
-    for number, end in run_all(cell, runs, seed, factory):
+    for number, end in run_all(cell, runs, seed, factory, rehearse):
         ends[number] = end
         failed += not end.passed
         progress(len(ends), len(runs), failed)

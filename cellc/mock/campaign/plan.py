@@ -91,7 +91,7 @@ class RunEnd:
     @property
     def passed(self) -> bool:
         """Tell whether the run is as it must be."""
-        return self.named and self.in_time and self.limits.held
+        return self.named and self.in_time and self.limits.held and not self.result.violations
 
 
 class CampaignPlan:

@@ -170,6 +170,8 @@ def failure_lines(end: RunEnd, command: str) -> Iterator[str]:
         yield f"        bound: response {took}, allowed {run.within_s * 1e3:.0f} ms"
     for excess in end.limits.excesses:
         yield f"        limit: {excess}"
+    for violation in result.violations:
+        yield f"        against the contract: {violation}"
     if text := end.crash or result.reason:
         yield f"        reason: {text}"
     yield f"        replay: {command}"

@@ -15,7 +15,7 @@ from cellc.contract.diagnostics import nearest
 from cellc.contract.diagnostics.wording import time_left
 from cellc.contract.limits import limits, option
 from cellc.contract.printing import columns, progress, remark, show, show_document
-from cellc.mock.campaign.campaign import Campaign, conduct, make_plan
+from cellc.mock.campaign.campaign import Campaign, Rehearse, conduct, make_plan
 from cellc.mock.campaign.plan import CampaignPlan, CampaignRun
 from cellc.mock.campaign.summary import campaign_json, campaign_lines, end_lines
 from cellc.mock.cell import MockCell, cell_of
@@ -25,6 +25,7 @@ from cellc.mock.command.records import refuse_foreign, write_records
 from cellc.mock.command.rehearsals import keep_evidence, load_seeded
 from cellc.mock.errors import MockError
 from cellc.mock.faults.registry import possible_faults
+from cellc.mock.ros.asked import AmongNodes
 
 Choice = Callable[[CampaignPlan], Sequence[CampaignRun]]
 
@@ -75,7 +76,7 @@ def list_runs(options: CampaignOptions) -> int:
     """Print the identifiers of the runs of a campaign; only the rehearsals without faults are run."""
     cell = load_for_campaign(options)
     plan, _ = make_plan(cell, possible_faults(cell.contract), options.seed)
-    show(*(run.identifier for run in _all_runs(plan, options)))
+    show(*(run.identifier for run in _seen(cell, _all_runs(plan, options), options.among)))
     return 0
 
 
@@ -105,16 +106,19 @@ def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions | ReplayOp
     if options.records is not None:
         refuse_foreign(Path(options.records))
     start = perf_counter()
-    plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed)
-    runs = choose(plan)
-    factory, who = executor(options.fan)
+    rehearse = None if options.among is None else _among(cell, options.among, options.seed)
+    plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed, rehearse)
+    runs = _seen(cell, choose(plan), options.among)
+    factory, who = executor(options.fan) if rehearse is None else (None, "one after the other")
     with progress("campaign") as update:
 
         def report(done: int, total: int, failed: int) -> None:
             update(pace(f"{done} of {total}", total, done, failed, perf_counter() - start))
 
         try:
-            campaign = conduct(cell, runs, baselines, seed=options.seed, factory=factory, progress=report)
+            campaign = conduct(
+                cell, runs, baselines, seed=options.seed, factory=factory, progress=report, rehearse=rehearse
+            )
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
     if options.records is not None:
@@ -122,6 +126,23 @@ def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions | ReplayOp
         write_records(Path(options.records), attempts)
     remark(f"{len(runs)} runs in {perf_counter() - start:.1f} s, {who}")
     return campaign
+
+
+def _among(cell: MockCell, asked: AmongNodes, seed: int) -> Rehearse:
+    """Return how a rehearsal is run around nodes that are not played."""
+    from cellc.mock.ros.session import rehearse_among
+
+    return lambda entry, watch: rehearse_among(cell, entry, seed, asked, watch).result
+
+
+def _seen(cell: MockCell, runs: Sequence[CampaignRun], asked: AmongNodes | None) -> Sequence[CampaignRun]:
+    """Return the runs with a fault that the nodes under test can see; all runs where every node is played."""
+    if asked is None:
+        return runs
+    from cellc.mock.ros.session import concerns
+
+    contract, without = cell.contract, asked.without
+    return [run for run in runs if any(concerns(contract, without, fault) for fault in run.entry.faults)]
 
 
 def _found(plan: CampaignPlan, identifier: str) -> CampaignRun:

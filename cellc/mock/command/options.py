@@ -49,7 +49,11 @@ class FolderOptions:
         words = ["cellc", "replay", self.folder, run]
         words += [] if rehearsal is None else ["--rehearsal", rehearsal]
         words += ["--seed", str(self.seed)] if self.seed else []
-        return shlex.join([*words, "--edited"] if self.edited else words)
+        return shlex.join([*words, *(["--edited"] if self.edited else []), *self.others()])
+
+    def others(self) -> tuple[str, ...]:
+        """Return the options that a run must have to be made again, beside those that every command has."""
+        return ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,10 +107,16 @@ class CampaignOptions(FolderOptions):
     Attributes:
         pairs: number of runs with two faults.
         records: file that attempt records are written to, as JSON lines.
+        among: nodes on a ROS graph that are run for real; only faults that they can see are injected.
     """
 
     pairs: int = 0
     records: str | None = None
+    among: AmongNodes | None = None
+
+    def others(self) -> tuple[str, ...]:
+        """Return the options that a run must have to be made again."""
+        return () if self.among is None else self.among.words()
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,9 +163,11 @@ class ReplayOptions(FolderOptions):
         rehearsal: that the runs of a sweep are of; None for the one that `cellc sweep` takes.
         journal: of the sweep, which must be the same one.
         records: file that attempt records are written to, as JSON lines.
+        among: nodes on a ROS graph that are run for real.
     """
 
     runs: tuple[str, ...] = ()
     rehearsal: str | None = None
     journal: str | None = None
     records: str | None = None
+    among: AmongNodes | None = None

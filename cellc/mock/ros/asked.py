@@ -45,6 +45,12 @@ class AmongNodes:
     launch: str = ""
     appear_s: float = 30.0
 
+    def words(self) -> tuple[str, ...]:
+        """Return the options that ask for this."""
+        pace = ("--lockstep",) if self.timing.pace is None else ("--pace", f"{self.timing.pace:g}")
+        started = ("--launch", self.launch) if self.launch else ()
+        return ("--ros", "--without", ",".join(self.without), *pace, "--domain", str(self.domain), *started)
+
 
 def usual_interpreter() -> str:
     """Return the Python of a ROS installation: the system's, for which the packages of a distribution are built."""

@@ -6,6 +6,7 @@ from collections.abc import Collection
 
 from cellc.contract.contract import Contract
 from cellc.contract.entities import Qos
+from cellc.mock.clocks import Clock
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.topics import CLOCK_TOPIC
@@ -28,12 +29,14 @@ def full_names(contract: Contract) -> frozenset[str]:
 class Graph:
     """Publishes what the played nodes do; what nodes under test publish is left to them."""
 
-    def __init__(self, bridge: Bridge, contract: Contract, tested: Collection[str]) -> None:
+    def __init__(self, bridge: Bridge, contract: Contract, tested: Collection[str], clock: Clock) -> None:
         """Bind the graph.
 
         Args:
             tested: full names of the nodes that are not played.
+            clock: that they read, with its error; `/clock` has it.
         """
+        self._time = clock
         self._bridge = bridge
         self._contract = contract
         self._tested = frozenset(tested)
@@ -56,7 +59,9 @@ class Graph:
 
     def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
         """Publish a serialized message now, where somebody hears it or may hear it later."""
-        if channel in self._heard or channel in self._latched:
+        if channel == self._clock:
+            self.tick(publish_ns)
+        elif channel in self._heard or channel in self._latched:
             self._bridge.publish(channel, data)
 
     def subscribe(self, topic: str, kind: str, qos: Qos) -> int:
@@ -74,8 +79,8 @@ class Graph:
         return self._channels.get(topic, _LEFT_OUT) in self._heard
 
     def tick(self, now_ns: int) -> None:
-        """Publish the time."""
-        self._bridge.publish(self._clock, messages.clock(now_ns))
+        """Publish what the clock of the nodes under test reads at an instant of the run."""
+        self._bridge.publish(self._clock, messages.clock(max(0, self._time.read(now_ns))))
 
     def _source(self, topic: str) -> str | None:
         return _source(self._contract, topic, self._tested)

@@ -123,7 +123,9 @@ class PerceptionUnderTest:
         if not self._sent or self._max_age_ns is None:
             return
         stamp_ns, shot = next(reversed(self._sent.items()))
-        late_ns = max(self._plant.now_ns, stamp_ns) + self._max_age_ns + round(_PROBE_AGE_S * 1e9)
+        now_ns = self._plant.now_ns
+        ahead_ns = max(0, stamp_ns - self._plant.clocks.of(self._node).read(now_ns))
+        late_ns = now_ns + ahead_ns + self._max_age_ns + round(_PROBE_AGE_S * 1e9)
         self._graph.tick(late_ns)
         sleep(_CLOCK_S)
         self._too_old = True

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from time import monotonic, sleep
 
 from cellc.contract.bring_up import Transition
 from cellc.contract.contract import Contract
+from cellc.contract.faults import FaultKind
 from cellc.contract.frozen import dataclass
-from cellc.contract.rehearsals import RehearsalEntry
-from cellc.mock.cell import MockCell
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
+from cellc.mock.cell import MockCell, Watch
+from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.images.photographer import Photographer
 from cellc.mock.evidence.listener import RunListener
@@ -30,6 +33,8 @@ from cellc.mock.ros.perception import PerceptionUnderTest
 _DISCOVERY_S = 1.0
 """Of the host: how long who else is there is looked for, before anything is published."""
 _LOOK_S = 0.1
+_IDLE_NS = 2_000_000_000
+"""Of the run: passes before anything is brought up, so that a clock that is set back reads no negative time."""
 _TICK_HZ = 200.0
 """How often what arrives is taken, at a pace."""
 
@@ -64,8 +69,25 @@ def tested_nodes(contract: Contract, without: Sequence[str]) -> dict[str, str]:
     return {name: known[name] for name in without}
 
 
-def rehearse_among(cell: MockCell, entry: RehearsalEntry, seed: int, asked: AmongNodes) -> Judged:
+def concerns(contract: Contract, without: Collection[str], fault: FaultEntry) -> bool:
+    """Tell whether nodes under test can see a fault: in their images, topics, transforms and clocks, or of a part."""
+    cameras = {device: facts.camera.topic for device, facts in contract.devices.items() if facts.camera is not None}
+    interface = contract.interfaces.get(cameras.get(fault.target, fault.target))
+    ends = () if interface is None else (*interface.sources, *interface.sinks)
+    return (
+        any(end.node in without for end in ends)
+        or fault.target in contract.frames
+        or fault.kind is FaultKind.JUMP_CLOCK
+    )
+
+
+def rehearse_among(
+    cell: MockCell, entry: RehearsalEntry, seed: int, asked: AmongNodes, watch: Watch | None = None
+) -> Judged:
     """Run a rehearsal around nodes that are not played.
+
+    Args:
+        watch: sees the plant too, before anything runs.
 
     Raises:
         MockError: there is no ROS environment, it is another distribution's, somebody is on the graph who must not be,
@@ -79,9 +101,19 @@ def rehearse_among(cell: MockCell, entry: RehearsalEntry, seed: int, asked: Amon
         around = _Around(cell, bridge, tested, asked)
         if asked.launch:
             bridge.start(_words(asked.launch))
-        result = cell.rehearse(entry, seed=seed, watch=around.begin)
+        result = cell.rehearse(entry, seed=seed, watch=partial(_both, watch, around.begin))
         around.end()
     return Judged(replace(result, violations=around.judgment.lines()), tuple(around.notes))
+
+
+def _idle(until_ns: int) -> Waiting[None]:
+    yield Wait(until_ns)
+
+
+def _both(watch: Watch | None, begin: Watch, plant: Plant) -> None:
+    if watch is not None:
+        watch(plant)
+    begin(plant)
 
 
 def _words(command: str) -> list[str]:
@@ -126,7 +158,9 @@ class _Around:
         Raises:
             MockError: a node does not appear, or is not on the topics that the contract has it on.
         """
-        graph = Graph(self._bridge, plant.contract, self._tested.values())
+        plant.simulation.run_process(_idle(_IDLE_NS))
+        clock = plant.clocks.of(next(iter(self._tested)))
+        graph = Graph(self._bridge, plant.contract, self._tested.values(), clock)
         plant.simulation.heard_outside = True
         bag = RunBag(graph, plant)
         bag.begin(self._cell.folder.urdf)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import click
 
+from cellc.contract.compute.fan import USUAL
 from cellc.mock.command.options import CampaignOptions
 from cellc.tools.cli.fleet import fan_options
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, RECORDS, SEED, options_as
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, RECORDS, SEED, options_as, ros_options
 
 
 @click.command()
@@ -19,6 +20,7 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, R
 @JSON
 @SEED
 @EDITED
+@ros_options
 @fan_options
 @limit_option
 @options_as(CampaignOptions)
@@ -33,11 +35,14 @@ def campaign(options: CampaignOptions, list_only: bool) -> None:
     cellc campaign generated/bench --pairs 500     and 500 runs with two faults
     cellc campaign generated/bench --list          names of the runs
     cellc campaign generated/bench --evidence evidence/1
+    cellc campaign generated/bench --ros --without perception --launch COMMAND
     """
     from cellc.mock.command.campaign import list_runs, run_campaign
 
     kept = {"--evidence": options.evidence, "--records": options.records}
     written = next((option for option, path in kept.items() if path is not None), "")
+    if options.among is not None and options.fan != USUAL:
+        raise click.UsageError("--ros runs one rehearsal after the other, without --jobs and --cluster.")
     if list_only and written:
         raise click.UsageError(f"{written} cannot be combined with --list.")
     raise click.exceptions.Exit(list_runs(options) if list_only else run_campaign(options))

@@ -7,7 +7,7 @@ import click
 from cellc.mock.command.options import ReplayOptions
 from cellc.mock.sweep.names import SWEPT
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, RECORDS, SEED, options_as
+from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, RECORDS, SEED, options_as, ros_options
 from cellc.tools.cli.words import complete_rehearsal, complete_run
 
 
@@ -23,6 +23,7 @@ from cellc.tools.cli.words import complete_rehearsal, complete_run
 @JSON
 @SEED
 @EDITED
+@ros_options
 @limit_option
 @options_as(ReplayOptions)
 def replay(options: ReplayOptions) -> None:
@@ -43,6 +44,8 @@ def replay(options: ReplayOptions) -> None:
         raise click.UsageError(f"{needless} needs a run of a sweep, `{SWEPT}NUMBER`.")
     if options.records is not None and swept[0]:
         raise click.UsageError("--records cannot be combined with a run of a sweep.")
+    if swept[0] and options.among is not None:
+        raise click.UsageError("--ros cannot be combined with a run of a sweep.")
     if swept[0]:
         from cellc.mock.command.sweep import replay_swept
 

@@ -138,7 +138,7 @@ def ros_options(command: Command) -> Command:
             return
         if not without:
             raise click.UsageError("--ros needs --without NODES, such as --without perception.")
-        if others["live"] is not None or others["evidence"] is not None:
+        if others.get("live") is not None or others["evidence"] is not None:
             raise click.UsageError(
                 "--ros cannot be combined with --live or --evidence; record the graph with ros2 bag."
             )

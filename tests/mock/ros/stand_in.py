@@ -12,6 +12,7 @@ import pytest
 
 from cellc.contract.entities import Qos
 from cellc.mock import MockCell
+from cellc.mock.cell import Watch
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.bag.messages import StampedTransform
 from cellc.mock.evidence.images.photographer import Photographer
@@ -119,7 +120,13 @@ def right(graph: Graph, stamp_ns: int, *, max_age_ns: int = 100_000_000) -> Sequ
 
 
 def run(
-    cell: MockCell, monkeypatch: pytest.MonkeyPatch, graph: Graph, name: str = "pick_and_place", *, launch: str = ""
+    cell: MockCell,
+    monkeypatch: pytest.MonkeyPatch,
+    graph: Graph,
+    name: str = "pick_and_place",
+    *,
+    launch: str = "",
+    watch: Watch | None = None,
 ) -> Judged:
     """Run a rehearsal around the node of a graph, in lockstep."""
     begin = session._Around.begin
@@ -135,7 +142,7 @@ def run(
         monkeypatch.setattr(session, wait, 0.0)
     monkeypatch.setattr("cellc.mock.ros.perception._CLOCK_S", 0.0)
     asked = AmongNodes(("perception",), "python3", Timing(None), launch=launch, appear_s=0.0)
-    return rehearse_among(cell, cell.entry(name), 0, asked)
+    return rehearse_among(cell, cell.entry(name), 0, asked, watch)
 
 
 def changed(change: Callable[[Graph, int, Sequence[Said]], Sequence[Said]], **allowed: int) -> Node:

@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
+from cellc.contract.faults import FaultKind
+from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.contract.transforms import Pose
 from cellc.mock import MockCell
+from cellc.mock.campaign.campaign import execute
+from cellc.mock.campaign.plan import CampaignRun
+from cellc.mock.campaign.summary import failure_lines
+from cellc.mock.cell import Watch, cell_of
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.bag import messages
+from cellc.mock.result import RehearsalResult
 from cellc.mock.ros.asked import AmongNodes
 from cellc.mock.ros.bridge import GraphEnd
-from cellc.mock.ros.session import rehearse_among
+from cellc.mock.ros.session import concerns, rehearse_among
 from tests.mock.ros.stand_in import CAMERA, IMAGES, POSES, Graph, Node, Said, changed, right, run
 
 _AT = Pose((0.1, 0.0, 0.4), (0.0, 0.0, 0.0, 1.0))
@@ -149,3 +157,50 @@ def test_only_nodes_that_can_be_left_out_are(cell: MockCell, name: str, text: st
     with pytest.raises(MockError) as refused:
         rehearse_among(cell, cell.entry("pick_and_place"), 0, AmongNodes((name,), "python3"))
     assert refused.value.reason == text
+
+
+def test_the_clock_of_the_node_is_set_with_that_of_its_host(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
+    run_of = CampaignRun.undisturbed(cell.entry("pick_and_place"))
+    back = FaultEntry(kind=FaultKind.JUMP_CLOCK, target="control_pc", at_s=1.0, jump_s=-0.05)
+    graph, clocks = Graph(right), list[int]()
+    monkeypatch.setattr(
+        Graph, "clock_ns", property(lambda _: clocks[-1], lambda _, value: clocks.append(value)), raising=False
+    )
+    entry = run_of.entry.model_copy(update={"name": "set_back", "faults": (back,)})
+    asked = cell_of(replace(cell.folder, rehearsals=(entry,)))
+    result = run(asked, monkeypatch, graph, "set_back").result
+    assert result.violations == ()
+    assert sum(after < before for before, after in pairwise(clocks)) == 1
+    assert min(clocks) >= 0
+
+
+def test_a_campaign_has_the_faults_that_the_node_sees(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = [
+        ("freeze", "camera", True),
+        ("freeze", "arm", False),
+        ("mismatch_qos", "/object_pose", True),
+        ("mismatch_qos", "/joint_states", False),
+        ("drop_frame", "arm_shoulder_link", True),
+        ("jump_clock", "camera", True),
+        ("protective_stop", "arm", False),
+        ("missing_part", "object", True),
+    ]
+    for kind, target, expected in seen:
+        fault = FaultEntry.model_validate({"kind": kind, "target": target, "at_s": 0.0})
+        assert concerns(cell.contract, ("perception",), fault) is expected
+
+
+def test_a_run_of_a_campaign_fails_where_the_node_breaks_its_contract(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    undisturbed = CampaignRun.undisturbed(cell.entry("pick_and_place"))
+    for node, passes in ((right, True), (_WRONG["stamp on arrival"][0], False)):
+
+        def rehearse(entry: RehearsalEntry, watch: Watch, node: Node = node) -> RehearsalResult:
+            return run(cell, monkeypatch, Graph(node), watch=watch).result
+
+        end = execute(cell, undisturbed, 0, rehearse)
+        assert end.passed is passes
+        assert end.limits.peaks != ()
+        told = [line for line in failure_lines(end, "again") if "against the contract: stamp_of_another_time" in line]
+        assert bool(told) is not passes
