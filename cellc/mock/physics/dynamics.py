@@ -108,15 +108,15 @@ class Dynamics:
         self._adopted = 0
         self._changes: dict[str, Change] = {}
         self._bodies: Bodies | None = Bodies(scene)
-        self._ahead = False
         self._state = self._bodies.state()
+        self._held: Array | None = self._state
         self._times: list[int] = [0]
         self._states: list[Array] = [self._state]
         self._commands: list[Array] = [scene.aims(self._state)]
 
     def __getstate__(self) -> dict[str, Any]:
         """Return what a copy needs: what MuJoCo holds follows from it."""
-        return {**self.__dict__, "_bodies": None}
+        return {**self.__dict__, "_bodies": None, "_held": None}
 
     # -- joints ------------------------------------------------------------------------------------------------------
 
@@ -165,7 +165,7 @@ class Dynamics:
             seen += [(cycle, Seen(time_ns, touch)) for touch in bodies.touches(self._watched)]
             at_ns = time_ns
         self._aims.clear()
-        self._block, self._adopted, self._ahead = _Block(times_ns, states, commands, tuple(seen), followed), 0, True
+        self._block, self._adopted, self._held = _Block(times_ns, states, commands, tuple(seen), followed), 0, None
         try:
             bodies.refuse_unstable()
         except SceneError as error:
@@ -266,7 +266,7 @@ class Dynamics:
         """Return what presses on what now."""
         bodies = self._now()
         bodies.look()
-        self._ahead = True
+        self._held = None
         return tuple(bodies.touches())
 
     def reshape(self, part: str, *, wider_m: float | None = None, friction: float | None = None) -> None:
@@ -308,15 +308,15 @@ class Dynamics:
     def _now(self) -> Bodies:
         """Return the bodies as they were adopted last."""
         if self._bodies is None:
-            self._bodies, self._ahead = Bodies(self.scene), True
+            self._bodies = Bodies(self.scene)
             for part, change in self._changes.items():
                 self._bodies.shape(part, change.wider_m, change.friction)
-        if self._ahead:
+        if self._held is not self._state:
             self._bodies.restore(self._state)
-            self._ahead = False
+            self._held = self._state
         return self._bodies
 
     def _change(self, bodies: Bodies) -> None:
         """Adopt what somebody has moved at this instant."""
-        self._state = bodies.state()
+        self._state = self._held = bodies.state()
         self._states[-1], self._commands[-1] = self._state, self.scene.aims(self._state)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from cellc.mock.cell import cell_of, read_to_run
+from cellc.mock.cell import cell_of, load, read_to_run
 from cellc.mock.physics.contacts import pressed
 from cellc.mock.physics.dynamics import Seen
 from cellc.mock.result import RehearsalResult
@@ -36,6 +36,14 @@ def test_a_post_that_no_plan_knows_ends_the_motion_that_meets_it() -> None:
     assert found[1].startswith(("arm_", "gripper_"))
     assert float(found[3]) > 10.0
     assert any(line.startswith(f"contact: {found[1]} and post press") for line in result.findings)
+
+
+def test_a_motion_that_touches_the_bench_ends_there_even_if_it_arrives() -> None:
+    """The arms of `openarm_bimanual` hang through by 45 mrad, and are on their goals within their tolerances."""
+    result = load(generated("openarm_bimanual"), physics=True).run("both_reach")
+    assert result.reason.startswith(
+        "step 2 `move: together reach`: contact: bench and openarm_right_ee_base_link press on "
+    )
 
 
 def test_a_drive_that_is_too_weak_is_named_with_its_torque() -> None:
