@@ -8,7 +8,7 @@ import subprocess
 from typing import Any
 
 from tests.consumers.matrix import build, every_build
-from tests.emit.cells import contract_data
+from tests.emit.cells import contract_data, unbroken
 from tests.foreign_yaml import safe_load
 
 _ORDER = ["G0", "G1", "G2", "G3", *(f"L{number}" for number in range(1, 7)), "G4", "G5", "G6", "G7"]
@@ -21,7 +21,7 @@ def sections(cell: str, distro: str) -> dict[str, str]:
     """Return the text of every gate by its code, the layers after the gate that they belong to."""
     found: dict[str, str] = {}
     for page in _PAGES:
-        parts = re.split(r"^## ([GL]\d) .*$", build(cell, distro).texts[page], flags=re.MULTILINE)
+        parts = re.split(r"^## ([GL]\d) .*$", unbroken(build(cell, distro).texts[page]), flags=re.MULTILINE)
         found |= dict(zip(parts[1::2], parts[2::2], strict=True))
     return {code: found[code] for code in _ORDER} | found
 

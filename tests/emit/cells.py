@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from functools import cache
 from pathlib import Path
@@ -26,6 +27,11 @@ def emitted_graph(graph: CellGraph) -> dict[str, str]:
 def emitted(folder: Path, text: str) -> dict[str, str]:
     """Return the text of every artifact of a spec by path."""
     return emitted_graph(graph_of(written(folder, text)))
+
+
+def unbroken(page: str) -> str:
+    """Return a page with every command on one line, as a shell reads it."""
+    return re.sub(r" \\\n +", " ", page)
 
 
 @cache

@@ -10,7 +10,7 @@ from subprocess import run
 
 import pytest
 
-from tests.emit.cells import CELLS, artifacts_of
+from tests.emit.cells import CELLS, artifacts_of, unbroken
 from tests.foreign_yaml import safe_load
 
 # What a checklist may tell people to type: reading commands, and starting what its gate releases.
@@ -93,8 +93,8 @@ def test_inventory_asks_for_a_commit_where_the_source_lies_that_the_workspace_im
 @pytest.mark.parametrize("cell", CELLS)
 @pytest.mark.parametrize("page", ["gates/promotion.md", "gates/network.md"])
 def test_commands_only_read(page: str, cell: str) -> None:
-    blocks = re.findall(r"```sh\n(.*?)```", artifacts_of(cell)[page], flags=re.DOTALL)
-    lines = "\n".join(blocks).replace("\\\n", " ").splitlines()
+    blocks = re.findall(r"```sh\n(.*?)```", unbroken(artifacts_of(cell)[page]), flags=re.DOTALL)
+    lines = "\n".join(blocks).splitlines()
     commands = [line.strip().removeprefix("{ ") for line in lines if not re.match(r"\s*(\{|\(set -x|[)}].*)?$", line)]
     assert len(commands) > 10
     for command in commands:
@@ -117,7 +117,7 @@ def test_no_tool_of_ros_is_waited_for_without_end(page: str, cell: str) -> None:
 
 
 def test_each_action_that_promises_how_soon_a_cancel_holds_has_the_command_that_cancels_it() -> None:
-    gate = artifacts_of("ur5e_pick")["gates/promotion.md"].split("\n## G7")[1].replace("\\", "")
+    gate = unbroken(artifacts_of("ur5e_pick")["gates/promotion.md"]).split("\n## G7")[1].replace("\\", "")
     # The first goals cancel at the controller; nothing else sends it a goal.
     assert [found[1] for found in _CANCEL.finditer(gate)] == ["/move_action"]
     assert "UNKNOWN: whether a canceled goal of `/gripper_action/gripper_cmd` holds within 0.2 s" in gate
@@ -296,3 +296,13 @@ def test_data_flow_names_everyone_on_the_way_to_the_drives() -> None:
     steps += ["vendor controller of arm", "safety_plc stops the cell"]
     places = [flow.index(step) for step in steps]
     assert places == sorted(places)
+
+
+@pytest.mark.parametrize("cell", CELLS)
+@pytest.mark.parametrize("page", ["gates/promotion.md", "gates/network.md"])
+def test_commands_are_as_wide_as_paper_and_read_by_a_shell_as_one(page: str, cell: str) -> None:
+    blocks = re.findall(r"^  ```sh\n(.*?)^  ```$", artifacts_of(cell)[page], flags=re.DOTALL | re.MULTILINE)
+    for block in blocks:
+        run(["bash", "-n"], input=block, text=True, check=True, capture_output=True)
+        for line in block.splitlines():
+            assert len(line) <= 82 or len(line.split()) <= 2, line

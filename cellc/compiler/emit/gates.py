@@ -7,6 +7,7 @@ filled in there and signed.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from cellc.compiler.artifact import Artifact
@@ -46,7 +47,8 @@ def _check(check: Check, evidence: str) -> Iterator[str]:
         lines = [line for command in check.commands for line in command.splitlines()]
         yield ""
         yield "  ```sh"
-        yield from (f"  {line}" for line in (lines if check.starts else _kept(lines, evidence, traced=check.traced)))
+        kept = lines if check.starts else _kept(lines, evidence, traced=check.traced)
+        yield from (f"  {part}" for line in kept for part in _broken(line))
         yield "  ```"
         yield ""
 
@@ -59,3 +61,42 @@ def _kept(lines: list[str], evidence: str, *, traced: bool) -> Iterator[str]:
         return
     start, end = ("(set -x", ")") if traced else ("{", "}")
     yield from (start, *(f"  {line}" for line in lines), f"{end} {into}")
+
+
+_WIDE = 80
+"""Characters of a line of commands that a page of A4 shows whole."""
+_WORD = re.compile(r'2>&1 \| tee -a "[^"]*"|(?:"[^"]*"|\'[^\']*\'|\\.|[^\s"\'\\])+')
+
+
+def _broken(line: str) -> Iterator[str]:
+    """Yield a line of commands as a shell reads it over several lines, each as wide as paper; quotes stay whole."""
+    words = _WORD.findall(line)
+    indent = line[: len(line) - len(line.lstrip())]
+    if len(line) <= _WIDE or indent + " ".join(words) != line or any(word.startswith("#") for word in words):
+        yield line
+        return
+    part, *others = _joined(words)
+    part = indent + part
+    for other in others:
+        if len(part) + len(other) + len(" \\ ") > _WIDE:
+            yield part + " \\"
+            part = f"{indent}    {other}"
+        else:
+            part += f" {other}"
+    yield part
+
+
+def _joined(words: list[str]) -> Iterator[str]:
+    """Yield words, an option with its value and a pipe with its command as one."""
+    parts = list[str]()
+    for word in words:
+        before = parts[-1] if parts else ""
+        if (
+            word == "}"
+            or before in ("|", "&&", "||", "{")
+            or (before.startswith("-") and " " not in before and word[0] not in "-|&2")
+        ):
+            parts[-1] += f" {word}"
+        else:
+            parts.append(word)
+    yield from parts
