@@ -75,7 +75,7 @@ def test_gates_compare_the_file_and_read_what_the_driver_says_of_it(tmp_path: Pa
     assert hashlib.sha256(_FILE.encode()).hexdigest() in gates
     assert "sha256sum cells/ur5e_pick/ours/arm.yaml" in gates
     assert "grep -hF -e 'Calibration checked successfully'" in gates
-    nominal = unbroken(artifacts_of("ur5e_pick")["gates/network.md"]  # at the end of L2: the robot is powered for it)
+    nominal = unbroken(artifacts_of("ur5e_pick")["gates/network.md"])  # at the end of L2: the robot is powered for it
     assert "ros2 launch ur_calibration calibration_correction.launch.py robot_ip:=192.168.56.101" in nominal
 
 
