@@ -325,6 +325,14 @@ class Contract(ContractModel):
     joint_limits: Annotated[dict[str, ContractJointLimits], Graded(ReviewArea.LIMITS, "limits", each="joint")] = Field(
         description="Limits by joint."
     )
+    parts: Annotated[
+        tuple[tuple[str, ...], ...],
+        Graded(ReviewArea.MOTION, "robots that can reach each other", Rule.REVIEW, ordered=False, why=PLANNED),
+    ] = Field(
+        (),
+        description="Devices and things of the scene by what can meet: robots that can reach each other, with what is "
+        "in their reach; each part is planned by itself. Empty where all is one part.",
+    )
     groups: Annotated[
         dict[str, ContractGroup], Graded(ReviewArea.MOTION, "planning group", Rule.DANGEROUS, each="group")
     ] = Field(description="Planning groups by name.")

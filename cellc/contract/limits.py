@@ -93,7 +93,7 @@ class Limits:
     log_bytes: int = _adjustable(256 * MIB, "bytes", 1024 * 1024 * MIB, "logs of one call, from the begin of each file")
     folder_bytes: int = _adjustable(4 * MIB, "bytes", 64 * MIB, "one file of a generated folder")
     folder_entries: int = _adjustable(
-        2000, "entries", 100_000, "one list or mapping in JSON of a generated folder, and files of a git revision"
+        10_000, "entries", 100_000, "one list or mapping in JSON of a generated folder, and files of a git revision"
     )
     folder_total_bytes: int = _adjustable(
         256 * MIB, "bytes", 16 * 1024 * MIB, "all files of a generated folder together"
@@ -116,10 +116,12 @@ class Limits:
     xacro_yaml_bytes: int = _fixed(MIB, "bytes", "one YAML file that xacro reads")
     xacro_text: int = _fixed(64 * KIB, "characters", "a text in an expression of xacro")
     xacro_items: int = _fixed(10_000, "items", "a list in an expression of xacro")
-    robot_links: int = _fixed(1000, "links", "links of one URDF")
-    robot_joints: int = _fixed(200, "joints", "joints of one URDF that move")
+    robot_links: int = _fixed(1000, "links", "links of one device, and of robots that can reach each other")
+    robot_joints: int = _fixed(200, "joints", "joints that move, of one device and of robots that can reach each other")
+    cell_links: int = _fixed(20_000, "links", "links of the URDF of a generated folder")
+    cell_joints: int = _fixed(4000, "joints", "joints of it that move")
     folder_depth: int = _fixed(32, "levels", "nesting of values in JSON and parameters of a generated folder")
-    folder_values: int = _fixed(100_000, "values", "values of one JSON file of a generated folder")
+    folder_values: int = _fixed(400_000, "values", "values of one JSON file of a generated folder")
     mock_seconds: int = _fixed(86_400, "s", "a duration in a generated folder")
     mock_rate: int = _fixed(20_000, "Hz", "a rate in a generated folder")
     mock_stop_cycles: int = _fixed(20_000, "cycles", "update cycles that a stop of a trajectory takes")

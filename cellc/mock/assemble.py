@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from math import inf
 
-from cellc.contract.contract import Contract, ContractClock, ContractFrame
+from cellc.contract.contract import Contract, ContractClock, ContractFrame, ContractManager
 from cellc.contract.devices import ContractSimulatedJoint
 from cellc.contract.entities import ContractEndpoint, Target
 from cellc.contract.transforms import Pose, Vector3, identity
@@ -53,7 +54,7 @@ from cellc.mock.watching import ClaimWatches
 from cellc.mock.world.joint_states import JOINT_STATE_TYPE
 from cellc.mock.world.switches import Switches
 from cellc.mock.world.world import World
-from cellc.robot.description.model import Box
+from cellc.robot.description.model import Box, HardwareComponent
 
 
 def joint_state_feeds(
@@ -171,7 +172,7 @@ def assemble(
         watches=watches,
         effects=effects,
         start=RealStart(devices, effects, simulation),
-        loads=Loads(contract, control, memory.model.robot, memory.model.links),
+        loads=Loads(contract, control, memory.model),
         world=world,
         parts=Parts(contract, control, world, dict(_boxes(folder)), control.dynamics),
         switches=Switches(contract),
@@ -262,7 +263,7 @@ def _managers(folder: GeneratedFolder, forces: Dynamics | None) -> Mapping[str, 
     contract = folder.contract
     return {
         name: ControllerManager(
-            folder.description,
+            replace(folder.description, hardware=tuple(_hardware(folder, manager))),
             folder.parameters[name],
             namespace=manager.namespace,
             distro=contract.distro,
@@ -275,6 +276,22 @@ def _managers(folder: GeneratedFolder, forces: Dynamics | None) -> Mapping[str, 
         )
         for name, manager in contract.managers.items()
     }
+
+
+def _hardware(folder: GeneratedFolder, manager: ContractManager) -> Iterator[HardwareComponent]:
+    """Yield what a manager of one part of the cell reads of: the hardware of that part; all where all is one part."""
+    parts, components = folder.contract.parts, folder.description.hardware
+    loops = manager.controllers.values()
+    used = {name.partition("/")[0] for loop in loops for name in (*loop.command_interfaces, *loop.state_interfaces)}
+    own = {
+        component.name
+        for component in components
+        if any(item.name in used for item in (*component.joints, *component.sensors, *component.gpios))
+    }
+    devices = {name: device.hardware_component for name, device in folder.contract.devices.items()}
+    together = [{devices.get(name) for name in part} for part in parts]
+    read = own.union(*(part for part in together if not own.isdisjoint(part)))
+    yield from (component for component in components if not parts or not own or component.name in read)
 
 
 def _adapters(contract: Contract, forces: Dynamics | None) -> Mapping[str, AdapterServer]:

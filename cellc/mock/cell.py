@@ -25,7 +25,8 @@ from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
 from cellc.mock.faults.registry import Injection, any_started, build_fault
 from cellc.mock.folder import GeneratedFolder, in_stage, read_folder
-from cellc.mock.nodes.motion_planner import PlanMemory, build_motion_model
+from cellc.mock.nodes.motion_model import build_motion_model
+from cellc.mock.nodes.motion_planner import PlanMemory
 from cellc.mock.physics.reading import with_scene
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Reality
@@ -366,19 +367,15 @@ def cell_of(folder: GeneratedFolder) -> MockCell:
     Raises:
         MockError: its parts do not fit together.
     """
-    return MockCell(
-        folder,
-        PlanMemory(
-            build_motion_model(
-                folder.contract,
-                folder.urdf,
-                folder.description,
-                folder.allowed_collisions,
-                folder.mesh_roots,
-                folder.capped_by,
-            )
-        ),
+    model = build_motion_model(
+        folder.contract,
+        folder.urdf,
+        folder.description,
+        folder.allowed_collisions,
+        folder.mesh_roots,
+        folder.capped_by,
     )
+    return MockCell(folder, PlanMemory(model))
 
 
 def in_turn(cell: MockCell, names: Iterable[str]) -> Iterator[str]:

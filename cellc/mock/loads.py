@@ -8,18 +8,19 @@ from dataclasses import replace
 from cellc.contract.contract import Contract
 from cellc.mock.engine.control_stack import ControlStack
 from cellc.mock.errors import MockError
+from cellc.mock.nodes.motion_model import MotionModel
 from cellc.mock.reality import Reality
 from cellc.mock.world.world import LinkTree
-from cellc.robot.planning import Load, ModelError, RobotModel, Springs
+from cellc.robot.planning import Load, ModelError, Springs
 
 
 class Loads:
     """Binds the law of each device to its joints; a device whose joints are where they are commanded costs nothing."""
 
-    def __init__(self, contract: Contract, control: ControlStack, robot: RobotModel, links: LinkTree) -> None:
+    def __init__(self, contract: Contract, control: ControlStack, motion: MotionModel) -> None:
         """Take the devices whose joints are behind springs, of which no tool holds anything."""
         self._control = control
-        self._robot = robot
+        self._motion, links = motion, motion.links
         self._devices = {
             name: (device, device.law)
             for name, device in contract.devices.items()
@@ -57,7 +58,8 @@ class Loads:
         device, law = self._devices[name]
         self._loads[name] = load
         try:
-            springs = Springs(law, self._robot, load, self._positions())
+            robot = self._motion.part_of(next(iter(law.joints))).robot
+            springs = Springs(law, robot, load, self._positions())
         except ModelError as error:
             raise MockError("contract.json", f"law of `{name}`: {error}") from None
         if name in self._control.adapters:

@@ -10,7 +10,8 @@ import yaml
 
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.cell import cell_of
-from cellc.mock.nodes.motion_planner import MotionRequest, PlannedMotion, SceneState, build_motion_model, plan_motion
+from cellc.mock.nodes.motion_model import build_motion_model
+from cellc.mock.nodes.motion_planner import MotionRequest, PlannedMotion, SceneState, plan_motion
 from tests.cells import generated
 
 HOME = tuple(map(math.radians, (0.0, -90.0, 90.0, -90.0, -90.0, 0.0)))
@@ -29,7 +30,9 @@ def turned(cell: MockCell, stage: str) -> PlannedMotion:
         folder.contract, folder.urdf, folder.description, folder.allowed_collisions, (), folder.capped_by
     )
     others = tuple(
-        (name, 0.0) for name in sorted(model.robot.joints) if name not in cell.contract.groups["manipulator"].joints
+        (name, 0.0)
+        for name in sorted(model.parts[0].robot.joints)
+        if name not in cell.contract.groups["manipulator"].joints
     )
     goal = (HOME[0] + TURN, *HOME[1:])
     planned = plan_motion(model, MotionRequest("manipulator", HOME, others, SceneState(), goal, None, 0))

@@ -18,7 +18,7 @@ from cellc.compiler.feasibility.answers import (
 )
 from cellc.compiler.feasibility.feasibility import disabled_links, meeting_links, motion_answer
 from cellc.compiler.feasibility.meshes import MeshFault, mesh_faults, mesh_reach
-from cellc.compiler.feasibility.parts import part_with, parts_of
+from cellc.compiler.feasibility.parts import part_with, parts_by_name, parts_of
 
 __all__ = [
     "MARGIN_M",
@@ -39,5 +39,6 @@ __all__ = [
     "mesh_reach",
     "motion_answer",
     "part_with",
+    "parts_by_name",
     "parts_of",
 ]

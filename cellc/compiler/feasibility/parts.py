@@ -41,6 +41,12 @@ def _parts(graph: CellGraph) -> tuple[CellGraph, ...]:
     return tuple(CellGraph(cut.alone(part)) for part in parts)
 
 
+def parts_by_name(graph: CellGraph) -> tuple[tuple[str, ...], ...]:
+    """Return the devices and things of each part, by name; none where all is one part."""
+    parts = graph.once(reach_of).parts
+    return tuple(tuple(sorted(part.members)) for part in parts) if len(parts) > 1 else ()
+
+
 def part_with(graph: CellGraph, devices: Iterable[str]) -> Cell:
     """Return a cell with some devices and the parts that they are in: all of it where that is one part."""
     parts, asked = graph.once(reach_of).parts, frozenset(devices)

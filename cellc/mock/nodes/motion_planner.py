@@ -2,39 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from collections import OrderedDict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 
-from cellc.contract.contract import Contract, ContractGroup, ContractJointLimits
 from cellc.contract.frozen import dataclass
-from cellc.contract.quantities import LARGEST, SMALLEST
-from cellc.contract.transforms import Pose, Vector3, climb
+from cellc.contract.transforms import Pose, Vector3
 from cellc.mock.control.interfaces import Array
-from cellc.mock.control.parameters.file import ParameterFile, ParameterFileError
-from cellc.mock.errors import MockError
-from cellc.mock.world.world import LinkTree, link_tree
-from cellc.robot.description.meshes import absent, without_shapes
-from cellc.robot.description.model import Description
+from cellc.mock.nodes.motion_model import GroupModel, MotionModel, PartModel
 from cellc.robot.planning import (
     Box,
     CollisionScene,
     FailureReason,
     IkFailure,
-    JointLimits,
     JointPath,
     LimitsError,
-    ModelError,
     PlanFailure,
     Planner,
-    PlanningGroup,
-    RobotModel,
     TimedTrajectory,
-    UnknownShapeError,
     time_parameterize,
 )
 
@@ -48,128 +35,6 @@ OBJECT_EDGE_M = 0.02
 _KEPT_PLANS = 256
 _MEETING_NS = 20_000_000
 """Motions that begin together are looked at this often: at 1 m/s, every 20 mm."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class GroupModel:
-    """A planning group: goals are for its tip frame, which may be fixed to the link that the planner moves.
-
-    Joints that begin outside their limits by no more than ``start_outside`` are planned for from the limit, rad or m.
-    """
-
-    planner: Planner
-    transform_tip_to_link: Pose
-    start_outside: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class MotionModel:
-    """The robot model, its groups, and the scene without objects.
-
-    ``unseen`` are the links with a shape whose mesh is not there: nothing is planned round it.
-    """
-
-    robot: RobotModel
-    groups: Mapping[str, GroupModel]
-    scene: CollisionScene
-    links: LinkTree
-    unseen: tuple[str, ...] = ()
-
-
-def build_motion_model(
-    contract: Contract,
-    urdf: str,
-    description: Description,
-    allowed_collisions: Sequence[tuple[str, str]],
-    mesh_roots: Sequence[Path] = (),
-    stage: tuple[str, str] = ("", ""),
-) -> MotionModel:
-    """Build the planners of all groups; raise MockError where the URDF and the contract do not fit together.
-
-    Args:
-        stage: name and text of the file that move_group is given last.
-    """
-    limits = _capped(contract, *stage)
-    missing = frozenset[str]()
-    try:
-        try:
-            robot = RobotModel.from_urdf(urdf, description=description, mesh_roots=mesh_roots)
-        except UnknownShapeError:
-            missing = absent((mesh for link in description.links for mesh in link.collision_meshes()), mesh_roots)
-            robot = RobotModel.from_urdf(without_shapes(urdf, missing), mesh_roots=mesh_roots)
-        scene = CollisionScene(robot, disabled_collisions=allowed_collisions)
-    except ModelError as error:
-        raise MockError(contract.files.urdf_mock, str(error)) from None
-    groups = {
-        name: _group_model(name, group, contract, limits, robot, scene) for name, group in contract.groups.items()
-    }
-    unseen = (
-        link.name for link in description.links if any(mesh.filename in missing for mesh in link.collision_meshes())
-    )
-    return MotionModel(robot, groups, scene, link_tree(description), tuple(unseen))
-
-
-def _capped(contract: Contract, file: str, text: str) -> Mapping[str, ContractJointLimits]:
-    """Return the limits that MoveIt plans with: those of the contract within those of a stage; or raise MockError."""
-    try:
-        given = ParameterFile(text).of_node("move_group", "")
-    except ParameterFileError as error:
-        raise MockError(file, error.reason) from None
-    limits = dict(contract.joint_limits)
-    for joint, of in ((joint, of) for joint in limits for of in ("velocity", "acceleration")):
-        name = f"robot_description_planning.joint_limits.{joint}.max_{of}"
-        value = given.get(name)
-        if isinstance(value, float) and SMALLEST <= value <= LARGEST:
-            limits[joint] = limits[joint].model_copy(update={of: min(value, getattr(limits[joint], of))})
-        elif value is not None:
-            raise MockError(file, f"`{name}` must be a number from {SMALLEST:g} to {LARGEST:g}, got {value!a}")
-    return limits
-
-
-def _group_model(
-    name: str,
-    group: ContractGroup,
-    contract: Contract,
-    known: Mapping[str, ContractJointLimits],
-    robot: RobotModel,
-    scene: CollisionScene,
-) -> GroupModel:
-    missing = sorted(set(group.joints) - set(known))
-    if missing:
-        raise MockError("contract.json", f"joint `{missing[0]}` of group `{name}` has no limits")
-    if not group.joints:
-        raise MockError("contract.json", f"group `{name}` has no joint")
-    try:
-        tip_link, transform_tip_to_link = _link_of(group.tip_frame, contract, robot)
-        planning_group = PlanningGroup(name, group.joints, group.base_link, tip_link)
-        limits = _limits(group.joints, [known[joint] for joint in group.joints])
-        return GroupModel(Planner(robot, planning_group, limits, scene), transform_tip_to_link, group.start_outside)
-    except (ModelError, LimitsError) as error:
-        raise MockError("contract.json", f"group `{name}`: {error}") from None
-
-
-def _limits(joints: tuple[str, ...], limits: list[ContractJointLimits]) -> JointLimits:
-    return JointLimits(
-        joints=joints,
-        lower=tuple(-math.inf if limit.lower is None else limit.lower for limit in limits),
-        upper=tuple(math.inf if limit.upper is None else limit.upper for limit in limits),
-        velocity=tuple(limit.velocity for limit in limits),
-        acceleration=tuple(limit.acceleration for limit in limits),
-        jerk=tuple(limit.jerk for limit in limits),
-    )
-
-
-def _link_of(frame: str, contract: Contract, robot: RobotModel) -> tuple[str, Pose]:
-    """Return the nearest link above a frame, and the pose of the frame in it."""
-
-    def edge(child: str) -> tuple[str, Pose] | None:
-        entry = contract.frames.get(child)
-        return None if entry is None or entry.pose is None else (entry.parent, entry.pose.pose)
-
-    link, pose = climb(frame, edge, robot.links)
-    if link in robot.links:
-        return link, pose
-    raise ModelError(f"frame `{link}` is neither a link of the robot description nor fixed to one")
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,7 +59,7 @@ class MotionRequest:
 
     Attributes:
         start: positions of the group's joints, rad or m.
-        others: positions of all other independent joints, sorted by name.
+        others: positions of all other independent joints of its part, sorted by name.
         goal: joint positions of the group, or a pose of its tip.
         retreat: pose of the tip link in the base to which the arm goes back first, on a straight line.
     """
@@ -219,7 +84,7 @@ class PlannedMotion:
 def plan_motion(model: MotionModel, request: MotionRequest) -> PlannedMotion | PlanFailure:
     """Plan: back along the retreat, across to the goal or before it, and straight on to it."""
     group = model.groups[request.group]
-    planner = group.planner.in_scene(build_scene(model, request.scene, request.others))
+    planner = group.planner.in_scene(build_scene(group.part, request.scene, request.others))
     back = None if request.retreat is None else planner.plan_cartesian(request.start, request.retreat)
     if isinstance(back, PlanFailure):
         return back
@@ -239,18 +104,18 @@ def plan_motion(model: MotionModel, request: MotionRequest) -> PlannedMotion | P
         return PlanFailure(FailureReason.OUT_OF_LIMITS, str(error))
 
 
-def build_scene(model: MotionModel, state: SceneState, others: tuple[tuple[str, float], ...]) -> CollisionScene:
+def build_scene(part: PartModel, state: SceneState, others: tuple[tuple[str, float], ...]) -> CollisionScene:
     """Return the scene of a request."""
-    return _scene_of(model, state).with_other_positions(dict(others))
+    return _scene_of(part, state).with_other_positions(dict(others))
 
 
 @lru_cache(maxsize=_KEPT_SCENES)
-def _scene_of(model: MotionModel, state: SceneState) -> CollisionScene:
+def _scene_of(part: PartModel, state: SceneState) -> CollisionScene:
     """Return the scene with all joints outside the group at rest; kept, since motions in a row share it."""
     if state == SceneState():
-        return model.scene
-    disabled = (*model.scene.disabled_collisions, *state.allowed)
-    return CollisionScene(model.robot, disabled_collisions=disabled, boxes=state.boxes)
+        return part.scene
+    disabled = (*part.scene.disabled_collisions, *state.allowed)
+    return CollisionScene(part.robot, disabled_collisions=disabled, boxes=state.boxes)
 
 
 def _to_goal(
@@ -323,7 +188,7 @@ class MotionPlanner:
         """Bind the planner of one run; the same seed gives the same plans."""
         self._memory = memory
         self._model = memory.model
-        self._scene = SceneState()
+        self._scenes = dict.fromkeys(self._model.parts, SceneState())
         self._rng_seed = rng_seed
 
     @property
@@ -341,10 +206,10 @@ class MotionPlanner:
             retreat: where the arm has to go back to on a straight line, because it is at a goal.
         """
         model = self._model.groups[group]
-        joints = model.planner.group.joints
-        others = tuple((name, value) for name, value in self._independent(positions) if name not in joints)
+        joints, scene = model.planner.group.joints, self._scenes[model.part]
+        others = tuple((name, value) for name, value in model.part.own(positions).items() if name not in joints)
         start = model.planner.limits.inside([positions[joint] for joint in joints], model.start_outside)
-        return self._memory.plan(MotionRequest(group, start, others, self._scene, goal, retreat, self._rng_seed))
+        return self._memory.plan(MotionRequest(group, start, others, scene, goal, retreat, self._rng_seed))
 
     def room(self, group: str, positions: Mapping[str, float]) -> tuple[float, float | None]:
         """Return the least singular value of the tip's Jacobian where a group is, and its clearance in m.
@@ -354,9 +219,9 @@ class MotionPlanner:
         Args:
             positions: of all joints, rad or m.
         """
-        planner = self._model.groups[group].planner.in_scene(
-            build_scene(self._model, self._scene, tuple(self._independent(positions)))
-        )
+        model = self._model.groups[group]
+        others = tuple(model.part.own(positions).items())
+        planner = model.planner.in_scene(build_scene(model.part, self._scenes[model.part], others))
         stands = tuple(positions[joint] for joint in planner.group.joints)
         return round(planner.min_singular_value(stands), 6), planner.clearance_m(stands)
 
@@ -366,13 +231,13 @@ class MotionPlanner:
         Args:
             positions: of all joints before they begin, rad or m.
         """
-        standing = dict(self._independent(positions))
         tracks = [track for motion in motions for track in _tracks(motion)]
-        scene = build_scene(self._model, self._scene, ())
+        parts = dict.fromkeys(self._model.part_of(joint) for joint, _, _ in tracks)
+        scenes = [(part, build_scene(part, self._scenes[part], ()), part.own(positions)) for part in parts]
         for at_ns in range(0, max(motion.duration_ns for motion in motions) + _MEETING_NS, _MEETING_NS):
             # On straight lines between the points, then at rest.
             moved = {joint: float(np.interp(at_ns, times, values)) for joint, times, values in tracks}
-            if scene.collides(self._model.robot.configuration(standing | moved)):
+            if any(scene.collides(part.robot.configuration(rest | part.own(moved))) for part, scene, rest in scenes):
                 return PlanFailure(
                     FailureReason.NO_PATH, f"groups that move together touch {at_ns / 1e9:g} s on their way"
                 )
@@ -381,20 +246,21 @@ class MotionPlanner:
     def attach(self, name: str, link: str, pose_in_link: Pose, positions: Mapping[str, float]) -> None:
         """Let a grasped object move with a link; it may touch the gripper and what carries it now."""
         box = Box(name, link, (OBJECT_EDGE_M, OBJECT_EDGE_M, OBJECT_EDGE_M), pose_in_link)
-        configuration = self._model.robot.configuration(dict(self._independent(positions)))
-        touching = build_scene(self._model, self._scene, ()).touching(box, configuration)
         carrying = {child for child in self._model.links.joints if self._hangs_from(child, link)}
-        may_touch = sorted({*touching, *carrying, link} & set(self._model.robot.links))
-        allowed = (*self._scene.allowed, *((name, other) for other in may_touch))
-        self._scene = SceneState((*self._scene.boxes, box), allowed)
+        for part, state in self._scenes.items():
+            if link not in part.robot.links:
+                continue
+            configuration = part.robot.configuration(part.own(positions))
+            touching = build_scene(part, state, ()).touching(box, configuration)
+            may_touch = sorted({*touching, *carrying, link} & set(part.robot.links))
+            allowed = (*state.allowed, *((name, other) for other in may_touch))
+            self._scenes[part] = SceneState((*state.boxes, box), allowed)
 
     def detach(self, name: str) -> None:
         """Forget a released object."""
-        boxes = tuple(box for box in self._scene.boxes if box.name != name)
-        self._scene = SceneState(boxes, tuple(pair for pair in self._scene.allowed if name not in pair))
-
-    def _independent(self, positions: Mapping[str, float]) -> list[tuple[str, float]]:
-        return [(name, positions[name]) for name in sorted(positions) if name in self._model.robot.joints]
+        for part, state in self._scenes.items():
+            boxes = tuple(box for box in state.boxes if box.name != name)
+            self._scenes[part] = SceneState(boxes, tuple(pair for pair in state.allowed if name not in pair))
 
     def _hangs_from(self, link: str, ancestor: str) -> bool:
         return any(joint.parent == ancestor for joint in self._model.links.chain(link))

@@ -122,6 +122,18 @@ def without_shapes(urdf: str, names: Container[str]) -> str:
     return ElementTree.tostring(root, encoding="unicode")
 
 
+def with_links(urdf: str, parts: Iterable[Sequence[str]]) -> Iterator[str]:
+    """Yield parts of a description: each has some links, the joints to them, and all materials."""
+    root = ElementTree.fromstring(urdf)
+    shared = [element for element in root if element.tag not in ("link", "joint", "ros2_control")]
+    links = {link.get("name", ""): link for link in root.findall("link")}
+    joints = {child.get("link", ""): joint for joint in root.findall("joint") for child in joint.findall("child")}
+    for names in parts:
+        part = ElementTree.Element(root.tag, root.attrib)
+        part.extend([*shared, *(links[name] for name in names), *(joints[name] for name in names if name in joints)])
+        yield ElementTree.tostring(part, encoding="unicode")
+
+
 def without_meshes(urdf: str) -> str:
     """Return a description with a ball in the place of each mesh that is checked for collisions."""
     if "<mesh" not in urdf:

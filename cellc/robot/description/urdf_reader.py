@@ -76,7 +76,7 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
     if root.tag != "robot":
         message = f"the root element is `<{root.tag}>`, a URDF begins with `<robot>`"
         return Outcome(None, (Diagnostic("urdf-not-a-robot", Severity.ERROR, message, root.span),))
-    if too_many := _too_many(root):
+    if too_many := _too_many(root, of_device=from_user):
         return Outcome(None, (too_many,))
     _move_spans(root, origins or {})
     problems: list[Diagnostic] = []
@@ -92,15 +92,16 @@ def read_urdf(text: str, file: str, origins: Origins | None = None, *, from_user
     return Outcome(Description(name[0], tuple(links), tuple(joints), *read_hardware(root)))
 
 
-def _too_many(root: XmlElement) -> Diagnostic | None:
-    """Refuse more links than the limits allow, or more joints that move: what is made of them grows with the square."""
+def _too_many(root: XmlElement, *, of_device: bool) -> Diagnostic | None:
+    """Refuse more links than the limits allow, or more joints that move: what is made of a device has their square."""
+    most = limits()
     moving = [joint for joint in root.all("joint") if joint.attributes.get("type") != "fixed"]
-    for count, most, what in (
-        (len(root.all("link")), limits().robot_links, "links"),
-        (len(moving), limits().robot_joints, "joints that move"),
+    for count, allowed, what in (
+        (len(root.all("link")), most.robot_links if of_device else most.cell_links, "links"),
+        (len(moving), most.robot_joints if of_device else most.cell_joints, "joints that move"),
     ):
-        if count > most:
-            message = f"the description has {count} {what}, at most {most} are read"
+        if count > allowed:
+            message = f"the description has {count} {what}, at most {allowed} are read"
             return Diagnostic("xml-too-large", Severity.ERROR, message, root.span, help="split it into several devices")
     return None
 

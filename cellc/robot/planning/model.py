@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ import numpy as np
 import pinocchio
 
 from cellc.contract.frozen import dataclass
+from cellc.contract.limits import limits
 from cellc.contract.printing import overheard
 from cellc.contract.transforms import Pose
 from cellc.robot.description.meshes import MESH_NOT_FOUND, MeshError, without_meshes
@@ -179,9 +180,19 @@ def _check_description(description: Description) -> None:
         raise ModelError("the robot description has no link")
     _refuse_repeated("link", links)
     _refuse_repeated("joint", [joint.name for joint in description.joints])
+    _refuse_too_many("links", len(links), limits().robot_links)  # pinocchio goes down a chain by recursion
+    # What it computes in has the third power of the joints.
+    moving = sum(joint.type != "fixed" for joint in description.joints)
+    _refuse_too_many("joints that move", moving, limits().robot_joints)
+    known = frozenset(links)
     for joint in description.joints:
-        _check_joint(joint, links)
+        _check_joint(joint, known)
     _check_tree(description)
+
+
+def _refuse_too_many(what: str, count: int, most: int) -> None:
+    if count > most:
+        raise ModelError(f"robots that can reach each other have {count} {what}, at most {most} are read")
 
 
 def _refuse_repeated(kind: str, names: Iterable[str]) -> None:
@@ -192,7 +203,7 @@ def _refuse_repeated(kind: str, names: Iterable[str]) -> None:
         seen.add(name)
 
 
-def _check_joint(joint: Joint, links: list[str]) -> None:
+def _check_joint(joint: Joint, links: Container[str]) -> None:
     for end, link in (("parent", joint.parent), ("child", joint.child)):
         if link not in links:
             raise ModelError(f"joint `{joint.name}` has the {end} link `{link}`, which does not exist")

@@ -35,6 +35,7 @@ from cellc.compiler.emit.contract.motion import (
     poses,
 )
 from cellc.compiler.emit.contract.uncertainty import uncertainty
+from cellc.compiler.feasibility import parts_by_name
 from cellc.compiler.formats.json_text import render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.versions import compatibility
@@ -74,6 +75,7 @@ def _contract(graph: CellGraph, plan: Deployment) -> Contract:
         simulated_joints=simulated_joints(cell),
         adapters=adapters(cell),
         joint_limits=joint_limits(cell),
+        parts=parts_by_name(graph),
         groups=groups(cell),
         poses=poses(cell),
         goals=goals(cell),
