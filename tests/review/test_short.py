@@ -11,11 +11,12 @@ from cellc.compiler.pipeline import check
 from cellc.contract.printing import as_text
 from cellc.contract.review import Review
 from cellc.tools.review.compare import _unexplained, change_of
+from cellc.tools.review.cutting import cut
 from cellc.tools.review.groups import groups_of
 from cellc.tools.review.leaves import Delta
 from cellc.tools.review.markdown import render_markdown
 from cellc.tools.review.review import review
-from cellc.tools.review.short import MOST_LINES, cut, render_short
+from cellc.tools.review.short import MOST_LINES, render_short
 from cellc.tools.review.sides import package_of
 from tests.cells import spec_of
 from tests.review.edits import package_before, review_of

@@ -33,6 +33,13 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
+_ANY = 1
+_WEIGHTS = {
+    0: re.compile(r"watchdog|timeout|stop|limit|\bcap\b"),
+    2: re.compile("tolerance"),
+    3: re.compile("gain|stiffness|damping"),
+}
+"""What protects is read first; then what bounds a deviation, then gains."""
 _COMPARES = "versions"
 """Kind of a request that only reads: a step of it moves nothing."""
 UNCLASSIFIED = "(not classified)"
@@ -68,10 +75,19 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     }
 
 
-def order_of(change: ReviewChange) -> tuple[int, int, bool, str, tuple[str, ...]]:
-    areas = tuple(ReviewArea)
+def order_of(change: ReviewChange) -> tuple[int, int, bool, int, str, tuple[str, ...]]:
+    """Return the place of a change: by grade, by area, and in an area what stops motion before what follows a path."""
+    areas, grades = tuple(ReviewArea), tuple(Grade)
     is_later = change.quantity.endswith(LATER)
-    return (-tuple(Grade).index(change.grade), areas.index(change.area), is_later, change.quantity, change.subjects)
+    weight = next((place for place, words in _WEIGHTS.items() if words.search(change.quantity)), _ANY)
+    return (
+        -grades.index(change.grade),
+        areas.index(change.area),
+        is_later,
+        weight,
+        change.quantity,
+        change.subjects,
+    )
 
 
 def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:

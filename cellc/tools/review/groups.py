@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChange
@@ -13,7 +13,7 @@ from cellc.tools.review.change import PRESENT
 from cellc.tools.review.compare import UNCLASSIFIED
 from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.replaced import LENGTH, MASS
-from cellc.tools.review.titles import Quote, title_of
+from cellc.tools.review.titles import Quote, leading_first, shortest_of, title_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
 _SEEN = tuple(f"{what} of {of}" for of in ("depth", "color") for what in ("range", "field of view", "resolution"))
@@ -68,6 +68,8 @@ class Group:
         if self.cause is not None and not self.cause.renamed and len(self.cause.values) < 2 and len(self.title) > width:
             return self._without_place(width)
         parts = [] if self.cause is None else self.cause.line.split(".")
+        if self.cause is not None and len(self.cause.values) > 1 and len(self.title) > width:
+            return shortest_of(self.cause, width, self._deltas) or self.title
         while len(parts) > 2 and len(self._title("." * 3 + ".".join(parts))) > width:
             parts = parts[1:]
         is_whole = self.cause is None or len(parts) == len(self.cause.line.split("."))
@@ -81,7 +83,7 @@ class Group:
         tail = f" ({sized})" if sized else ""
         parts = cause.line.split(".")
         shown = [".".join(parts), *("..." + ".".join(parts[at:]) for at in range(1, len(parts) - 1))]
-        heads = [title_of(cause, line, str).rpartition(" (")[0] for line in shown]
+        heads = [title_of(cause, line, str, {}).rpartition(" (")[0] for line in shown]
         fits = (head + end for end in (tail, "") for head in heads if len(head + end) <= width)
         return next(fits, heads[0])
 
@@ -94,7 +96,16 @@ class Group:
             noun, follow = ("", "") if named is None else (named.quantity.removeprefix(NAME_OF), named.delta)
             names = f"{quote(cause.before or '')} -> {quote(cause.after or '')}"
             return f"renamed: {noun} {names}{f' ({follow})' if follow else ''}"
-        return title_of(cause, line, quote)
+        return title_of(cause, line, quote, self._deltas)
+
+    @property
+    def _deltas(self) -> Mapping[tuple[str, str], str]:
+        """How much each value of the heading changed, where a change has those values and nothing else says it."""
+        return {
+            (change.before, change.after): change.delta
+            for change in self.changes
+            if change.before is not None and change.after is not None and change.delta.endswith("%")
+        }
 
     @property
     def is_model(self) -> bool:
@@ -183,7 +194,8 @@ def groups_of(review: Review) -> tuple[Group, ...]:
         key = (-1, change.area.value) if change.cause is None else (change.cause, "")
         held.setdefault(key, []).append(change)
     groups = [
-        Group(None if number < 0 else review.causes[number], tuple(changes)) for (number, _), changes in held.items()
+        Group(None if number < 0 else leading_first(review.causes[number], changes), tuple(changes))
+        for (number, _), changes in held.items()
     ]
     return tuple(sorted(groups, key=_order))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple, TypeAlias
 
@@ -12,13 +11,13 @@ from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.compare import UNCLASSIFIED, WHOLE
+from cellc.tools.review.cutting import WIDTH, broken, cut
 from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.groups import NAME_OF, Group, areas_of, asked_of, broken_by, groups_of, quantities_of, values_of
 from cellc.tools.review.replaced import PAIRS
 from cellc.tools.review.text import STYLES, outcomes, summed_up
 
 MOST_LINES = 25
-_WIDTH = 80
 _FEW = 4
 _NOTES = 2
 _FEW_PAIRS = 2
@@ -46,10 +45,10 @@ def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
     """
     groups = groups_of(review)
     for folds in (
-        _Folds(_broken, _broken, _broken, reasons=True),
-        _Folds(_broken, _broken, _cut, reasons=True),
-        _Folds(_broken, _broken, _cut, reasons=False),
-        _Folds(_cut, _broken, _cut, reasons=False),
+        _Folds(broken, broken, broken, reasons=True),
+        _Folds(broken, broken, _cut, reasons=True),
+        _Folds(broken, broken, _cut, reasons=False),
+        _Folds(_cut, broken, _cut, reasons=False),
     ):
         lines = _rendered(review, groups, _UNBOUNDED, folds)
         if len(lines) <= most:
@@ -63,10 +62,8 @@ def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds)
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
     if folds.titles is _cut:
         # Not every cause has room for who is asked, and for what breaks.
-        head += [(Styled(text, Style.DIM),) for text in _broken(f"asks {asked_of(_telling_in(groups))}", "  ")]
-        head += (
-            _broken(f"breaks consumers of {_first_of(broken)}", "  ") if (broken := broken_by(review.changes)) else []
-        )
+        head += [(Styled(text, Style.DIM),) for text in broken(f"asks {asked_of(_telling_in(groups))}", "  ")]
+        head += broken(f"breaks consumers of {_first_of(names)}", "  ") if (names := broken_by(review.changes)) else []
     new, foot = [*_findings(review, folds.findings)], [*_foot(review)]
     return [*head, *new, *_of_groups(groups, most - len(head) - len(new) - len(foot), folds), *foot]
 
@@ -81,34 +78,6 @@ def _telling_in(groups: Sequence[Group]) -> list[ReviewChange]:
 
 def _cut(text: str, _: str) -> list[str]:
     return [cut(text)]
-
-
-def _broken(text: str, indent: str) -> list[str]:
-    """Break a text between words, so that no line is wider than the terminal; a longer word is cut."""
-    shown = escaped(text)
-    start = shown[: len(shown) - len(shown.lstrip(" "))]
-    lines = textwrap.wrap(
-        shown.strip(),
-        _WIDTH,
-        initial_indent=start,
-        subsequent_indent=indent,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
-    return [cut(line) for line in lines]
-
-
-def cut(text: str, width: int = _WIDTH) -> str:
-    """Return a text that fits into a line of the terminal: between words, with how many are left out."""
-    shown = escaped(text)
-    if len(shown) <= width:
-        return shown
-    words = shown.split(" ")
-    for kept in range(len(words) - 1, 0, -1):
-        line = f"{' '.join(words[:kept])} ... {count(len(words) - kept, 'word')} more"
-        if len(line) <= width and line.strip():
-            return line
-    return f"{shown[: width - 3]}..."
 
 
 def _sides(review: Review) -> Iterator[Line]:
@@ -145,9 +114,14 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
     shown = groups if len(groups) <= room else groups[: room - 1]
     titles = [_title(group, folds.titles) for group in shown]
     left = room - sum(map(len, titles)) - (len(shown) < len(groups))
+    is_listed = folds.titles is _cut
+    wanted = [len([*_inner(group, _UNBOUNDED, folds, is_listed=is_listed)]) for group in shown]
     for number, (group, title) in enumerate(zip(shown, titles, strict=True)):
-        share = max(left // (len(shown) - number), min(left, _FEW))
-        inner = [*_inner(group, share, folds, is_listed=folds.titles is _cut)]
+        # What those behind it do not need is there for it.
+        fair = left // (len(shown) - number)
+        spare = sum(max(fair - other, 0) for other in wanted[number + 1 :])
+        share = max(fair + spare, min(left, _FEW))
+        inner = [*_inner(group, share, folds, is_listed=is_listed)]
         left -= len(inner)
         yield from title
         yield from inner
@@ -160,7 +134,7 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
 def _title(group: Group, fold: _Fold) -> _Lines:
     grade = group.grade.value
     start = f"{grade}  "
-    text = group.title if fold is _broken else f"{group.fitting(_WIDTH - len(start))}"
+    text = group.title if fold is broken else f"{group.fitting(WIDTH - len(start))}"
     first, *more = fold(start + text, "  ")
     return [(Styled(grade, STYLES[group.grade]), first[len(grade) :]), *more]
 
@@ -173,13 +147,16 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
     """
     changes = sorted(group.telling, key=_is_of_lines)
     asked: _Lines = (
-        [(Styled(text, Style.DIM),) for text in _broken(f"  asks {group.asks}", "    ")]
+        [(Styled(text, Style.DIM),) for text in broken(f"  asks {group.asks}", "    ")]
         if group.asks and not is_listed
         else []
     )
     figures: _Lines = [cut(f"  {text.replace('`', '')}") for text in group.unmeasured]
-    figures += [(Styled(line, Style.BOLD),) for line in _broken(f"  {'; '.join(group.figures)}", "    ")]
-    kept = _broken(f"  {group.kept}", "    ")
+    dangers = len({_said(change) for change in changes if change.grade is Grade.DANGEROUS})
+    # A danger is seen before figures are.
+    lines_left = max(most - len(figures) - len(asked) - min(dangers, _FEW) - 1, 1)
+    figures += [(Styled(line, Style.BOLD),) for line in _first_figures(group.figures, lines_left)]
+    kept = broken(f"  {group.kept}", "    ")
     figures += kept if len(figures) + len(kept) + len(asked) < most else [cut(f"  {group.kept}")][: len(kept)]
     worst = _alike([change for change in changes if change.grade is group.grade or change.breaking])
     others = len(changes) - sum(map(len, worst.values()))
@@ -195,6 +172,16 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
     yield from (*lines[:room], *asked)[: max(most, 0)]
 
 
+def _first_figures(figures: Sequence[str], most: int) -> list[str]:
+    """Return as many figures as so many lines have room for, none of them cut."""
+    for kept in range(len(figures), 0, -1):
+        more = f"; and {len(figures) - kept} more" if kept < len(figures) else ""
+        lines = broken(f"  {'; '.join(figures[:kept])}{more}", "    ")
+        if len(lines) <= most or kept == 1:
+            return lines
+    return []
+
+
 def _is_of_lines(change: ReviewChange) -> bool:
     """Tell whether a change is that of a file: what its values say is read first."""
     return change.quantity.endswith(UNCLASSIFIED) or change.quantity.startswith("file ")
@@ -206,7 +193,7 @@ def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds) -> list[s
     why = "" if change.why.startswith(UNMEASURED) else change.why.partition(", before ")[0].replace("`", "")
     is_told = folds.reasons and change.grade is not Grade.SAFE and not change.breaking
     reason = fold(f"    because {why}", "      ") if why and is_told else []
-    if fold is _broken:
+    if fold is broken:
         return [*fold(line, "    "), *reason]
     return [_fitting(line, changes), *reason]
 
@@ -217,7 +204,7 @@ def _fitting(line: str, changes: Sequence[ReviewChange]) -> str:
     head = f"{change.area}  {change.quantity}"
     is_name = change.quantity.startswith(NAME_OF)
     sized = [_line(f"{head} {change.delta}", changes)] if change.delta and not is_name else []
-    whole = next((escaped(each) for each in (line, *sized) if len(escaped(each)) <= _WIDTH), None)
+    whole = next((escaped(each) for each in (line, *sized) if len(escaped(each)) <= WIDTH), None)
     if whole is not None:
         return whole
     return cut(line if is_name or len(line.partition(": ")[0]) <= _MOSTLY else _line(head, changes))
@@ -238,7 +225,7 @@ def _listed(changes: Sequence[ReviewChange], group: Group, head: str = "") -> st
         f"{head}: {', '.join(kinds[:kept])}" + (f" and {len(kinds) - kept} more" if kept < len(kinds) else "")
         for kept in range(len(kinds), 0, -1)
     )
-    return next((line for line in lines if len(line) <= _WIDTH - 2), f"{head}: {kinds[0]}")
+    return next((line for line in lines if len(line) <= WIDTH - 2), f"{head}: {kinds[0]}")
 
 
 def _alike(changes: Sequence[ReviewChange]) -> dict[str, list[ReviewChange]]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias
 
 from cellc.contract.diagnostics.wording import count
-from cellc.contract.review import ReviewCause, ReviewValue
+from cellc.contract.review import ReviewCause, ReviewChange, ReviewValue
+from cellc.contract.vocabulary import Grade
 
 _MOST = 6
 """Values of one cause that a heading names."""
@@ -16,14 +17,19 @@ Quote: TypeAlias = Callable[[str], str]
 """How a value is written in the heading."""
 
 
-def title_of(cause: ReviewCause, line: str, quote: Quote) -> str:
+Deltas: TypeAlias = Mapping[tuple[str, str], str]
+"""How much differs, by the values before and after."""
+
+
+def title_of(cause: ReviewCause, line: str, quote: Quote, deltas: Deltas) -> str:
     """Return the heading of a cause.
 
     Args:
         line: its path, or what there is room for.
+        deltas: how much of several values each changed.
     """
     if len(cause.values) > 1:
-        return _of_several(cause, line, quote)
+        return _of_several(cause, line, quote, deltas)
     where = _where(cause.place)
     if cause.before is None or cause.after is None:
         return f"{line} {'added' if cause.before is None else 'removed'} ({where})"
@@ -34,7 +40,38 @@ WHOLE_SPEC = "spec"
 """Line of a cause whose lines have nothing in common."""
 
 
-def _of_several(cause: ReviewCause, line: str, quote: Quote) -> str:
+def leading_first(cause: ReviewCause, changes: Sequence[ReviewChange]) -> ReviewCause:
+    """Return a cause with the values first that dangerous changes have, in the order of those."""
+    if len(cause.values) < _PAIR or cause.line == WHOLE_SPEC:
+        return cause
+    worst = [(change.before, change.after) for change in changes if change.grade is Grade.DANGEROUS]
+
+    def place(value: ReviewValue) -> int:
+        pair = (value.before, value.after)
+        return worst.index(pair) if pair in worst else len(worst)
+
+    return cause.model_copy(update={"values": tuple(sorted(cause.values, key=place))})
+
+
+def shortest_of(cause: ReviewCause, width: int, deltas: Deltas) -> str:
+    """Return the first of several values, whole, with how many more there are; empty where there is no room for it.
+
+    The path gives way before its values do.
+    """
+    first, others = cause.values[0], len(cause.values) - 1
+    sized = _sized(first, deltas)
+    parts = [*([] if cause.line == WHOLE_SPEC else cause.line.split(".")), *first.line.split(".")]
+    paths = [".".join(parts), *("..." + ".".join(parts[at:]) for at in range(1, len(parts)))]
+    lines = (f"{path}{_change(first, str)}{size} and {others} more" for size in (sized, "") for path in paths)
+    return next((line for line in lines if len(line) <= width), "")
+
+
+def _sized(value: ReviewValue, deltas: Deltas) -> str:
+    delta = deltas.get((value.before or "", value.after or ""))
+    return f" ({delta})" if delta else ""
+
+
+def _of_several(cause: ReviewCause, line: str, quote: Quote, deltas: Deltas) -> str:
     values, where = cause.values, _places(cause.values)
     if line == WHOLE_SPEC:
         leading = f"{values[0].line}{_change(values[0], quote)} ({_where(values[0].place)})"
@@ -50,7 +87,9 @@ def _of_several(cause: ReviewCause, line: str, quote: Quote) -> str:
         if _are_exchanged(values):
             told = ", ".join(f"{name}{_change(value, quote)}" for name, value in zip(names, values, strict=True))
             return f"{whole} exchanged: {told.replace(':', '')} ({where})"
-    told = ", ".join(value.line + _change(value, quote).removeprefix(":") for value in values[:_MOST])
+    told = ", ".join(
+        value.line + _change(value, quote).removeprefix(":") + _sized(value, deltas) for value in values[:_MOST]
+    )
     more = f" and {len(values) - _MOST} more" if len(values) > _MOST else ""
     return f"{line} ({where}): {told}{more}"
 
