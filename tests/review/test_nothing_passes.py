@@ -86,9 +86,10 @@ def test_device_that_a_calibration_measured_is_not_replaced_without_a_new_one(
     before = package_of(repository, repository.commit(edited(*known) if "serial" in edit[1] else edited()))
     after = package_of(repository, repository.commit(edited(edit)))
     again = package_of(repository, repository.commit(edited(edit, *newly_measured)))
-    without = f"measured with it, without a new revision: `{measured}`"
+    revision = {"tcp_2f": 1, "hand_eye": 4}[measured]
+    without = f"`{measured}` (revision {revision}) was not measured again"
     assert [change.subjects for change in reviewed(before, after).changes if change.why == without]
-    assert not [change for change in reviewed(before, again).changes if "without a new revision" in change.why]
+    assert not [change for change in reviewed(before, again).changes if "not measured again" in change.why]
 
 
 def test_serial_number_that_was_read_ends_no_calibration(repository: Repository, main: Package) -> None:

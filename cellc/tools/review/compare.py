@@ -12,11 +12,12 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.grading import Graded, Rule
 from cellc.contract.review import ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.carried import is_reaching
 from cellc.tools.review.change import PRESENT, Change, Figures
 from cellc.tools.review.effects import effects
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import place_difference
-from cellc.tools.review.grading import ELSEWHERE, grade, is_reaching
+from cellc.tools.review.grading import ELSEWHERE, grade
 from cellc.tools.review.joint_units import units_of
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
@@ -137,7 +138,16 @@ def reported(before: Facts, after: Facts) -> list[Change]:
     renamed = before.contract.cell != after.contract.cell
     left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
     reported += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
+    reported = [change for change in reported if not _is_of_a_gone_link(change, before, after)]
     return with_models(reported, before, after) or list(_unexplained(before, after))
+
+
+def _is_of_a_gone_link(change: Change, before: Facts, after: Facts) -> bool:
+    """Tell whether a pair is one of a link that is not there any more: that nothing avoids it is told by its shapes."""
+    if change.quantity not in PAIRS:
+        return False
+    gone = {link.name for link in before.description.links} - {link.name for link in after.description.links}
+    return not gone.isdisjoint(change.subject.split(" with "))
 
 
 def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
@@ -250,7 +260,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) ->
         value if added else None,
         Grade.DANGEROUS if reaches else taken,
         breaking=thing.breaking and not added,
-        why=ELSEWHERE if reaches else thing.why if taken is Grade.DANGEROUS else "",
+        why=ELSEWHERE if reaches else thing.why.format(" ".join(names)) if taken is Grade.DANGEROUS else "",
         approval="safety" if reaches else None,
         words=frozenset(word for delta in inner for word in (*words(delta.before), *words(delta.after), *delta.path)),
         names=frozenset(names[-1:]),

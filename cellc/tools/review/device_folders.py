@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -34,6 +35,8 @@ _INCLUDE = re.compile(
     r"""(?:<xacro:include\s[^>]*?filename=["']|load_yaml\(['"])"""
     r"""(?:\$\(find\s+(?P<package>[\w-]+\)/[^"'$]+)|(?P<path>[^"'$]+))["']"""
 )
+_OPENED = re.compile(r'<(link|joint)\s[^>]*?name="([^"]*)"')
+_DEGREE = math.degrees(1.0)
 _ATTRIBUTE = re.compile(r'([\w:]+)="([^"]*)"')
 
 
@@ -113,7 +116,9 @@ def _in_folder(device: str, before: tuple[str, Path], after: tuple[str, Path]) -
         if file == _FILE:
             values = tuple(_of_yaml(before[1] / file, after[1] / file, shown))
         else:
-            values = tuple(_of_lines(was[file], now[file], shown))
+            # Where a joint is says more than the shapes of a link.
+            lines = _of_lines(was[file], now[file], shown)
+            values = tuple(sorted(lines, key=lambda value: not value.line.startswith("joint ")))
         if values:
             yield FolderCause(device, file != _FILE, _cause(shown, values))
 
@@ -169,8 +174,39 @@ def _of_lines(before: str, after: str, shown: str) -> Iterator[ReviewValue]:
             old = was[start + number] if start + number < end else ""
             new = now[at + number] if at + number < to else ""
             name, old, new = _named(old, new)
+            holder = _holder(now, min(at + number, len(now) - 1)) if name != "line" else ""
+            name, old, new = f"{holder} {name}".strip(), _with_unit(name, old), _with_unit(name, new)
             place = f"{shown}:{min(at + number, max(to - 1, at)) + 1}:1"
             yield ReviewValue(line=name, before=_short(old), after=_short(new), place=place)
+
+
+_UNITS = {
+    "xyz": (1e3, "mm"),
+    "length": (1e3, "mm"),
+    "radius": (1e3, "mm"),
+    "size": (1e3, "mm"),
+    "rpy": (_DEGREE, "deg"),
+}
+"""How people read what a URDF has in m and rad, by its attribute."""
+
+
+def _with_unit(name: str, text: str) -> str:
+    """Return figures of a description in the unit in which people read them."""
+    factor, unit = _UNITS.get(name.rpartition(" ")[2], (1.0, ""))
+    try:
+        figures = [float(word) * factor for word in text.split()]
+    except ValueError:
+        return text
+    return f"{' '.join(f'{round(figure, 6) + 0.0:.7g}' for figure in figures)} {unit}" if unit and figures else text
+
+
+def _holder(lines: Sequence[str], at: int) -> str:
+    """Return the link or joint that a line of a URDF is in; empty of any other file."""
+    for line in reversed(lines[: at + 1]):
+        found = _OPENED.match(line)
+        if found is not None:
+            return f"{found[1]} {found[2]}"
+    return ""
 
 
 def _named(before: str, after: str) -> tuple[str, str, str]:

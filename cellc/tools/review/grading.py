@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from cellc.contract.contract import Contract
@@ -9,6 +10,7 @@ from cellc.contract.grading import UNAVOIDED, Rule
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
 from cellc.robot.description.model import Collision
+from cellc.tools.review.carried import is_reaching, longer_link
 from cellc.tools.review.covering import covers
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.geometry import on_carrier
@@ -34,9 +36,8 @@ def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
     names = unmeasured(delta, before.contract, after.contract)
     if verdict.why or not names:
         return verdict
-    measured = ", ".join(f"`{name}`" for name in names)
     area = verdict.area if verdict.grade is Grade.DANGEROUS else ReviewArea.CALIBRATION
-    return Verdict(Grade.DANGEROUS, f"{UNMEASURED}: {measured}", area)
+    return Verdict(Grade.DANGEROUS, _unmeasured(names, before.contract), area)
 
 
 def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
@@ -56,8 +57,14 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
     return Verdict(_GRADES[rule](delta.before, delta.after), approval=approval_of(delta.path))
 
 
-UNMEASURED = "measured with it, without a new revision"
-"""How a grade begins that rests on calibrations that were not renewed."""
+UNMEASURED = "not measured again"
+"""How a reason ends that rests on calibrations that were not renewed."""
+
+
+def _unmeasured(names: Sequence[str], before: Contract) -> str:
+    told = ", ".join(f"`{name}` (revision {before.calibrations[name].revision})" for name in names)
+    return f"{told} {'was' if len(names) == 1 else 'were'} {UNMEASURED}"
+
 
 _FIXED = {Rule.SAFE: Grade.SAFE, Rule.REVIEW: Grade.REVIEW, Rule.DANGEROUS: Grade.DANGEROUS}
 
@@ -134,6 +141,8 @@ def _greater(one: Leaf | None, other: Leaf | None) -> bool:
 def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
     """A transform that was measured does not change without another measurement; an arm that moved is elsewhere."""
     frame = delta.path[1]
+    if delta.before is not None and delta.after is not None and (longer := longer_link(frame, before, after)):
+        return Verdict(Grade.DANGEROUS, longer, approval="controller")
     if delta.before is not None and delta.after is not None and frame in bases(before) & bases(after):
         return Verdict(Grade.DANGEROUS, ELSEWHERE, approval="safety")
     if delta.before is not None and delta.after is not None and is_part_of_scene(frame, before):
@@ -149,8 +158,7 @@ def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(Grade.DANGEROUS, f"calibration `{name}` is not declared", ReviewArea.CALIBRATION)
     if new.revision > old.revision:
         return Verdict(Grade.REVIEW, f"calibration `{name}` changed from revision {old.revision} to {new.revision}")
-    why = f"calibration `{name}` measured it, and has no new revision after {old.revision}"
-    return Verdict(Grade.DANGEROUS, why, ReviewArea.CALIBRATION)
+    return Verdict(Grade.DANGEROUS, _unmeasured((name,), before.contract), ReviewArea.CALIBRATION)
 
 
 def _compared(delta: Delta, after: Facts) -> Grade:
@@ -200,13 +208,6 @@ def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:
 
 _APART = "arms meet in no more room than before; what grants access must be set to the same area"
 ELSEWHERE = "the arm reaches where people at the cell do not expect it"
-_REACHING = ("arm", "axis")
-"""Kinds of devices that carry what they hold to other places."""
-
-
-def is_reaching(contract: Contract, device: str) -> bool:
-    """Tell whether a device takes what it holds to other places, as an arm does."""
-    return device in contract.devices and contract.devices[device].kind in _REACHING
 
 
 def bases(facts: Facts) -> set[str]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.change import PRESENT
 from cellc.tools.review.compare import UNCLASSIFIED
 from cellc.tools.review.grading import UNMEASURED
@@ -114,8 +115,8 @@ class Group:
 
     @property
     def unmeasured(self) -> tuple[str, ...]:
-        """What was measured with a part that changed, and not again since."""
-        told = [change.why for change in self.changes if change.why.startswith(UNMEASURED)]
+        """What was not measured again since a part changed, and which link of an arm is another."""
+        told = [change.why for change in self.changes if change.why.endswith((UNMEASURED, ENDS_ELSEWHERE))]
         return tuple(dict.fromkeys(told))
 
     @property

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.robot.description.model import Description
 from cellc.robot.description.posture import posture
+from cellc.tools.review.carried import is_reaching
 from cellc.tools.review.change import Change
 from cellc.tools.review.covering import corners_of
 from cellc.tools.review.facts import Facts
-from cellc.tools.review.grading import is_reaching
 
 _FEW = 3
 _APART = re.compile(r"[\s/.,]+")

@@ -152,7 +152,7 @@ THINGS: Sequence[Thing] = (
         "collision shapes",
         _R,
         _D,
-        why="planning no longer avoids the link",
+        why="planning no longer avoids `{}`",
         follows=True,
     ),
     Thing("real inertia {link}", _A.MODEL, "mass and inertia", _R, _R, follows=True),

@@ -10,6 +10,7 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange
 from cellc.contract.vocabulary import Grade
+from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.compare import UNCLASSIFIED, WHOLE
 from cellc.tools.review.cutting import WIDTH, broken, cut
 from cellc.tools.review.grading import UNMEASURED
@@ -151,7 +152,7 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
         if group.asks and not is_listed
         else []
     )
-    figures: _Lines = [cut(f"  {text.replace('`', '')}") for text in group.unmeasured]
+    figures: _Lines = [line for text in group.unmeasured for line in broken(f"  {text.replace('`', '')}", "    ")]
     dangers = len({_said(change) for change in changes if change.grade is Grade.DANGEROUS})
     # A danger is seen before figures are.
     lines_left = max(most - len(figures) - len(asked) - min(dangers, _FEW) - 1, 1)
@@ -190,7 +191,11 @@ def _is_of_lines(change: ReviewChange) -> bool:
 def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds) -> list[str]:
     """Return a change with what it means where there is room for that; how much it changed is never cut."""
     change, fold = changes[0], folds.values
-    why = "" if change.why.startswith(UNMEASURED) else change.why.partition(", before ")[0].replace("`", "")
+    why = (
+        ""
+        if change.why.endswith((UNMEASURED, ENDS_ELSEWHERE))
+        else change.why.partition(", before ")[0].replace("`", "")
+    )
     is_told = folds.reasons and change.grade is not Grade.SAFE and not change.breaking
     reason = fold(f"    because {why}", "      ") if why and is_told else []
     if fold is broken:
@@ -240,6 +245,8 @@ def _said(change: ReviewChange) -> str:
     if change.quantity.startswith(NAME_OF):
         return f"breaks {change.why}" if change.breaking else "no consumer outside the cell knows it"
     breaks = ", breaks consumers" if change.breaking else ""
+    if change.quantity == "frame removed":
+        return f"{change.area}  {change.quantity} (its parent was {change.before}){breaks}"
     values = change.delta if change.delta and len(values_of(change)) > _LONG else values_of(change)
     return f"{change.area}  {change.quantity} {values}".rstrip() + breaks
 
