@@ -49,8 +49,9 @@ of both sides on the mock and compares how they end. `--format markdown` writes 
 What is printed fits on a screen of 25 lines, and so does what a comment shows unfolded; `--all` prints every value,
 finding and gate. New findings come first, those that fail before others. Then each line of the spec that changed is a
 heading with what it causes under it: the worst first, and of one grade what safety approves first, then in the order
-of the areas below, which begin with what protects and what moves. Lines that are too long
-are broken where the whole still fits, else cut. Two lines that exchanged their values say so. To know what a line
+of the areas below, which begin with what protects and what moves; of one area what stops motion, then tolerances, then
+gains. Lines that are too long are broken where the whole still fits, else cut, never in a quantity nor between the two
+values of a change. Two lines that exchanged their values say so. To know what a line
 causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
 device and its controllers, are listed together; so are those of one part of the spec where there are many. Folders have
 no spec: their changes are listed by area, and names that changed are found in the contract. In a pull request the

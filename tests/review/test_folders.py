@@ -161,7 +161,7 @@ def test_a_mass_stands_before_where_it_is_and_both_are_one_cause() -> None:
     found = review(before, package_of("after", check(file, {file: edited((old, new))})))
     (group,) = groups_of(found)
     assert group.title.startswith("devices.arm.payload (cell.yaml:")
-    assert group.title.endswith("mass 1.0 kg -> 1.4 kg, center_of_mass 0 0 58 mm -> 0 0 70 mm")
+    assert group.title.endswith("mass 1.0 kg -> 1.4 kg (+40 %), center_of_mass 0 0 58 mm -> 0 0 70 mm")
     assert [(change.quantity, change.delta) for change in group.changes] == [
         ("robot payload mass", "+40 %"),
         ("robot payload center of mass", "moves 12 mm"),

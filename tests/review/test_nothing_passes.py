@@ -166,8 +166,8 @@ def test_an_offer_that_shrinks_breaks_who_asked_for_it(main: Package) -> None:
 def test_a_rate_of_success_that_sinks_is_dangerous(repository: Repository, main: Package) -> None:
     found = _changes(repository, main, ("success: 99 %", "success: 50 %"), ("confidence: 95 %", "confidence: 99 %"))
     assert found == [
-        "dangerous rehearsals | pick_and_place | required success rate | 0.99 -> 0.5 | -49.5 %",
-        "review rehearsals | pick_and_place | required confidence | 0.95 -> 0.99 | +4.21 %",
+        "dangerous rehearsals | pick_and_place | required success rate | 99 % -> 50 % | -49 points",
+        "review rehearsals | pick_and_place | required confidence | 95 % -> 99 % | +4 points",
     ]
 
 

@@ -40,14 +40,19 @@ def cut(text: str, width: int = WIDTH) -> str:
     shown = escaped(text)
     if len(shown) <= width:
         return shown
-    pieces = _changes(_quantities(shown))
+    pieces = _quantities(shown)
+    whole = _first_of(_changes(pieces), width, is_counted=True) or _first_of(pieces, width, is_counted=True)
+    return whole or _first_of(pieces, width, is_counted=False) or f"{_AT_END.sub('', shown[: width - 3])}..."
+
+
+def _first_of(pieces: Sequence[str], width: int, *, is_counted: bool) -> str:
     for kept in range(len(pieces) - 1, 0, -1):
         left = sum(piece.count(" ") + 1 for piece in pieces[kept:])
         head = " ".join(pieces[:kept])
-        line = f"{head.rstrip(',;')} ... {count(left, 'word')} more"
-        if len(line) <= width and head.strip():
+        line = head.rstrip(",;") + (f" ... {count(left, 'word')} more" if is_counted else " ...")
+        if len(line) <= width and head.strip() and not head.endswith(_ARROW):
             return line
-    return f"{_AT_END.sub('', shown[: width - 3])}..."
+    return ""
 
 
 def _quantities(text: str) -> list[str]:
