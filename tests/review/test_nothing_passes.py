@@ -86,8 +86,11 @@ def test_device_that_a_calibration_measured_is_not_replaced_without_a_new_one(
     before = package_of(repository, repository.commit(edited(*known) if "serial" in edit[1] else edited()))
     after = package_of(repository, repository.commit(edited(edit)))
     again = package_of(repository, repository.commit(edited(edit, *newly_measured)))
-    revision = {"tcp_2f": 1, "hand_eye": 4}[measured]
-    without = f"`{measured}` (revision {revision}) was not measured again"
+    without = {
+        "tcp_2f": "`tcp_2f` (revision 1) was not measured again",
+        "hand_eye": "`hand_eye` (revision 4) was not measured again",
+        "hand_eye`, `tcp_2f": "`hand_eye` (revision 4), `tcp_2f` (revision 1) were not measured again",
+    }[measured]
     assert [change.subjects for change in reviewed(before, after).changes if change.why == without]
     assert not [change for change in reviewed(before, again).changes if "not measured again" in change.why]
 

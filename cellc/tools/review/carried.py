@@ -39,7 +39,7 @@ def longer_link(link: str, before: Facts, after: Facts) -> str:
 
 
 def _device_of(link: str, facts: Facts) -> str:
-    """Return the device that a link is a part of, other than as its root; empty where it is none."""
+    """Return the device that a link is a part of, other than as its root; empty where there is no such device."""
     roots = {device.root_link: name for name, device in facts.contract.devices.items()}
     parents = {joint.child: joint.parent for joint in facts.description.joints}
     if link in roots:

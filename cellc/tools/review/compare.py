@@ -143,7 +143,7 @@ def reported(before: Facts, after: Facts) -> list[Change]:
 
 
 def _is_of_a_gone_link(change: Change, before: Facts, after: Facts) -> bool:
-    """Tell whether a pair is one of a link that is not there any more: that nothing avoids it is told by its shapes."""
+    """Tell whether a pair is one of a link that is gone: the change of its shapes says that nothing avoids it."""
     if change.quantity not in PAIRS:
         return False
     gone = {link.name for link in before.description.links} - {link.name for link in after.description.links}
