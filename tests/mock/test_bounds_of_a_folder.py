@@ -248,7 +248,7 @@ def test_stop_that_takes_for_ever_is_refused_before_it_is_computed() -> None:
 def test_lack_of_memory_is_told_in_one_line(
     built_folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def out_of_memory(_: Path, *, edited: bool, stage: str) -> MockCell:
+    def out_of_memory(_: Path, **_options: object) -> MockCell:
         raise MemoryError
 
     monkeypatch.setattr("cellc.mock.command.rehearsals.load", out_of_memory)
