@@ -105,5 +105,6 @@ def test_summary_as_json() -> None:
         "within_s": None,
         "reason": "",
         "edited": False,
+        "violations": [],
     }
     assert (stopped["response_s"], stopped["within_s"], stopped["edited"]) == (0.04, 0.1, True)
