@@ -164,7 +164,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous payload | arm | robot TCP rpy | 0.00 0.00 90.00 deg -> 0.00 0.00 91.00 deg",
             "dangerous interfaces | /move_action | frame of the payload | world -> arm_base_link | breaks",
             "dangerous time | /object_pose | oldest sample that may be used | 200 ms -> 300 ms | +50 %",
-            "dangerous gates | arm | first motion max_delta | 5 deg (0.0873 rad) -> 10 deg (0.1745 rad)",
+            "dangerous safety | arm | first motion largest move | 5 deg (0.0873 rad) -> 10 deg (0.1745 rad)",
             "review calibration | fixture_a | revision | 2 -> 3",
             "review frames | fixture_A | pose in its parent | xyz 450 100 850 mm, rpy 0 0 0 deg -> "
             "xyz 450 100 860 mm, rpy 0 0 0 deg | moves 10 mm",

@@ -162,7 +162,7 @@ def test_an_offer_that_shrinks_breaks_who_asked_for_it(main: Package) -> None:
             one["qos"]["reliability"] = "best_effort"
     weaker = facts_of({**main.files, "contract.json": json.dumps(contract)})
     broken = [change for change in changes_between(main.facts, weaker) if change.breaking]
-    assert [(one.subjects, one.quantity) for one in broken] == [(("/object_pose: perception",), "offered QoS")]
+    assert [(one.subjects, one.quantity) for one in broken] == [(("/object_pose",), "offered reliability")]
     assert not [change for change in changes_between(weaker, main.facts) if change.breaking]
 
 

@@ -24,7 +24,7 @@ from cellc.tools.review.lines import Known, LinesLeft, lines_left
 from cellc.tools.review.replaced import PAIRS, with_models
 from cellc.tools.review.rooms import box_difference
 from cellc.tools.review.rows import FOLLOWS, ROWS
-from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
+from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, HANDED, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
 from cellc.tools.review.steps import with_step_names
 from cellc.tools.review.units import shown, unit_in
 
@@ -94,6 +94,8 @@ def order_of(change: ReviewChange) -> tuple[int, int, bool, int, str, tuple[str,
 def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:
     asked, own = change.approval or APPROVAL[change.area], APPROVAL[change.area]
     owner, beside = owners.get(asked, ""), own if own != asked else None
+    if change.quantity.startswith(HANDED) and change.before and change.before not in owner.split(" and "):
+        owner = f"{owner} and {change.before}" if owner else change.before
     return ReviewChange(
         area=change.area,
         subjects=tuple(subjects),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from cellc.contract.contract import Contract
 from cellc.contract.entities import ContractInterface
-from cellc.contract.qos import incompatibilities
+from cellc.contract.qos import Incompatibility, incompatibilities
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,15 +29,16 @@ def edge_changes(before: Contract, after: Contract) -> Iterator[EdgeChange]:
             yield EdgeChange(edge, known, said, said == _CONNECTED)
 
 
-def offers_less(before: Contract, after: Contract) -> Iterator[tuple[str, str]]:
-    """Yield publishers that offer less than they did, and what a subscriber misses that asks for what was offered."""
+def offers_less(before: Contract, after: Contract) -> Iterator[tuple[str, Incompatibility]]:
+    """Yield topics whose publishers offer less than they did, and what one misses that requests what was offered."""
+    missing = dict[tuple[str, Incompatibility], None]()
     for name, interface in after.interfaces.items():
         known = before.interfaces.get(name)
         offered = {} if known is None else {source.node: source.qos for source in known.sources}
         for source in interface.sources:
             missed = incompatibilities(source.qos, offered[source.node]) if source.node in offered else ()
-            if missed:
-                yield f"{name}: {source.node}", "; ".join(map(str, missed))
+            missing |= dict.fromkeys((name, each) for each in missed)
+    yield from missing
 
 
 _CONNECTED = "connected"

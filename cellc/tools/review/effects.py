@@ -40,9 +40,10 @@ def effects(before: Facts, after: Facts) -> Iterator[Change]:
             approval="safety",
         )
     yield from map(_of_measured, measured_of(before, after))
-    for subject, missed in offers_less(before.contract, after.contract):
-        why = "subscribers outside the cell that request the old offer no longer connect"
-        yield Change(ReviewArea.QOS, subject, "offered QoS", "compatible", missed, Grade.REVIEW, breaking=True, why=why)
+    for name, missed in offers_less(before.contract, after.contract):
+        why = f"subscribers outside of the cell that request {missed.requested} do not connect any more"
+        sides, quantity = (missed.requested, missed.offered), f"offered {missed.policy}"
+        yield Change(ReviewArea.QOS, name, quantity, *sides, Grade.REVIEW, breaking=True, why=why)
     for edge in edge_changes(before.contract, after.contract):
         taken = Grade.SAFE if edge.connects else Grade.DANGEROUS
         why = "" if edge.connects else "samples no longer arrive" if edge.before else "no sample arrives"

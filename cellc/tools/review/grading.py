@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -14,10 +15,11 @@ from cellc.tools.review.carried import is_reaching, longer_link
 from cellc.tools.review.covering import covers
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.geometry import on_carrier
-from cellc.tools.review.leaves import Delta, Leaf, said
+from cellc.tools.review.leaves import Delta, Leaf, Prose, said
 from cellc.tools.review.measured import unmeasured
 from cellc.tools.review.rooms import is_part_of_scene, keeps_apart, obstacle_covers
 from cellc.tools.review.rules import approval_of
+from cellc.tools.review.tokens import tokens
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +114,11 @@ def _lost(before: Leaf | None, after: Leaf | None) -> Grade:
     return Grade.DANGEROUS if _entries(before) - _entries(after) else Grade.REVIEW
 
 
+def _kept(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.DANGEROUS if _entries(before) - _entries(after) else Grade.SAFE
+
+
+_FIGURE = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:e[-+][0-9]+)?")
 _GRADES = {
     Rule.MORE: _more,
     Rule.LESS: _less,
@@ -122,20 +129,30 @@ _GRADES = {
     Rule.MATRIX: _matrix,
     Rule.CLAIM: _claim,
     Rule.LOST: _lost,
+    Rule.KEPT: _kept,
 }
 
 
 def _entries(value: Leaf | None) -> set[str]:
     if isinstance(value, tuple):
         return {said(item) for item in value}
+    if isinstance(value, Prose):
+        return set(value.text.split(", "))
     return set() if value is None else {str(value)}
 
 
 def _greater(one: Leaf | None, other: Leaf | None) -> bool:
     """Tell whether a number is above another; what is no number counts as above, so that it is not passed over."""
+    one, other = _in_si(one), _in_si(other)
     if isinstance(one, (int, float)) and isinstance(other, (int, float)):
         return one > other
     return one is not None and other is not None
+
+
+def _in_si(leaf: Leaf | None) -> Leaf | None:
+    """Return a sentence that is one quantity, in another unit behind it, as its figure in SI; anything else as it is."""
+    told = tokens(leaf.text.partition(" (")[0]) if isinstance(leaf, Prose) else ()
+    return float(told[0]) if len(told) == 1 and _FIGURE.fullmatch(told[0]) else leaf
 
 
 def _of_placement(delta: Delta, before: Facts, after: Facts) -> Verdict:

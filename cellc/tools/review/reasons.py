@@ -72,8 +72,6 @@ _REASONS: Mapping[str, str] = {
     "step real {step} request controllers": "other controllers may move the hardware",
     "step real {step} ...": "hardware is asked for something else",
     "spec bringup commissioning stages": "motion may be fast before a slower one was tried",
-    "check first_motion {device} {what}": "it is not the first motion that people are ready for",
-    "spec bringup first_motion {joint} ...": "it is not the first motion that people are ready for",
     "file config/uncertainty.json tolerances {goal}": "a worse end counts as a success",
     "file config/uncertainty.json expected {rehearsal} success": "fewer successes suffice",
     "file config/uncertainty.json expected {rehearsal} confidence": "the success rate may rest on chance",

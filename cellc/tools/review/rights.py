@@ -19,7 +19,8 @@ _GROUPS = ("topics", "services", "actions")
 _SPAWNER = re.compile(r"^spawner_.+")
 _CHECKLIST = "gates/promotion.md"
 _PAYLOAD = re.compile(
-    r"^- \[ \] Payload of (\w+): (\S+ kg) with tool, center of mass (\S+ \S+ \S+ \w+)[^\n]*? in (\w+)\.", re.MULTILINE
+    r"^- \[ \] Payload of (\w+): ([^\n]+?) with tool, center of mass ([^\n]+?)(?:, inertia [^\n]*?)? in (\S+)\. ",
+    re.MULTILINE,
 )
 
 

@@ -31,7 +31,7 @@ from cellc.contract.stated import Network
 from cellc.contract.vocabulary import ReviewArea
 from cellc.tools.review.graded import rows_of
 from cellc.tools.review.reasons import with_reason
-from cellc.tools.review.rules import Row
+from cellc.tools.review.rules import HANDED, Row
 
 _A = ReviewArea
 
@@ -40,9 +40,17 @@ _YIELDS = "the joint yields by another amount, or swings"
 _MOVE_GROUP = "file config/moveit/move_group.yaml {_} ros__parameters"
 _STRAIGHT = "robot_description_planning.cartesian_limits"
 _BURNS = "a tool with a lower rating is destroyed"
+_UNREADY = "it is not the first motion that people are ready for"
 _MEET = "arms may meet in it"
 _STARTS = "somebody else, or a program, starts what moves"
+_ANSWERS = "somebody else answers for what stops the motion"
 _OTHER = "another device may answer at this address"
+
+
+def _first(what: str, rule: Rule, unit: str = "") -> Graded:
+    """Return how a value of the first motion is graded: less of it is safe."""
+    return Graded(_A.SAFETY, f"first motion {what}".rstrip(), rule, unit, ordered=False, why=_UNREADY)
+
 
 _DECLARED: Sequence[Row] = tuple(
     row
@@ -69,6 +77,10 @@ _DECLARED: Sequence[Row] = tuple(
 
 _ALL: Sequence[Row] = (
     Row("contract approvals safety", Graded(_A.SAFETY, "approver of safety changes", Rule.DANGEROUS)),
+    *(
+        Row(f"contract responsibilities {name}", Graded(_A.SAFETY, f"{HANDED}{what}", Rule.DANGEROUS, why=_ANSWERS))
+        for name, what in (("physical_stop", "the physical stop"), ("vendor_safety", "the vendor's safety functions"))
+    ),
     Row(
         f"{_LAW} joints {{joint}} stiffness",
         Graded(_A.CONTROL, "stiffness of the joint", Rule.DANGEROUS, "stiffness", why=_YIELDS),
@@ -225,8 +237,16 @@ _ALL: Sequence[Row] = (
     ),
     Row(f"stage {{stage}} {_STRAIGHT}.max_trans_dec", Graded(_A.LIMITS, "deceleration", Rule.LESS, why=FURTHER)),
     Row("stage {stage} ...", Graded(_A.LIMITS, "cap", Rule.MORE, why=FURTHER)),
-    Row("check first_motion {device} {what}", Graded(_A.GATES, "first motion", Rule.DANGEROUS)),
-    Row("spec bringup first_motion {joint} ...", Graded(_A.GATES, "first motion", Rule.DANGEROUS, ordered=False)),
+    *(
+        row
+        for kind, name, end in (("check", "{device}", ""), ("spec bringup", "{joint}", " value"))
+        for row in (
+            Row(f"{kind} first_motion {name} max_delta{end}", _first("largest move", Rule.MORE, "joint")),
+            Row(f"{kind} first_motion {name} velocity{end}", _first("velocity", Rule.MORE, "joint/s")),
+            Row(f"{kind} first_motion {name} stop_if", _first("reasons to stop", Rule.KEPT)),
+            Row(f"{kind} first_motion {name} ...", _first("", Rule.DANGEROUS)),
+        )
+    ),
     # What is rehearsed, who answers, and what is recorded.
     Row("rehearsals {rehearsal} {what}", Graded(_A.REHEARSALS, "rehearsal")),
     Row(
@@ -251,6 +271,19 @@ _ALL: Sequence[Row] = (
 )
 ROWS = tuple(map(with_reason, _ALL))
 """What no row fits is `review`, in the area of its file."""
+
+_REPEATING = (
+    "surroundings",
+    "program",
+    "bringup",
+    "recording",
+    "network",
+    "targets",
+    "mock_statements",
+    "hosts",
+    "nodes",
+)
+"""Sections of a spec that other files of the package hold in their own form."""
 
 FOLLOWS: Sequence[str] = (
     "manifest version_tuple ...",
@@ -291,6 +324,11 @@ FOLLOWS: Sequence[str] = (
     "device {device} payload ...",
     "device {device} tcp",
     "device {device} stamp ...",
-    "spec ...",
+    *(f"spec safety stop {name}" for name in ("path", "authority")),
+    *(f"spec safety recovery {name}" for name in ("states", "acknowledge", "on_reconnect")),
+    *(f"spec {name} ..." for name in _REPEATING),
 )
-"""Values that repeat others: listed where no other change explains them, by their row or without one."""
+"""Values that repeat others: listed where no other change explains them, by their row or without one.
+
+Who does what, such as the owner of the recovery, repeats nothing: that another line names the same people says nothing.
+"""

@@ -292,6 +292,8 @@ class Fit:
     of: tuple[str, ...]
 
 
+HANDED = "owner of "
+"""How the quantity begins of what somebody answers for; who hands it over is asked, too."""
 LATER = "center of mass"
 """What is listed behind the mass that it is of."""
 
