@@ -18,9 +18,7 @@ def _told(found: Review) -> set[tuple[str, str]]:
 
 
 def test_owner_of_the_recovery_is_told_beside_an_approver_who_goes_to_the_same_people() -> None:
-    found = review_of(
-        "ur5e_pick", APPROVER, ("acknowledge: operator, owner: safety", "acknowledge: operator, owner: integration")
-    )
+    found = review_of("ur5e_pick", APPROVER, ("owner: safety, observer", "owner: integration, observer"))
     assert _told(found) == {("dangerous", "approver of safety changes"), ("dangerous", "recovery owner")}
 
 
@@ -48,7 +46,6 @@ def test_first_motion_that_is_smaller_and_slower_is_safe(after: str, grade: str)
     found = review_of("ur5e_pick", (FIRST, after))
     first = [change for change in found.changes if change.quantity.startswith("first motion")]
     assert {str(change.grade) for change in first} == {grade}
-    assert {str(gate.code) for gate in found.gates} == {"G5", "G6", "G7"}
 
 
 STOP = "velocity: 3 deg/s, timeout: 5 s,\n"

@@ -19,7 +19,7 @@ _SETTINGS = {
     "impedance of the joints": ("joint_impedance", "does", "Set the joint impedance to {}"),
     "impedance at the tool": ("tool_impedance", "does", "Set the tool impedance to {}"),
     "tool connector voltage": ("tool_voltage", "voltage", "{} V"),
-    "first motion max_delta": ("first_motion", "max_delta", "{} deg"),
+    "first motion largest move": ("first_motion", "max_delta", "{} deg"),
 }
 _SERVO = "/**:\n  ros__parameters:\n    moveit_servo:\n      scale:\n        linear: {}\n"
 

@@ -150,7 +150,7 @@ def _greater(one: Leaf | None, other: Leaf | None) -> bool:
 
 
 def _in_si(leaf: Leaf | None) -> Leaf | None:
-    """Return a sentence that is one quantity, in another unit behind it, as its figure in SI; anything else as it is."""
+    """Return one quantity, maybe with another unit behind it, in SI; anything else as it is."""
     told = tokens(leaf.text.partition(" (")[0]) if isinstance(leaf, Prose) else ()
     return float(told[0]) if len(told) == 1 and _FIGURE.fullmatch(told[0]) else leaf
 
