@@ -57,7 +57,7 @@ STOP += "       stop_if: [wrong direction, overshoot, unexpected sound]}\n    - 
     [
         ("wrong direction, overshoot, unexpected sound, sagging", "2 deg/s", {"safe"}),
         ("wrong direction, overshoot", "2 deg/s", {"safe", "dangerous"}),
-        ("wrong direction, overshoot, unexpected sound", "4 deg/s", {"dangerous"}),
+        ("wrong direction, overshoot, unexpected sound", "3.1 deg/s", {"dangerous"}),
     ],
 )
 def test_one_more_reason_to_stop_is_safe_and_one_less_is_not(reasons: str, velocity: str, expected: set[str]) -> None:

@@ -65,6 +65,10 @@ def _with_parts(words: Iterable[str]) -> set[str]:
     return {part for word in words for part in (word, *re.split("[/.]", word))}
 
 
+_GOES_ON = " \\"
+"""How a command ends that a shell reads on in the next line."""
+
+
 @dataclass(frozen=True, slots=True)
 class LinesLeft:
     """Lines of one file that differ and that nothing explains; ``whole`` where the file itself was added or removed."""
@@ -91,7 +95,7 @@ def _left(file: str, before: Sequence[str], after: Sequence[str], known: Known) 
         )
     if Counter(before) == Counter(after):
         return LinesLeft(file, (), ())
-    old, new = _by_words(before), _by_words(after)
+    old, new = _by_words(_whole(before)), _by_words(_whole(after))
     gone, come = _more(old, new), _more(new, old)
     left_before, left_after = [], []
     common = frozenset(_plain(word for line in old for word in line))
@@ -102,6 +106,19 @@ def _left(file: str, before: Sequence[str], after: Sequence[str], known: Known) 
             left_before += [old[before_words][0]] if before_words else []
             left_after += [new[other][0]] if other else []
     return LinesLeft(file, tuple(left_before), tuple(left_after))
+
+
+def _whole(lines: Sequence[str]) -> list[str]:
+    """Return lines with commands that go on in the next line as one: where they break depends on lengths of names."""
+    whole: list[str] = []
+    goes_on = False
+    for line in lines:
+        if goes_on:
+            whole[-1] = f"{whole[-1].removesuffix(_GOES_ON)} {line.strip()}"
+        else:
+            whole.append(line)
+        goes_on = line.endswith(_GOES_ON)
+    return whole
 
 
 def _by_words(lines: Sequence[str]) -> dict[_Words, list[str]]:
