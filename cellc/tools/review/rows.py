@@ -43,7 +43,7 @@ _BURNS = "a tool with a lower rating is destroyed"
 _UNREADY = "it is not the first motion that people are ready for"
 _MEET = "arms may meet in it"
 _STARTS = "somebody else, or a program, starts what moves"
-_ANSWERS = "somebody else answers for what stops the motion"
+_ANSWERS = "somebody else is responsible for what stops the motion"
 _OTHER = "another device may answer at this address"
 
 

@@ -293,7 +293,7 @@ class Fit:
 
 
 HANDED = "owner of "
-"""How the quantity begins of what somebody answers for; who hands it over is asked, too."""
+"""How the quantity begins of what somebody is responsible for; who hands it over is asked, too."""
 LATER = "center of mass"
 """What is listed behind the mass that it is of."""
 
