@@ -101,8 +101,8 @@ _DAMAGES: dict[str, tuple[Callable[[Path], object], str]] = {
     "a device": (lambda place: place.symlink_to("/dev/zero"), "is a link that leads out of the folder"),
     "nested": (lambda place: place.write_text("[" * 10_000, encoding="utf-8"), "is not JSON"),
     "many values": (
-        lambda place: place.write_text(json.dumps([[0] * 1000] * 200), encoding="utf-8"),
-        "holds more than 100000 values",
+        lambda place: place.write_text(json.dumps([[0] * 1000] * 401), encoding="utf-8"),
+        "holds more than 400000 values",
     ),
     "half": (lambda place: place.write_text('{"format": ', encoding="utf-8"), "is not JSON"),
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping
 
@@ -69,12 +70,16 @@ def test_every_sentence_is_of_a_thread_of_its_own_and_finds_its_layer() -> None:
     assert [said for layer, _, said in HEARD if layers_of(classify(said, knowledge()))[0] != layer.layer] == []
 
 
+_EVERY = os.environ.get("CELLC_TEST_CELLS") == "every"
+"""Else one phrase of three: each is compared with all that is known."""
+
+
 @pytest.mark.parametrize("layer", knowledge(), ids=lambda layer: layer.layer)
 def test_every_phrase_finds_its_own_layer_among_the_first_three(layer: LayerKnowledge) -> None:
+    phrases = [phrase for symptom in layer.symptoms for phrase in symptom.said]
     lost = [
         phrase
-        for symptom in layer.symptoms
-        for phrase in symptom.said
+        for phrase in phrases[:: 1 if _EVERY else 3]
         if layer.layer not in layers_of(classify(phrase, knowledge()))
     ]
     assert lost == []

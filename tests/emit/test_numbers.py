@@ -12,6 +12,7 @@ EMIT = ROOT / "cellc" / "compiler" / "emit"
 DRAWN = {"node_graph.py", "responsibility_graph.py", "rviz.py"}
 """Sizes and gaps of what is drawn."""
 STATED = {
+    "gates.py": {80},  # characters of a line of commands that a page of A4 shows whole
     "contract/uncertainty.py": {3, 8},  # ISO 9283, and the three axes
     "middleware/profiles.py": {7447},  # the port that Zenoh has by default
     "moveit.py": {0.005, 0.01, 0.1, 0.2, 0.5, 1.2, 4, 5, 6},  # what the setup assistant of MoveIt writes

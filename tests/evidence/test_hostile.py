@@ -33,8 +33,8 @@ def _deep(folder: Path) -> None:
 
 
 def _many(folder: Path) -> None:
-    for number in range(2100):
-        (folder / f"{number:04}.txt").touch()
+    for number in range(10_001):
+        (folder / f"{number:05}.txt").touch()
 
 
 def _below(folder: Path) -> None:
@@ -73,7 +73,7 @@ _HOSTILE: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda folder: (folder / "a\x1b[2Jb\u202e").touch(),
         "must have a name of printable characters",
     ),
-    "too many files": (_many, "holds more than 2000 files"),
+    "too many files": (_many, "holds more than 10000 files"),
     "too deep": (_below, "is deeper than 8 folders"),
     "an index that leaves the folder": (
         lambda folder: (folder / "evidence.json").write_text(
