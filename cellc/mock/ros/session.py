@@ -27,12 +27,13 @@ from cellc.mock.ros.asked import AmongNodes
 from cellc.mock.ros.bridge import Bridge, GraphEnd
 from cellc.mock.ros.graph import Graph, refuse_others
 from cellc.mock.ros.judgment import Judgment, Violation
-from cellc.mock.ros.pace import LATE_S, Pacer
 from cellc.mock.ros.perception import PerceptionUnderTest
 
 _DISCOVERY_S = 1.0
 """Of the host: how long who else is there is looked for, before anything is published."""
 _LOOK_S = 0.1
+_LATE_S = 0.02
+"""A host that is later than this is reported: nodes saw time jump."""
 _IDLE_NS = 2_000_000_000
 """Of the run: passes before anything is brought up, so that a clock that is set back reads no negative time."""
 _TICK_HZ = 200.0
@@ -137,6 +138,31 @@ def _require_distro(bridge: Bridge, contract: Contract) -> None:
         raise MockError("", f"{text}; source that distribution, or build the cell for this one")
 
 
+class _Pacer:
+    """Lets the time of a run pass no faster than its pace.
+
+    Attributes:
+        latest_s: by how much the host was late at most.
+    """
+
+    def __init__(self, pace: float) -> None:
+        """Begin with the first instant that is kept."""
+        self.latest_s = 0.0
+        self._pace = pace
+        self._start: tuple[float, int] | None = None
+
+    def keep(self, now_ns: int) -> None:
+        """Sleep until an instant of the run has come."""
+        if self._start is None:
+            self._start = monotonic(), now_ns
+        began_s, began_ns = self._start
+        early_s = began_s + (now_ns - began_ns) / 1e9 / self._pace - monotonic()
+        if early_s > 0.0:
+            sleep(early_s)
+        else:
+            self.latest_s = max(self.latest_s, -early_s)
+
+
 class _Around:
     """The cell around the nodes under test, in one rehearsal.
 
@@ -149,7 +175,7 @@ class _Around:
         self.notes: list[str] = []
         self._cell, self._bridge, self._tested, self._asked = cell, bridge, tested, asked
         self._listener: RunListener | None = None
-        self._pacer: Pacer | None = None
+        self._pacer: _Pacer | None = None
         self._nodes: list[PerceptionUnderTest] = []
 
     def begin(self, plant: Plant) -> None:
@@ -178,7 +204,7 @@ class _Around:
             for topic, publishes in node.needs:
                 self._await_end(plant.contract, name, topic, publishes=publishes)
         if self._asked.timing.pace is not None:
-            self._keep_pace(plant, Pacer(self._asked.timing.pace))
+            self._keep_pace(plant, _Pacer(self._asked.timing.pace))
 
     def end(self) -> None:
         """Publish what is left, and note who has ended and how the host kept up."""
@@ -190,7 +216,7 @@ class _Around:
         if code is not None:
             text = f"`{self._asked.launch}` ended with exit code {code} before the rehearsal did"
             self.judgment.note(Violation.ENDED, self._asked.launch, text)
-        if self._pacer is not None and self._pacer.latest_s > LATE_S:
+        if self._pacer is not None and self._pacer.latest_s > _LATE_S:
             self.notes.append(f"the host was up to {self._pacer.latest_s * 1e3:.0f} ms late: nodes saw time jump")
 
     def _await_node(self, full: str) -> None:
@@ -239,7 +265,7 @@ class _Around:
     def _ends(self, topic: str, *, publishes: bool) -> tuple[GraphEnd, ...]:
         return self._bridge.publishers(topic) if publishes else self._bridge.subscriptions(topic)
 
-    def _keep_pace(self, plant: Plant, pacer: Pacer) -> None:
+    def _keep_pace(self, plant: Plant, pacer: _Pacer) -> None:
         self._pacer = pacer
 
         def tick(_: int) -> None:

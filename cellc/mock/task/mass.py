@@ -6,9 +6,8 @@ from collections.abc import Iterator
 
 from cellc.contract.contract import Contract
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.physics.contacts import pressed
 from cellc.mock.physics.drives import farthest, spent
-from cellc.mock.physics.dynamics import Dynamics
+from cellc.mock.physics.dynamics import Dynamics, pressed
 from cellc.mock.plant import Plant
 from cellc.mock.task.context import AttemptError, TaskContext
 

@@ -8,8 +8,7 @@ from dataclasses import replace
 import pytest
 
 from cellc.mock.cell import cell_of, load, read_to_run
-from cellc.mock.physics.contacts import pressed
-from cellc.mock.physics.dynamics import Seen
+from cellc.mock.physics.dynamics import Seen, pressed
 from cellc.mock.result import RehearsalResult
 from cellc.robot.physics.scene import Scene, Touch
 from tests.cells import built, generated
