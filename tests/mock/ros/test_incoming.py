@@ -7,13 +7,13 @@ from contextlib import suppress
 from typing import Any
 
 import pytest
+from rosbags.typesys import Stores, get_typestore
 
 from cellc.contract.transforms import Pose
 from cellc.mock.ros.incoming import MalformedMessageError, StampedPose, pose_stamped, transforms
 from tests.properties import given, st
 
-rosbags = pytest.importorskip("rosbags.typesys")
-_STORE = rosbags.get_typestore(rosbags.Stores.ROS2_JAZZY)
+_STORE = get_typestore(Stores.ROS2_JAZZY)
 _TYPES: Any = _STORE.types
 
 
