@@ -1,8 +1,9 @@
 """Writes a plant and takes it through `check`, `build` and `mock`, each in a process of its own.
 
-``python benchmarks/plant.py [--stations 40] [--keep FOLDER]``. Each station has an arm with a gripper and eight
-cameras, 50 frames and 50 interfaces; 40 stations stand in a hall of 120 m. Prints seconds of processor time and the
-peak of memory of each command as rows of a Markdown table for ``benchmarks/README.md``.
+``python benchmarks/plant.py [--stations 40] [--keep FOLDER] [--of-cells]``. Each station has an arm with a gripper and
+eight cameras, 50 frames and 50 interfaces; 40 stations stand in a hall of 120 m. With ``--of-cells`` each station is a
+cell of its own, which tells the next one by a topic, and the plant names them; a plant has no mock. Prints seconds of
+processor time and the peak of memory of each command as rows of a Markdown table for ``benchmarks/README.md``.
 """
 
 from __future__ import annotations
@@ -43,6 +44,50 @@ def plant(stations: int) -> dict[str, Json]:
         },
         "rehearsals": {"all": {"steps": [{"move": f"ready_{at}"} for at in numbers]}},
     }  # fmt: skip
+
+
+def station(number: int, stations: int) -> dict[str, Json]:
+    """Write the spec of a station that is a cell of its own."""
+    alone = plant(1)
+    nodes, interfaces, domain = alone["nodes"], alone["interfaces"], _domain(number)
+    assert isinstance(nodes, dict)
+    assert isinstance(interfaces, dict)
+    done: dict[str, Json] = {"topic": "std_msgs/msg/Bool", "wants": "newest", "rate": "1 Hz", "max_age": "2 s"}
+    done["on_stale"] = "reject_goal"
+    for source in (number, number - 1):
+        if not 0 <= source < stations - 1:
+            continue
+        bridge = f"station_{source}_to_station_{source + 1}_{domain}"
+        nodes[bridge] = {"run": "domain_bridge/domain_bridge", "host": "pc_0", "owner": "team"}
+        ends = ("task_0_0", bridge) if source == number else (bridge, "task_0_1")
+        name = "/done" if source == number else f"/station_{source}/done"
+        interfaces[name] = {**done, "from": {ends[0]: {"depth": 1}}, "to": {ends[1]: {"depth": 1}}}
+    network: Json = {"domain_id": domain, "discovery": "multicast"}
+    return {**alone, "cell": f"station_{number}", "network": network}
+
+
+def of_cells(stations: int) -> dict[str, Json]:
+    """Write the spec of a plant whose stations are cells."""
+    mounts: dict[str, Json] = {
+        f"station_{at}": {"parent": "world", "xyz": f"{APART_M * (at % IN_A_ROW)} {APART_M * (at // IN_A_ROW)} 0 m"}
+        for at in range(stations)
+    }
+    return {
+        "format": 1,
+        "cell": f"plant_{stations}",
+        "cells": {key: {"spec": f"{key}/cell.yaml", "mount": at, "owner": "team"} for key, at in mounts.items()},
+        "interfaces": {
+            f"/station_{at}/done": {
+                "topic": "std_msgs/msg/Bool", "from": f"station_{at}/task_0_0", "to": [f"station_{at + 1}/task_0_1"],
+                "owner": "team",
+            }
+            for at in range(stations - 1)
+        },
+    }  # fmt: skip
+
+
+def _domain(number: int) -> int:
+    return 20 + number
 
 
 def _devices(at: int) -> dict[str, Json]:
@@ -104,15 +149,21 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stations", type=int, default=40)
+    parser.add_argument("--of-cells", action="store_true", help="each station is a cell of its own")
     parser.add_argument("--keep", type=Path, help="write the spec and the package here")
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
         folder = asked.keep or Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
         file, built = folder / "cell.yaml", folder / "built"
-        file.write_text(json.dumps(plant(asked.stations), indent=1), encoding="utf-8")
+        file.write_text(json.dumps((of_cells if asked.of_cells else plant)(asked.stations), indent=1), encoding="utf-8")
+        for number in range(asked.stations if asked.of_cells else 0):
+            cell = folder / f"station_{number}" / "cell.yaml"
+            cell.parent.mkdir(exist_ok=True)
+            cell.write_text(json.dumps(station(number, asked.stations), indent=1), encoding="utf-8")
         print("| command | exit code | processor, s | peak, MB |\n|---|---|---|---|")
-        for command in (("check", file), ("check", file), ("build", file, "-o", built, "--force"), ("mock", built)):
+        building = ("build", file, "-o", built, "--force")
+        for command in (("check", file), ("check", file), building, *([] if asked.of_cells else [("mock", built)])):
             code, seconds, megabytes = measure(*map(str, command))
             print(f"| {command[0]} | {code} | {seconds:.1f} | {megabytes:.0f} |", flush=True)
 

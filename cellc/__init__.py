@@ -81,7 +81,7 @@ def check(spec: str | Path) -> Checked:
     """Read, link and check a cell; nothing is written.
 
     Args:
-        spec: the cell's YAML file; or a `device.yaml`, URDF or xacro file, which is judged by itself.
+        spec: the YAML file of a cell or a plant; or a `device.yaml`, URDF or xacro file, which is judged by itself.
 
     Returns:
         Its diagnostics, and the linked cell where nothing hides it. A file that cannot be read is a diagnostic too.
@@ -95,7 +95,7 @@ def build(spec: str | Path, output: str | Path = "generated", *, force: bool = F
     """Check a cell and write its ROS 2 package to a folder of the cell's name in ``output``.
 
     Args:
-        spec: the cell's YAML file.
+        spec: the YAML file of a cell or a plant.
         output: folder that holds a folder for each cell.
         force: discard edits that were made by hand in generated files.
 
@@ -103,16 +103,15 @@ def build(spec: str | Path, output: str | Path = "generated", *, force: bool = F
         What was written, and the diagnostics of all stages. There is no value where an error stopped the build.
     """
     from cellc.compiler.output.write import write
-    from cellc.compiler.pipeline import check as check_cell
-    from cellc.compiler.pipeline import compile_cell
+    from cellc.compiler.pipeline import check_buildable, compile_cell
     from cellc.contract.diagnostics import Outcome
 
-    checked = check_cell(spec)
+    checked = check_buildable(spec)
     compiled = compile_cell(checked)
     findings = (*checked.diagnostics, *compiled.diagnostics)
-    if checked.graph is None or compiled.value is None or not compiled.ok:
+    if checked.presence is None or compiled.value is None or not compiled.ok:
         return Outcome(None, findings)
-    report = write(compiled.value, Path(output) / checked.graph.cell.name, force=force)
+    report = write(compiled.value, Path(output) / checked.presence.name, force=force)
     return Outcome(report.value, (*findings, *report.diagnostics))
 
 

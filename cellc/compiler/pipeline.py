@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from cellc.compiler.artifact import Artifact
@@ -19,14 +20,18 @@ from cellc.compiler.catalog.read_model import is_device
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.link.link import bare_cell, link
+from cellc.compiler.plant.link import CheckedPart, is_plant
+from cellc.compiler.plant.plant import Plant
 from cellc.compiler.rules.ignores import apply_ignores, ignore_comments, misused_ignores
 from cellc.compiler.rules.run import ALL_RULES, run_rules
+from cellc.compiler.rules.shared_domain import Presence, presence_of
 from cellc.compiler.source import read
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.source.findings import finding
 from cellc.compiler.source.repaired import Repaired, repair
 from cellc.compiler.source.text import with_shown_texts
 from cellc.compiler.spec.parse import parse
+from cellc.compiler.spec.plant import PART_KEY
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, Span
 from cellc.contract.diagnostics.diagnostic import Findings, counted, findings_table
 from cellc.contract.diagnostics.unsafe_text import escaped
@@ -53,12 +58,14 @@ class Checked:
     Attributes:
         excused: what rules found, and comments in the spec take out of the findings.
         document: what the graph was made of; None without one.
+        plant: what the spec of a plant says, which has no graph.
     """
 
     findings: Findings
     graph: CellGraph | None
     excused: tuple[Diagnostic, ...] = ()
     document: SourceDocument | None = None
+    plant: Plant | None = None
 
     @property
     def diagnostics(self) -> tuple[Diagnostic, ...]:
@@ -68,7 +75,20 @@ class Checked:
     @property
     def ok(self) -> bool:
         """Whether artifacts may be written: no finding is an error."""
-        return self.graph is not None and self.findings.ok
+        return (self.graph is not None or self.plant is not None) and self.findings.ok
+
+    @property
+    def presence(self) -> Presence | None:
+        """What was checked as other specs of a call see it; None where errors hide it."""
+        if self.plant is not None:
+            return self.plant.presence
+        return None if self.graph is None else presence_of(self.graph)
+
+    @property
+    def distro(self) -> str:
+        """The distribution of ROS that it is for; empty where errors hide it."""
+        cell = self.plant.first.cell if self.plant is not None else None if self.graph is None else self.graph.cell
+        return "" if cell is None else cell.distro.value
 
     def __iter__(self) -> Iterator[Diagnostic]:
         return iter(self.diagnostics)
@@ -81,7 +101,7 @@ class Checked:
 
 
 def judge(path: str | Path) -> Checked:
-    """Check a cell; or, by itself, the device of a ``device.yaml``, or the robot of a URDF or xacro file.
+    """Check a cell or a plant; or, by itself, the device of a ``device.yaml``, or the robot of a URDF or xacro file.
 
     What is no cell has no graph: its description is judged by the rules on descriptions alone, after the shape, the
     names and the figures of the file of a device.
@@ -91,7 +111,30 @@ def judge(path: str | Path) -> Checked:
         return _check_description(file)
     source = read(path)
     is_read = source.value is not None and source.ok
-    return _check_device(file) if is_read and _is_device(file, source.value) else check(path)
+    if is_read and _is_device(file, source.value):
+        return _check_device(file)
+    return check_buildable(path)
+
+
+def check_buildable(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
+    """Check what packages are built from: a cell, or a plant with its cells; the arguments are those of `check`."""
+    stage("reading")
+    source = read(path, edited)
+    if not is_plant(source.value) or not source.ok:
+        return _check_source(Path(path).as_posix(), source)
+    # Few specs are plants, and only they compare cells.
+    from cellc.compiler.plant.together import check_plant
+
+    stage("checking the cells of the plant")
+    assert source.value is not None  # it is a plant
+    file, found = Path(path).as_posix(), check_plant(source.value, partial(_check_part, edited))
+    diagnostics = _sorted([*source.diagnostics, *found.diagnostics])
+    return replace(_checked(file, {**found.texts, **source.value.texts}, diagnostics), plant=found.plant)
+
+
+def _check_part(edited: Mapping[str, str] | None, file: str) -> CheckedPart:
+    checked = check(file, edited)
+    return CheckedPart(checked.findings, checked.graph, checked.document)
 
 
 def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
@@ -101,8 +144,10 @@ def check(path: str | Path, edited: Mapping[str, str] | None = None) -> Checked:
         edited: texts that are read in place of files of the spec, by the name that spans carry.
     """
     stage("reading")
-    file = Path(path).as_posix()
-    source = read(path, edited)
+    return _check_source(Path(path).as_posix(), read(path, edited))
+
+
+def _check_source(file: str, source: Outcome[SourceDocument]) -> Checked:
     if source.value is None or not source.ok:
         texts = {} if source.value is None else source.value.texts
         return _checked(file, texts, source.diagnostics)
@@ -120,6 +165,12 @@ def check_document(document: SourceDocument, read_with: tuple[Diagnostic, ...] =
     if _is_device(Path(file), document):
         device = finding("not-a-cell", f"`{file}` is a device, not a cell", Span(file, 1, 1, 1, 1))
         return _checked(file, texts, (device,))
+    if is_plant(document):
+        message = f"not supported in a plant yet: what was asked of `{file}`"
+        advice = "`cellc check` and `cellc build` take a plant; for the rest name the spec of one of its cells"
+        span = document.locate_key((PART_KEY,))
+        plant = Diagnostic("unsupported-in-plant", Severity.ERROR, message, span, (PART_KEY,), advice)
+        return _checked(file, texts, (plant,))
     linked = _linked(document)
     found = [*read_with, *linked.diagnostics]
     if linked.value is None or not linked.ok:
@@ -203,6 +254,10 @@ def out_of_time(file: str, *, alone: bool) -> Findings:
 
 def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     """Emit the artifacts of a checked cell with the manifest over them, and have foreign parsers read them back."""
+    if checked.plant is not None and checked.ok:
+        from cellc.compiler.plant.emit import emit_plant
+
+        return Outcome(emit_plant(checked.plant))
     emitted = emit_cell(checked)
     if emitted.value is None or checked.graph is None:
         return emitted

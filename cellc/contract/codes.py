@@ -41,6 +41,10 @@ _CODES = {
     """,
     "ignores": "ignore-refused ignore-without-reason unknown-ignored-code unused-ignore",
     "fleet": "shared-domain-id",
+    "plant": """
+        crossing-differs crossing-frame-apart crossing-not-declared mixed-distributions parts-may-meet unknown-part
+        unsupported-in-plant
+    """,
     "verify": "verify-frames verify-joints verify-json verify-scene verify-text verify-urdf",
     "output": """
         bad-artifact-path edited-by-hand output-blocked output-busy output-shared output-symlink output-unwritable

@@ -62,6 +62,7 @@ class Limits:
     """The limits in force; a field is a row of the table, with dashes for underscores in its name."""
 
     spec_files: int = _adjustable(32, "files", 128, "files that belong to one spec")
+    plant_cells: int = _adjustable(64, "cells", 512, "cells of one plant")
     xml_bytes: int = _adjustable(
         8 * MIB, "bytes", 256 * MIB, "one URDF, SRDF or xacro file, and one expansion of xacro"
     )

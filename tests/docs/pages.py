@@ -238,6 +238,10 @@ def _with_history(folder: Path) -> None:
         assert done.code == 0, done.err
 
 
+def _with_a_plant(folder: Path) -> None:
+    shutil.copytree(ROOT / "tests" / "plant" / "hall", folder / "hall")
+
+
 PAGES: dict[str, Callable[[Path], None]] = {
     "CONTRIBUTING.md": _empty,
     "README.md": _with_the_cells,
@@ -245,6 +249,7 @@ PAGES: dict[str, Callable[[Path], None]] = {
     "docs/index.md": _empty,
     "docs/mock.md": _with_the_cells,
     "docs/own_robot.md": _with_a_robot,
+    "docs/plant.md": _with_a_plant,
     "docs/review.md": _with_history,
     "docs/tutorial.md": _empty,
 }

@@ -107,6 +107,11 @@ class Node(Entity):
         return self.package == "moveit_ros_move_group" and self.executable == "move_group"
 
     @property
+    def is_bridge(self) -> bool:
+        """Whether it is the end of a bridge to another cell, which is started with the plant of both."""
+        return self.package == "domain_bridge" and self.executable == "domain_bridge"
+
+    @property
     def full_name(self) -> str:
         """Fully qualified name, with a leading slash."""
         return f"{self.namespace}/{self.name}"

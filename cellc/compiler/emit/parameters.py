@@ -76,7 +76,7 @@ def _of_controller(manager: ControllerManager, controller: Controller, target: T
 
 def _of_nodes(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     for file in (NODES, DRIVERS):
-        nodes = (node for node in graph.cell.nodes if node_file(node) == file)
+        nodes = (node for node in graph.cell.nodes if node_file(node) == file and not node.is_bridge)
         sections = [NodeParameters(node.full_name, node.path, node_parameters(graph.cell, node)) for node in nodes]
         if any(section.parameters for section in sections):
             yield Artifact(file, parameter_file(header, sections))

@@ -156,7 +156,7 @@ def reach_of(graph: CellGraph) -> Reach:
     whole = Reach((Part(frozenset(), frozenset(), frozenset()),))
     if len({sets.first(name) for name in movers}) < 2:
         return whole
-    balls = _balls(graph, movers, sets)
+    balls = _balls(graph, movers)
     blocks = list(_blocks(graph, movers))
     _join_near(balls, sets)
     touched = _touched(balls, blocks, sets)
@@ -177,6 +177,11 @@ def reach_of(graph: CellGraph) -> Reach:
         Part(frozenset(own | around[first]), frozenset(own), frozenset(areas[first])) for first, own in members.items()
     ]
     return Reach(tuple(parts), tuple(_standing(blocks, parts)))
+
+
+def swept_balls(graph: CellGraph) -> tuple[tuple[str, Ball], ...]:
+    """Return each device that moves with a ball in the world that it never leaves, with what it may hold in hand."""
+    return tuple((mover.name, mover.ball) for mover in _balls(graph, _movers(graph)[0]))
 
 
 def _movers(graph: CellGraph) -> tuple[list[str], Sets]:
@@ -258,7 +263,7 @@ class _Block:
         return math.hypot(*beyond) <= ball.radius + margin_m
 
 
-def _balls(graph: CellGraph, movers: Iterable[str], sets: Sets) -> list[_Mover]:
+def _balls(graph: CellGraph, movers: Iterable[str]) -> list[_Mover]:
     """Return a ball for each device that moves, with what it may hold in hand."""
     owned, held_m = graph.once(owners), _held_m(graph.cell)
     found: dict[str, list[Ball]] = {name: [] for name in movers}

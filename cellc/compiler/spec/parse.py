@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
+from typing import TypeVar
 
 from pydantic import ValidationError
 
@@ -13,25 +14,32 @@ from cellc.compiler.spec.errors import Problem, problem_of
 from cellc.compiler.spec.place import place_of
 from cellc.compiler.spec.wording import could_mean, describe, quote_path, value_at
 from cellc.contract.diagnostics import Diagnostic, Outcome, Severity, YamlPath, is_slip
+from cellc.contract.stated import StatedModel
 
+_Spec = TypeVar("_Spec", bound=StatedModel)
 _FORMATS = (1,)
 _UNKNOWN = "extra_forbidden"  # how the models report a key that they do not have
 
 
 def parse(document: SourceDocument) -> Outcome[CellSpec]:
-    """Return the spec as its author wrote it, or one diagnostic for every mistake of shape.
+    """Return the spec of a cell as its author wrote it, or one diagnostic for every mistake of shape.
 
     Names are not resolved and values not judged: that is for link and the rules.
     """
+    return parse_as(CellSpec, document)
+
+
+def parse_as(model: type[_Spec], document: SourceDocument) -> Outcome[_Spec]:
+    """Return what a document says by the model of its root, or one diagnostic for every mistake of shape."""
     data = document.data
     unsupported = _unsupported_format(data, document)
     if unsupported is not None:
         return Outcome(None, (unsupported,))
     empty = tuple(islice(_empty_values(data, ()), MAX_FINDINGS))
     try:
-        spec = CellSpec.model_validate(_with_tuples(data))
+        spec = model.model_validate(_with_tuples(data))
     except ValidationError as error:
-        problems = tuple(_diagnostics(error, document))
+        problems = tuple(_diagnostics(error, document, model))
         unknown = {d.yaml_path for d in problems if d.code == "unknown-key"}
         problems += tuple(_empty_diagnostics(tuple(path for path in empty if path not in unknown), document))
         return Outcome(None, tuple(sorted(problems, key=Diagnostic.sort_key)))
@@ -66,9 +74,9 @@ def _with_tuples(data: Plain) -> object:
     return tuple(_with_tuples(value) for value in data) if isinstance(data, list) else data
 
 
-def _diagnostics(error: ValidationError, document: SourceDocument) -> Iterator[Diagnostic]:
+def _diagnostics(error: ValidationError, document: SourceDocument, model: type[StatedModel]) -> Iterator[Diagnostic]:
     details = error.errors(include_url=False, include_input=False)[:MAX_FINDINGS]
-    places = [place_of(detail["loc"], CellSpec) for detail in details]
+    places = [place_of(detail["loc"], model) for detail in details]
     unknown = [place.path for place, detail in zip(places, details, strict=True) if detail["type"] == _UNKNOWN]
     for place, detail in zip(places, details, strict=True):
         kind = detail["type"]

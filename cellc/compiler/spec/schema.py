@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.meanings import meaning_of_word
+from cellc.compiler.spec.plant import PlantSpec
 from cellc.compiler.spec.wording import rule_of
 from cellc.contract.base import DIALECT, Json, contract_schema
 from cellc.contract.contract import Contract
@@ -21,11 +22,16 @@ from cellc.contract.upgrade import Upgrade
 
 
 def cell_schema() -> dict[str, Json]:
-    """Return the JSON Schema (2020-12) of ``cell.yaml``.
+    """Return the JSON Schema (2020-12) of ``cell.yaml``."""
+    return _spec_schema(CellSpec, "Cell spec")
+
+
+def _spec_schema(model: type[BaseModel], title: str) -> dict[str, Json]:
+    """Return the schema of a spec.
 
     Each field carries title, description and example; a quantity also its units, in ``x-units``.
     """
-    schema = tidy(CellSpec.model_json_schema())
+    schema = tidy(model.model_json_schema())
     assert isinstance(schema, dict)
     properties = schema["properties"]
     assert isinstance(properties, dict)
@@ -36,7 +42,7 @@ def cell_schema() -> dict[str, Json]:
         "examples": ["parts/devices.yaml"],
         "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}}],
     }
-    return {"$schema": DIALECT, **schema, "title": "Cell spec"}
+    return {"$schema": DIALECT, **schema, "title": title}
 
 
 def schema_files() -> Mapping[str, str]:
@@ -50,7 +56,7 @@ def schema_files() -> Mapping[str, str]:
         ("upgrade", Upgrade),
         ("uncertainty", Uncertainty),
     )
-    schemas: dict[str, dict[str, Json]] = {"cell.schema.json": cell_schema()}
+    schemas = {"cell.schema.json": cell_schema(), "plant.schema.json": _spec_schema(PlantSpec, "Plant spec")}
     schemas |= {f"{name}.schema.json": contract_schema(model) for name, model in contracts}
     return {name: json.dumps(schema, indent=2, ensure_ascii=False) + "\n" for name, schema in schemas.items()}
 

@@ -18,7 +18,7 @@ import click
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.catalog.compiled import DEVICE_FILE
-from cellc.compiler.rules.shared_domain import Presence, presence_of, shared_domains
+from cellc.compiler.rules.shared_domain import Presence, shared_domains
 from cellc.contract.compute.fan import USUAL, Fan
 from cellc.contract.diagnostics.diagnostic import Findings
 from cellc.contract.diagnostics.wording import time_left
@@ -205,7 +205,7 @@ def _processor_seconds() -> float:
 
 def _computed(kind: Kind, task: Task) -> CellResult:
     # A process that has others compute does not load the compiler.
-    from cellc.compiler.pipeline import check, compile_cell, judge
+    from cellc.compiler.pipeline import check_buildable, compile_cell, judge
 
     started_ns, passing = time_ns(), passing_answers()
     if task.versions:
@@ -216,16 +216,16 @@ def _computed(kind: Kind, task: Task) -> CellResult:
         except UpgradeError as problem:
             return CellResult(Findings(task.file, {}, ()), problem=str(problem))
     else:
-        checked = judge(task.file) if kind == "check" else check(task.file)
-    if checked.graph is None:
+        checked = judge(task.file) if kind == "check" else check_buildable(task.file)
+    if checked.presence is None:
         return CellResult(checked.findings)
-    result = CellResult(checked.findings, presence_of(checked.graph), distro=checked.graph.cell.distro.value)
+    result = CellResult(checked.findings, checked.presence, distro=checked.distro)
     if kind == "check":
         return result
     compiled = compile_cell(checked)
     artifacts = compiled.value if compiled.ok else None
     complete = replace(result, findings=checked.findings.with_more(compiled.diagnostics), artifacts=artifacts)
-    if artifacts is not None:
+    if artifacts is not None and checked.graph is not None:  # a plant is as new as all of its cells: it is built again
         from cellc.tools.cli.kept_builds import keep_build
 
         keep_build(task, complete, checked.graph.cell.packages, started_ns, passing)

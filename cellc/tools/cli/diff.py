@@ -11,8 +11,8 @@ from cellc.tools.cli.forms import FORM, tell
 from cellc.tools.cli.limit_option import limit_option
 
 if TYPE_CHECKING:
-    from cellc.contract.review import ReviewRehearsal
-    from cellc.tools.review.sides import Package
+    from cellc.contract.review import Review, ReviewRehearsal
+    from cellc.tools.review.sides import Package, Side
 
 
 @click.command()
@@ -41,13 +41,17 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     from cellc.tools.review.markdown import render_markdown
     from cellc.tools.review.review import review
     from cellc.tools.review.short import render_short
-    from cellc.tools.review.sides import SideError, packages
+    from cellc.tools.review.sides import PlantSideError, SideError, packages
     from cellc.tools.review.sides import sides as asked
     from cellc.tools.review.text import render_review
 
     try:
-        with packages(*asked(sides)) as ((before, _), (after, _)):
-            result = review(before, after, _outcomes(before, after) if rehearse else ())
+        wanted = asked(sides)
+        try:
+            with packages(*wanted) as ((before, _), (after, _)):
+                result = review(before, after, _outcomes(before, after) if rehearse else ())
+        except PlantSideError:
+            result = _of_plants(*wanted, rehearse=rehearse)
     except SideError as problem:
         refuse(str(problem))
         raise click.exceptions.Exit(2) from None
@@ -55,6 +59,14 @@ def diff(sides: tuple[str, ...], output_format: str, breaking: bool, rehearse: b
     counted = [change for change in result.changes if change.breaking or not breaking]
     if counted or (result.rehearsals_differ() and not breaking):
         raise click.exceptions.Exit(1)
+
+
+def _of_plants(before: Side, after: Side, *, rehearse: bool) -> Review:
+    from cellc.tools.review.plants import plant_review
+
+    if rehearse:
+        raise click.UsageError("--rehearse: not supported in a plant yet; name the spec of one of its cells.")
+    return plant_review(before, after)
 
 
 def _outcomes(before: Package, after: Package) -> tuple[ReviewRehearsal, ...]:

@@ -10,6 +10,7 @@ from cellc.compiler.source.document import Plain
 from cellc.compiler.source.include import INCLUDE
 from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.place import chosen, inner, keys_in_order, model_of, required
+from cellc.compiler.spec.plant import PlantSpec, spec_model
 from cellc.compiler.spec.quantity import QuantityType, spaced
 from cellc.tools.layout.tree import Collection, Entry, Scalar, Value, names, plain
 
@@ -27,7 +28,7 @@ def put_in_order(root: Value, data: Plain) -> None:
     if not isinstance(data, dict):
         return
     if not _OF_A_DEVICE & data.keys():
-        _order(root, data, CellSpec)
+        _order(root, data, spec_model(data))
         return
     # Of a device or its family. A repository of cells alone is formatted without these models.
     from cellc.compiler.catalog.device_model import DeviceModel
@@ -48,9 +49,9 @@ def _order(value: Value, data: Plain, annotation: object) -> None:
     if model is None or not value.is_mapping or _is_bound(value.entries):
         return
     keys = keys_in_order(model)
-    if model is CellSpec:
+    if model in (CellSpec, PlantSpec):
         # Where a person looks for it: before the sections, of which it brings some.
-        keys = tuple(text for key in keys for text in ((INCLUDE, key) if key == "versions" else (key,)))
+        keys = tuple(text for key in keys for text in ((INCLUDE, key) if key in ("versions", "cells") else (key,)))
     ranks = {key: rank for rank, key in enumerate(keys)}
     _sort(value, ranks)
 

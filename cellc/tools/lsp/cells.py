@@ -10,7 +10,7 @@ from pathlib import Path
 from cellc.compiler.catalog.compiled import DEVICE_FILE
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.read_model import validated
-from cellc.compiler.pipeline import check
+from cellc.compiler.pipeline import check_buildable
 from cellc.compiler.source import SourceDocument, read
 from cellc.compiler.source.compose import compose
 from cellc.compiler.source.text import as_yaml
@@ -56,7 +56,7 @@ class Cells:
         if os.path.basename(spec) == DEVICE_FILE:
             diagnostics = self._check_device(spec, text) if text is not None else ()
         elif os.path.basename(spec) == SPEC_FILE or (text is not None and _OF_A_CELL.search(text)):
-            checked = check(spec, opened)
+            checked = check_buildable(spec, opened)
             diagnostics = checked.diagnostics
             document = read(spec, opened)
             if document.value is not None:

@@ -18,7 +18,6 @@ from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.read_model import is_device
 from cellc.compiler.source.document import Plain
 from cellc.compiler.spec.base import REFERENCE_PATTERN
-from cellc.compiler.spec.cell_spec import CellSpec
 from cellc.compiler.spec.place import (
     bare,
     branches,
@@ -30,6 +29,7 @@ from cellc.compiler.spec.place import (
     model_of,
     required,
 )
+from cellc.compiler.spec.plant import spec_model
 from cellc.compiler.spec.quantity import Quantity, QuantityType, QuantityVector
 from cellc.compiler.spec.wording import value_at
 from cellc.contract.diagnostics import YamlPath
@@ -47,7 +47,7 @@ class Key:
 
 def root_model(data: Plain) -> type[BaseModel]:
     """Return the model that reads a file: that of a device where its first keys say so."""
-    return DeviceModel if is_device(data) else CellSpec
+    return DeviceModel if is_device(data) else spec_model(data)
 
 
 def annotation_at(data: Plain, path: YamlPath) -> object:

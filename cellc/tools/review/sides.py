@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
-from cellc.contract.diagnostics import Severity
+from cellc.contract.diagnostics import Diagnostic, Severity
 from cellc.contract.errors import CellcError
 from cellc.contract.limits import limits, option
 from cellc.contract.manifest import Manifest
@@ -31,6 +31,10 @@ if TYPE_CHECKING:
 
 class SideError(CellcError):
     """A side cannot be compared; the text is one line, lower case."""
+
+
+class PlantSideError(SideError):
+    """A side is a plant, whose own lines are compared, and not a package."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,9 +174,22 @@ def packages(*wanted: Side) -> Iterator[tuple[tuple[Package, Path], ...]]:
             raise SideError(str(problem)) from None
 
 
-def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
+def located(side: Side, stack: ExitStack) -> Path:
+    """Return the spec or folder of a side, which is there for as long as the stack is open.
+
+    Raises:
+        SideError: nothing is there.
+    """
     if side.revision is None:
-        return _read(side.name, Path(side.path), side.path), Path(side.path)
+        return Path(side.path)
+    try:
+        return _taken(side, stack).path
+    except RevisionError as problem:
+        raise SideError(str(problem)) from None
+
+
+def _taken(side: Side, stack: ExitStack) -> Taken:
+    assert side.revision is not None  # the others are in the work tree
     repository = repository_of(side.within.absolute())
     revision = side.revision
     if side.merged_into is not None:
@@ -181,7 +198,13 @@ def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
     if repository.objects.entry(repository.commit(revision), path) is None:
         instead = not_in_revision(repository, revision, path)
         raise SideError(f"revision `{revision}` has no `{path}`{instead}")
-    taken = stack.enter_context(repository.taken(revision, path))
+    return stack.enter_context(repository.taken(revision, path))
+
+
+def _package(side: Side, stack: ExitStack) -> tuple[Package, Path]:
+    if side.revision is None:
+        return _read(side.name, Path(side.path), side.path), Path(side.path)
+    taken = _taken(side, stack)
     package = _read(side.name, taken.path, taken.path.as_posix())
     named = _names_shown(side, taken)
     findings, excused = (
@@ -237,11 +260,14 @@ def _read(name: str, path: Path, shown: str) -> Package:
 
 def _of_spec(name: str, file: str) -> Package:
     # Folders are compared without the compiler, which takes a second to load.
-    from cellc.compiler.pipeline import check
+    from cellc.compiler.pipeline import check_buildable
 
     if not Path(file).exists():
         raise SideError(no_path(file))
-    return package_of(name, check(file))
+    checked = check_buildable(file)
+    if checked.plant is not None:
+        raise PlantSideError(f"{name} is a plant: a plant is compared with a plant")
+    return package_of(name, checked)
 
 
 def package_of(name: str, checked: Checked) -> Package:
@@ -255,15 +281,20 @@ def package_of(name: str, checked: Checked) -> Package:
     emitted = emit_cell(checked)
     if emitted.value is None or checked.graph is None:
         diagnostics = (*checked.diagnostics, *emitted.diagnostics)
-        errors = [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
-        more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""
-        first = errors[0]
-        raise SideError(f"{name}:{first.span.line}:{first.span.column}: {first.message}{more}; see `cellc check`")
+        raise SideError(first_error(name, diagnostics))
     files = {artifact.path: artifact.text for artifact in emitted.value}
     findings = tuple(as_review_finding(diagnostic) for diagnostic in checked.diagnostics)
     excused = tuple(as_review_finding(diagnostic) for diagnostic in checked.excused)
     facts = facts_of(files, checked.graph.cell, checked.excused)
     return Package(name, files, facts, findings, excused, is_spec=True, document=checked.document)
+
+
+def first_error(name: str, diagnostics: Sequence[Diagnostic]) -> str:
+    """Say which error comes first of a side that holds some."""
+    errors = [diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR]
+    more = f"; {len(errors) - 1} more" if len(errors) > 1 else ""
+    first = errors[0]
+    return f"{name}:{first.span.line}:{first.span.column}: {first.message}{more}; see `cellc check`"
 
 
 def _refuse_folder(name: str, path: Path) -> None:

@@ -136,7 +136,9 @@ def _discover(cell: Cell, host: str | None) -> Iterator[Element]:
 
 
 def _node(cell: Cell, node: Node) -> Iterator[Element]:
-    if node.source is NodeSource.SPEC and not started_by_a_person(cell, node):
+    if node.is_bridge:
+        yield comment(f"{spec_path(node.path)} is started with the plant")
+    elif node.source is NodeSource.SPEC and not started_by_a_person(cell, node):
         yield comment(spec_path(node.path))
         yield cell_node(cell, node)
     elif node.source is NodeSource.DEVICE:
