@@ -14,7 +14,7 @@ from cellc.contract.devices import ContractAdapter, ContractDevice, ContractSimu
 from cellc.contract.entities import TARGETS, ContractInterface, Kpis, Target
 from cellc.contract.file_names import BesidePath, CellName, InnerPath
 from cellc.contract.gates import Gates
-from cellc.contract.grading import FURTHER, GRIPPED, PLANNED, SECOND_CLIENT, STALE, Graded, Rule
+from cellc.contract.grading import FASTER, FURTHER, GRIPPED, PLANNED, SECOND_CLIENT, UNSEEN, Graded, Rule
 from cellc.contract.quantities import (
     Coordinate,
     Count,
@@ -65,9 +65,9 @@ class ContractClock(ContractModel):
 
     domain: str = Field(description="Clock domain.")
     synchronized_by: str | None = Field(None, description="What disciplines it.")
-    max_offset_s: Annotated[Seconds | None, Graded(ReviewArea.TIME, "bound of its offset", Rule.LOOSER, why=STALE)] = (
-        Field(None, description="Bound of its offset; null where nothing bounds it.")
-    )
+    max_offset_s: Annotated[
+        Seconds | None, Graded(ReviewArea.TIME, "bound of its offset", Rule.LOOSER, why="its stamps may be further off")
+    ] = Field(None, description="Bound of its offset; null where nothing bounds it.")
     simulated: bool = Field(False, description="Time comes from /clock.")
     offset_s: Annotated[Offset, Graded(ReviewArea.REHEARSALS, "offset on the mock")] = Field(
         0.0, description="Offset that the mock gives it."
@@ -148,9 +148,9 @@ class ContractController(ContractModel):
     state_interfaces: Annotated[tuple[str, ...], Graded(ReviewArea.CONTROL, ordered=False)] = Field(
         description="Interfaces it reads, as `joint/interface`."
     )
-    active: Annotated[bool, Graded(ReviewArea.CONTROL, "active from the start", Rule.DANGEROUS, why=SECOND_CLIENT)] = (
-        Field(description="Active after start-up.")
-    )
+    active: Annotated[
+        bool, Graded(ReviewArea.CONTROL, "active from the start", Rule.DANGEROUS, why="it commands at another time")
+    ] = Field(description="Active after start-up.")
     client: Annotated[str | None, Graded(ReviewArea.CONTROL, "permitted client", Rule.DANGEROUS, why=SECOND_CLIENT)] = (
         Field(None, description="Name of the one node that may command it.")
     )
@@ -164,7 +164,7 @@ class ContractController(ContractModel):
         None, description="Action that takes its goals where it is not loaded on real hardware."
     )
     real_action_type: str | None = Field(None, description="ROS type of that action.")
-    goal_time_s: Annotated[Seconds | None, Graded(ReviewArea.CONTROL, "time past the end", Rule.LOOSER, why=STALE)] = (
+    goal_time_s: Annotated[Seconds | None, Graded(ReviewArea.CONTROL, "time past the end", Rule.LOOSER, why=UNSEEN)] = (
         Field(
             None,
             description="Time allowed past the end of a trajectory; null or 0 for no limit. It bounds no whole goal.",
@@ -205,14 +205,14 @@ class ContractJointLimits(ContractModel):
     upper: Annotated[
         Coordinate | None, Graded(ReviewArea.LIMITS, "upper position", Rule.MORE, "joint", why=FURTHER)
     ] = Field(None, description="Upper position; null without bound.")
-    velocity: Annotated[PositiveMagnitude, Graded(ReviewArea.LIMITS, rule=Rule.MORE, unit="joint/s", why=FURTHER)] = (
+    velocity: Annotated[PositiveMagnitude, Graded(ReviewArea.LIMITS, rule=Rule.MORE, unit="joint/s", why=FASTER)] = (
         Field(description="Largest speed.")
     )
     acceleration: Annotated[
-        PositiveMagnitude, Graded(ReviewArea.LIMITS, rule=Rule.MORE, unit="joint/s^2", why=FURTHER)
+        PositiveMagnitude, Graded(ReviewArea.LIMITS, rule=Rule.MORE, unit="joint/s^2", why=FASTER)
     ] = Field(description="Largest acceleration.")
-    jerk: Annotated[PositiveMagnitude, Graded(ReviewArea.LIMITS, rule=Rule.MORE, unit="joint/s^3", why=FURTHER)] = (
-        Field(description="Largest jerk.")
+    jerk: Annotated[PositiveMagnitude, Graded(ReviewArea.LIMITS, rule=Rule.MORE, unit="joint/s^3", why=FASTER)] = Field(
+        description="Largest jerk."
     )
 
 
@@ -271,7 +271,7 @@ class ContractSafety(ContractModel):
         description="How the stop reaches the drives."
     )
     recovery_states: Annotated[
-        tuple[str, ...], Graded(ReviewArea.SAFETY, "states that need recovery", Rule.DANGEROUS, ordered=False)
+        tuple[str, ...], Graded(ReviewArea.SAFETY, "states that need recovery", Rule.LOST, ordered=False)
     ] = Field(description="States that need recovery.")
     acknowledge: Annotated[str, Graded(ReviewArea.SAFETY, "person who acknowledges", Rule.DANGEROUS)] = Field(
         description="Who acknowledges before motion goes on."

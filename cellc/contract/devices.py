@@ -8,7 +8,7 @@ from pydantic import Field
 from cellc.contract.base import ContractModel
 from cellc.contract.control_law import ControlLaw
 from cellc.contract.entities import HardwareState
-from cellc.contract.grading import DEVIATES, HARDER, SECOND_CLIENT, STALE, Graded, Rule
+from cellc.contract.grading import DEVIATES, HARDER, LONGER, SECOND_CLIENT, UNSEEN, Graded, Rule
 from cellc.contract.quantities import (
     Coordinate,
     Magnitude,
@@ -181,13 +181,13 @@ class ContractAdapter(ContractModel):
         Field(None, description="Name of the one node that may command it.")
     )
     command_period_s: Period = Field(description="Time from one command to the next.", gt=0.0)
-    command_timeout_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "watchdog", Rule.LOOSER, why=STALE)] = (
+    command_timeout_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "watchdog", Rule.LOOSER, why=LONGER)] = (
         Field(description="Watchdog: silence after which it stops.", gt=0.0)
     )
-    stop_time_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "time to stop", Rule.LOOSER)] = Field(
-        description="Longest time from a hold to standstill.", gt=0.0
+    stop_time_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "time to stop", Rule.LOOSER, why=LONGER)] = (
+        Field(description="Longest time from a hold to standstill.", gt=0.0)
     )
-    goal_time_s: Annotated[Seconds, Graded(ReviewArea.CONTROL, "time past the end", Rule.LOOSER, why=STALE)] = Field(
+    goal_time_s: Annotated[Seconds, Graded(ReviewArea.CONTROL, "time past the end", Rule.LOOSER, why=UNSEEN)] = Field(
         description="Time past the end of a trajectory until standstill.", gt=0.0
     )
     path_tolerance: Annotated[PositiveMagnitude, Graded(ReviewArea.CONTROL, "", Rule.LOOSER, "joint", why=DEVIATES)] = (

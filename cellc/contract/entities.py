@@ -11,7 +11,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import ConfigDict, Field
 
 from cellc.contract.frozen import dataclass
-from cellc.contract.grading import STALE, Graded, Rule
+from cellc.contract.grading import LONGER, STALE, UNSEEN, Graded, Rule
 from cellc.contract.quantities import Count, PositiveSeconds, Rate, Seconds, Share
 from cellc.contract.vocabulary import InterfaceKind, ReviewArea
 
@@ -150,7 +150,7 @@ class ContractInterface:
     timeout_s: Annotated[
         PositiveSeconds | None,
         Field(description="Bound of a response or a whole goal."),
-        Graded(ReviewArea.INTERFACES, rule=Rule.LOOSER, why=STALE),
+        Graded(ReviewArea.INTERFACES, rule=Rule.LOOSER, why=UNSEEN),
     ] = None
     on_timeout: Annotated[
         str | None,
@@ -165,7 +165,7 @@ class ContractInterface:
     cancel_within_s: Annotated[
         Seconds | None,
         Field(description="Bound from cancel to hold."),
-        Graded(ReviewArea.INTERFACES, "time from cancel to hold", Rule.LOOSER, why=STALE),
+        Graded(ReviewArea.INTERFACES, "time from cancel to hold", Rule.LOOSER, why=LONGER),
     ] = None
     simulated: Annotated[
         SimulatedNetwork | None,

@@ -7,7 +7,7 @@ from pydantic import Field
 from cellc.contract.base import ContractModel
 from cellc.contract.entities import Target
 from cellc.contract.faults import FaultKind
-from cellc.contract.grading import STALE, Graded, Rule
+from cellc.contract.grading import UNSEEN, Graded, Rule
 from cellc.contract.quantities import Coordinate, Count, Offset, PositiveMagnitude, PositiveSeconds, Seconds, Share
 from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome, BringUpPhase, ReviewArea
@@ -78,7 +78,7 @@ class RehearsalEntry(ContractModel):
         description="Outcome that it must end in."
     )
     within_s: Annotated[
-        Seconds | None, Graded(ReviewArea.REHEARSALS, "bound of the outcome", Rule.LOOSER, why=STALE)
+        Seconds | None, Graded(ReviewArea.REHEARSALS, "bound of the outcome", Rule.LOOSER, why=UNSEEN)
     ] = Field(None, description="Bound from the fault's effect to the outcome.")
     timeout_s: PositiveSeconds = Field(description="Bound of the whole run in simulated time.")
     bring_up: Target = Field(

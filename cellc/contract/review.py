@@ -19,6 +19,7 @@ class ReviewSide(ContractModel):
     name: str = Field(description="Spec, folder or revision, as it was asked for.")
     cell: str = Field(description="Name of the cell.")
     configuration_id: str = Field(description="Id over all that evidence rests on.")
+    joints: dict[str, tuple[str, ...]] = Field({}, description="Joints of each device that have limits, by device.")
 
 
 class ReviewValue(ContractModel):

@@ -5,14 +5,14 @@ from __future__ import annotations
 import datetime
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from cellc.compiler.pipeline import Checked, check
 from cellc.compiler.source.document import Node, SourceDocument
-from cellc.contract.diagnostics import YamlPath
+from cellc.contract.diagnostics import Span, YamlPath
 from tests.cells import EVERY_CELL, ROOT, document_of, spec_of
 
 _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?![\w.:/]*[.:/]\d)")
@@ -62,6 +62,22 @@ def with_text(leaf: SpecLeaf, text: str) -> Checked:
     return check(document.file, _edited(document, leaf.path, text))
 
 
+def with_texts(texts: Mapping[SpecLeaf, str]) -> Checked:
+    """Return a cell with other texts of several leaves, checked."""
+    (cell,) = {leaf.cell for leaf in texts}
+    document = _document(cell)
+    # From the end, so that the places before stay where they are.
+    last_first = sorted(texts, key=lambda leaf: _place(document.locate(leaf.path)), reverse=True)
+    sources: Mapping[str, str] = document.texts
+    for leaf in last_first:
+        sources = _edited(document, leaf.path, texts[leaf], sources)
+    return check(document.file, dict(sources))
+
+
+def _place(span: Span) -> tuple[int, int]:
+    return span.line, span.column
+
+
 @cache
 def _document(cell: str) -> SourceDocument:
     return document_of(spec_of(cell))
@@ -75,13 +91,16 @@ def _scalars(node: Node, path: YamlPath = ()) -> Iterator[tuple[YamlPath, Node]]
             yield (*path, key), child.node
 
 
-def _edited(document: SourceDocument, path: YamlPath, text: str) -> dict[str, str]:
+def _edited(
+    document: SourceDocument, path: YamlPath, text: str, texts: Mapping[str, str] | None = None
+) -> dict[str, str]:
+    texts = document.texts if texts is None else texts
     span = document.locate(path)
-    lines = document.texts[span.file].split("\n")
+    lines = texts[span.file].split("\n")
     line = lines[span.line - 1]
     assert span.line == span.end_line, path
     lines[span.line - 1] = line[: span.column - 1] + text + line[span.end_column - 1 :]
-    return {**document.texts, span.file: "\n".join(lines)}
+    return {**texts, span.file: "\n".join(lines)}
 
 
 def _candidates(leaf: SpecLeaf, document: SourceDocument) -> Iterator[str]:

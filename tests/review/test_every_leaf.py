@@ -38,6 +38,24 @@ def _contradicts(found: Review) -> bool:
     return (found.before.configuration_id == found.after.configuration_id) is bool(found.gates)
 
 
+_NO_EVIDENCE = ("owners", "documents")
+_NAMES = ("owner of ", "approver of ", "excuse of ", "name of ")
+
+
+def _asks_without_evidence(found: Review) -> list[str]:
+    """Return what somebody must approve that is neither an owner, a name, an excuse nor a document.
+
+    Of one configuration all evidence still counts: nothing that evidence rests on may have changed.
+    """
+    if found.before.configuration_id != found.after.configuration_id:
+        return []
+    return [
+        change.quantity
+        for change in found.changes
+        if change.grade is not Grade.SAFE and change.area not in _NO_EVIDENCE and not change.quantity.startswith(_NAMES)
+    ]
+
+
 def _is_taken(leaf: SpecLeaf, *, every: bool) -> bool:
     return every or zlib.crc32(leaf.name.encode()) % _SHARE == 0
 
@@ -56,7 +74,7 @@ def test_a_leaf_that_changed_is_a_fact_with_a_name(cell: str, request: pytest.Fi
         found = review(package_before(cell), package_of("after", checked))
         if not names_a_fact(found):
             silent[leaf.name] = f"{leaf.text} -> {text}"
-        contradicting += [leaf.name] if _contradicts(found) else []
+        contradicting += [leaf.name] if _contradicts(found) or _asks_without_evidence(found) else []
         unreasoned += [leaf.name for change in found.changes if change.grade is Grade.DANGEROUS and not change.why][:1]
         long += [leaf.name] if len(list(render_short(found))) > MOST_LINES else []
     assert (silent, contradicting, long, unreasoned) == ({}, [], [], [])

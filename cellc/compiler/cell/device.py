@@ -15,13 +15,15 @@ from cellc.compiler.cell.site import Clock, JointFigure
 from cellc.compiler.cell.switched import Switched
 from cellc.compiler.cell.vendor import Procedures
 from cellc.contract.frozen import dataclass
-from cellc.contract.grading import FURTHER, Graded, Rule
+from cellc.contract.grading import Graded, Rule
 from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, ReviewArea
 
 EVERY_JOINT = "*"
 """Name of what the mock adds to every joint that is commanded."""
 
 _CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
+
+_REACHES = "the arm reaches where people at the cell do not expect it"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -251,7 +253,7 @@ class DeviceLimits(Part):
         float | None, ELSEWHERE, Graded(ReviewArea.PAYLOAD, "largest payload", Rule.FEWER, "kg", share=False)
     ] = None
     reach_m: Annotated[
-        float | None, ELSEWHERE, Graded(ReviewArea.LIMITS, "reach", Rule.MORE, "m", why=FURTHER, share=False)
+        float | None, ELSEWHERE, Graded(ReviewArea.LIMITS, "reach", Rule.MORE, "m", why=_REACHES, share=False)
     ] = None
     repeatability_m: Annotated[float | None, ELSEWHERE] = None
     tilt_rad: Annotated[float | None, ELSEWHERE] = None

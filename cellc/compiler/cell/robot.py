@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cellc.compiler.cell.entity import ELSEWHERE, STATED, Part
 from cellc.contract.frozen import dataclass
-from cellc.contract.grading import Graded, Rule
+from cellc.contract.grading import OTHER_LOAD, Graded, Rule
 from cellc.contract.stated import RobotProgram
 from cellc.contract.transforms import Vector3
 from cellc.contract.vocabulary import ReviewArea
@@ -194,7 +194,7 @@ class RobotController(Part):
     """
 
     payload: Annotated[
-        Payload | None, STATED, Graded(ReviewArea.PAYLOAD, "payload", Rule.DANGEROUS, why="the arm may sag")
+        Payload | None, STATED, Graded(ReviewArea.PAYLOAD, "payload", Rule.DANGEROUS, why=OTHER_LOAD)
     ] = None
     tcp: Annotated[str | None, STATED, Graded(ReviewArea.PAYLOAD, "TCP", Rule.DANGEROUS, why="the TCP moves")] = None
     program: Annotated[RobotProgram | None, STATED] = None

@@ -12,8 +12,9 @@ from cellc.compiler.pipeline import check_document
 from cellc.compiler.source.document import Child, SourceDocument
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.review import ReviewCause, ReviewValue
+from cellc.contract.vocabulary import Grade
 from cellc.tools.review.change import Change
-from cellc.tools.review.compare import reported
+from cellc.tools.review.compare import UNCLASSIFIED, reported
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.sides import SideError, package_of
 from cellc.tools.review.spec_edits import SpecEdit, spec_edits, undone, with_edits
@@ -30,10 +31,13 @@ _POSE = ("xyz", "rpy")
 _MEASURED, _REVISION, _CALIBRATION = ("calibrations",), "revision", "calibration"
 _ROOMS, _PLACED = ("scene", "areas"), 3
 """Sections whose entries take up room: where it is and how large count together."""
-_LONGEST = 60
+_LONGEST, _BESIDE = 60, 12
+"""Characters of a value that a heading has, and of what is the same before those that differ."""
 
 Cause: TypeAlias = tuple[SpecEdit, ...]
 """Edits of a spec that are listed as one."""
+_Changes: TypeAlias = Mapping[tuple[str, str], Change]
+"""Changes by subject and quantity."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +52,7 @@ class State:
 class _Trial:
     """What a cause changes by itself; not valid where the spec has errors both with it alone and with all but it."""
 
-    changes: Mapping[tuple[str, str], Change]
+    changes: _Changes
     valid: bool
 
 
@@ -60,7 +64,14 @@ def causes_between(before: SourceDocument, after: SourceDocument) -> tuple[Cause
     edits = spec_edits(before, after)
     renewed = {edit.path[1] for edit in edits if edit.path[:1] == _MEASURED and len(edit.path) > len(_MEASURED) + 1}
     beside = Counter(edit.path[:-1] for edit in edits)
-    causes = _grouped(edits, [_part(edit.path, beside, after, renewed) for edit in edits])
+    alike = Counter(map(_alike, edits))
+    parts = [_part(edit.path, beside, after, renewed) for edit in edits]
+    # Lines that are alike, of several devices or interfaces, are one.
+    parts = [
+        _alike(edit) if part == edit.path and len(part) > 2 and alike[_alike(edit)] > 1 else part
+        for edit, part in zip(edits, parts, strict=True)
+    ]
+    causes = _grouped(edits, parts)
     causes = tuple(tuple(sorted(cause, key=_place_in_measurement)) for cause in causes)
     for depth in (3, 2, 1):
         if len(causes) > _MOST:
@@ -77,6 +88,10 @@ def _part(
     if path[:1] == _MEASURED and path[1] in renewed:
         return path[:2]
     return path[:-1] if _is_together(path, beside) else path
+
+
+def _alike(edit: SpecEdit) -> YamlPath:
+    return "=", edit.path[0], *edit.path[2:], *map(str, texts_of(edit))
 
 
 def _place_in_measurement(edit: SpecEdit) -> int:
@@ -111,7 +126,12 @@ def attributed(
     together = tuple(edit for cause, trial in zip(causes, trials, strict=True) if not trial.valid for edit in cause)
     known = [trial.changes for trial in trials if trial.valid]
     rest = len(alone) if together else None
-    found = [(_cause_of(change, known, rest), change) for change in changes]
+    held = [(change, *_held(change, [len(set(map(_alike, cause))) for cause in alone], known)) for change in changes]
+    found = [(_cause_of(change, held_by, known, rest), change) for change, held_by, is_told in held if not is_told]
+    told = {number for number, change in found if not _is_of_lines(change)}
+    if (rest in told) if together else (None not in told and all(map(_tells, known))):
+        # Lines of documents come from lines of the spec, each of which is told.
+        found = [(number, change) for number, change in found if number != rest or not _is_of_lines(change)]
     if together:
         together = _leading_first(together, [change for number, change in found if number == rest])
     kept = sorted({number for number, _ in found if number is not None})
@@ -140,8 +160,37 @@ def _leading_first(cause: Cause, changes: Sequence[Change]) -> Cause:
     return (first, *(edit for edit in cause if edit is not first))
 
 
-def _cause_of(change: Change, known: Sequence[Mapping[tuple[str, str], Change]], rest: int | None) -> int | None:
+def _held(change: Change, lengths: Sequence[int], known: Sequence[_Changes]) -> tuple[Sequence[int], bool]:
+    """Return the causes that make a change by themselves, and whether it repeats what each of them is told by.
+
+    A value that repeats others is left out where one line of the spec makes it, beside a change of at least its grade;
+    lines of documents where each cause that changes them is told.
+    """
     having = [number for number, changes in enumerate(known) if _key(change) in changes]
+    if not change.follows or not having:
+        return having, False
+    if _is_of_lines(change):
+        untold = [number for number in having if not _tells(known[number])]
+        return untold or having, not untold
+    told = [max((_place(each) for each in known[number].values() if not each.follows), default=-1) for number in having]
+    is_whole = len(having) > 1 or known[having[0]][_key(change)].after == change.after
+    is_one = all(lengths[number] == 1 for number in having)
+    return having, is_whole and is_one and min(told) >= _place(change)
+
+
+def _tells(changes: _Changes) -> bool:
+    return any(not _is_of_lines(change) for change in changes.values())
+
+
+def _place(change: Change) -> int:
+    return tuple(Grade).index(change.grade)
+
+
+def _is_of_lines(change: Change) -> bool:
+    return change.follows and change.quantity.endswith(UNCLASSIFIED)
+
+
+def _cause_of(change: Change, having: Sequence[int], known: Sequence[_Changes], rest: int | None) -> int | None:
     exact = [number for number in having if known[number][_key(change)].after == change.after]
     return next(iter((*exact, *having)), rest)
 
@@ -165,29 +214,31 @@ def facts_of_document(document: SourceDocument) -> Facts | None:
 
 
 def _by_key(changes: Sequence[Change]) -> dict[tuple[str, str], Change]:
-    return {_key(change): change for change in changes}
+    # What is told by itself counts before what repeats it.
+    return {_key(change): change for change in sorted(changes, key=lambda change: not change.follows)}
 
 
 def _key(change: Change) -> tuple[str, str]:
     # A cause alone may be graded otherwise, and with that in another area: a pose without its new revision.
-    return change.subject, change.quantity
+    return change.subject, UNCLASSIFIED if _is_of_lines(change) else change.quantity
 
 
 def as_cause(cause: Cause) -> ReviewCause:
     """Return a cause as a review lists it: its line, or the part of the spec that holds its lines."""
     first = cause[0]
     if len(cause) == 1:
-        before, after = _text(first.before), _text(first.after)
+        before, after = texts_of(first)
         return ReviewCause(line=_dotted(first.path), before=before, after=after, place=str(first.place))
     common = first.path[:2] if first.path[:1] == _MEASURED else _common(cause)
     values = tuple(
         ReviewValue(
             line=_dotted(edit.path[len(common) if edit.path[: len(common)] == common else 0 :]),
-            before=_text(edit.before),
-            after=_text(edit.after),
+            before=was,
+            after=now,
             place=str(edit.place),
         )
         for edit in cause
+        for was, now in [texts_of(edit)]
     )
     return ReviewCause(
         line=_dotted(common) or WHOLE_SPEC,
@@ -208,10 +259,16 @@ def _dotted(path: YamlPath) -> str:
     return ".".join(map(str, path))
 
 
-def _text(child: Child | None) -> str | None:
-    if child is None:
-        return None
-    return flow_of(child)
+def texts_of(edit: SpecEdit) -> tuple[str | None, str | None]:
+    """Return both values of an edit in one line; of long ones the part that differs."""
+    was, now = (None if child is None else _flow(child) for child in (edit.before, edit.after))
+    if was is None or now is None:
+        return None if was is None else _short(was), None if now is None else _short(now)
+    if max(len(was), len(now)) > _LONGEST:
+        alike = next((at for at, (one, other) in enumerate(zip(was, now, strict=False)) if one != other), len(was))
+        start = was.rfind(" ", 0, max(alike - _BESIDE, 0)) + 1
+        was, now = (f"...{text[start:]}" if start else text for text in (was, now))
+    return _short(was), _short(now)
 
 
 def flow_of(child: Child) -> str:

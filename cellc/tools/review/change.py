@@ -41,6 +41,7 @@ class Change:
         names: names of things added or removed with it.
         approval: that of its area where it is None.
         figures: what its texts were made of, where units may be chosen.
+        follows: it is of a kind that repeats others.
     """
 
     area: ReviewArea
@@ -54,6 +55,7 @@ class Change:
     why: str = ""
     approval: ApprovalArea | None = None
     figures: Figures | None = field(default=None, compare=False)
+    follows: bool = field(default=False, compare=False)
     words: frozenset[str] = field(default=frozenset(), compare=False)
     names: frozenset[str] = field(default=frozenset(), compare=False)
     differing: frozenset[str] = field(default=frozenset(), compare=False)

@@ -6,7 +6,6 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import PurePosixPath
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.grading import Graded, Rule
@@ -21,9 +20,11 @@ from cellc.tools.review.grading import ELSEWHERE, grade
 from cellc.tools.review.joint_units import units_of
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
+from cellc.tools.review.reasons import as_held
+from cellc.tools.review.repeated import follows, is_covered, is_derived, is_stated, spelled
 from cellc.tools.review.replaced import PAIRS, with_models
 from cellc.tools.review.rooms import box_difference
-from cellc.tools.review.rows import FOLLOWS, ROWS
+from cellc.tools.review.rows import ROWS
 from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, HANDED, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
 from cellc.tools.review.steps import with_step_names
 from cellc.tools.review.units import shown, unit_in
@@ -34,13 +35,16 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
-_ANY = 1
-_WEIGHTS = {
-    0: re.compile(r"watchdog|timeout|stop|limit|\bcap\b"),
-    2: re.compile("tolerance"),
-    3: re.compile("gain|stiffness|damping"),
-}
-"""What protects is read first; then what bounds a deviation, then gains."""
+_ANY = 3
+_WEIGHTS = (
+    (0, re.compile(r"watchdog|timeout|\bstop|\bcap\b|^model$")),
+    (1, re.compile(r"\breach|^base in|lower position|upper position|collision shapes (?!added)")),
+    (2, re.compile(r"payload|\bload\b|grip force|^effort$")),
+    (4, re.compile(r"\bacceleration|\bjerk|deceleration")),
+    (5, re.compile("tolerance")),
+    (6, re.compile("gain|stiffness|damping")),
+)
+"""What stops is read first; then how far things get, what they carry, and how fast; then what bounds a deviation."""
 _COMPARES = "versions"
 """Kind of a request that only reads: a step of it moves nothing."""
 UNCLASSIFIED = "(not classified)"
@@ -76,16 +80,17 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     }
 
 
-def order_of(change: ReviewChange) -> tuple[int, int, bool, int, str, tuple[str, ...]]:
-    """Return the place of a change: by grade, by area, and in an area what stops motion before what follows a path."""
+def order_of(change: ReviewChange) -> tuple[int, bool, int, int, bool, str, tuple[str, ...]]:
+    """Return the place of a change: by grade, what safety approves, then by what it means to people, then by area."""
     areas, grades = tuple(ReviewArea), tuple(Grade)
     is_later = change.quantity.endswith(LATER)
-    weight = next((place for place, words in _WEIGHTS.items() if words.search(change.quantity)), _ANY)
+    weight = next((place for place, words in _WEIGHTS if words.search(change.quantity)), _ANY)
     return (
         -grades.index(change.grade),
+        change.approval != "safety",
+        weight,
         areas.index(change.area),
         is_later,
-        weight,
         change.quantity,
         change.subjects,
     )
@@ -123,19 +128,20 @@ def reported(before: Facts, after: Facts) -> list[Change]:
     deltas = [
         difference for difference in differences(before.leaves, after.leaves) if difference.path[0] not in one_sided
     ]
-    whole_things, rest = _things(deltas, before, after)
+    things, rest = _things(deltas, before, after)
     rest, pins = _pins(rest)
-    primary = [delta for delta in rest if not follows(delta.path)]
-    reported = [*whole_things, *effects(before, after)]
-    values = [change for delta in primary if (change := change_of(delta, before, after)) is not None]
-    reported += [_with_matrix(change, pins, before, after) for change in values]
-    ids = _ids(before) | _ids(after)
-    known = _known(reported, ids)
-    for delta in rest:
-        if follows(delta.path) and not known.explains_leaf(delta):
-            change = change_of(delta, before, after)
-            reported += [] if change is None else [change]
-    known = _known(reported, ids)
+    changed = [(delta, change) for delta in rest if (change := change_of(delta, before, after)) is not None]
+    values = [(delta, change) for delta, change in changed if not follows(delta.path)]
+    is_whole = not (before.edited or after.edited)
+    reported = [*things, *effects(before, after)]
+    reported += [_with_matrix(change, pins, before, after) for _, change in values]
+    reported += [
+        replace(change, follows=True)
+        for delta, change in changed
+        if follows(delta.path) and not (is_whole and is_derived(delta.path))
+        if not is_stated(delta, change, values, things)
+    ]
+    known = _known(reported, _ids(before) | _ids(after))
     edited = before.edited | after.edited
     renamed = before.contract.cell != after.contract.cell
     left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
@@ -197,15 +203,9 @@ def _known(reported: Iterable[Change], ids: frozenset[str]) -> Known:
     changes = list(reported)
     return Known(
         frozenset().union(ids, *(change.words for change in changes)),
-        frozenset().union(*(_spelled(change.names) for change in changes)),
+        frozenset().union(*(spelled(change.names) for change in changes)),
         frozenset().union(*(change.differing for change in changes)),
     )
-
-
-def _spelled(names: Iterable[str]) -> set[str]:
-    """Return names in the forms in which files have them: of a node full or bare, of a file with or without its end."""
-    paths = [PurePosixPath(name) for name in names]
-    return {form for path in paths for form in (path.as_posix(), path.as_posix().strip("/"), path.name, path.stem)}
 
 
 def _differing(before: Leaf | None, after: Leaf | None) -> frozenset[str]:
@@ -228,14 +228,7 @@ def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[
             folded.setdefault(place, []).append(delta)
     things = [(thing, _of_thing(path, thing, inner, after)) for (path, thing), inner in folded.items()]
     reported = [change for thing, change in things if not thing.follows]
-    return reported + [change for thing, change in things if thing.follows and not _is_covered(change, reported)], rest
-
-
-def _is_covered(following: Change, reported: Sequence[Change]) -> bool:
-    """Return whether a reported addition or removal of the same name, of at least the same grade, implies this one."""
-    grades = tuple(Grade)
-    worst = [grades.index(change.grade) for change in reported if _spelled(change.names) & _spelled(following.names)]
-    return max(worst, default=-1) >= grades.index(following.grade)
+    return reported + [change for thing, change in things if thing.follows and not is_covered(change, reported)], rest
 
 
 def _folds(path: Path, old: frozenset[Path], new: frozenset[Path]) -> Iterator[tuple[Path, Thing]]:
@@ -288,14 +281,6 @@ def _with_matrix(change: Change, pins: Mapping[str, Delta], before: Facts, after
     return replace(change, grade=worse, why="; ".join(filter(None, (change.why, said))), words=known)
 
 
-def follows(path: Path) -> bool:
-    """Return whether a value repeats others."""
-    return any(fits(pattern, path) is not None for pattern in _FOLLOWS)
-
-
-_FOLLOWS = tuple(tuple(pattern.split(" ")) for pattern in FOLLOWS)
-
-
 def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
     """Return a value that changed as a change; None where its order alone did, and that says nothing."""
     row, fit = _row(delta.path)
@@ -320,12 +305,16 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         verdict.grade,
         _difference(delta, before, after) or size,
         row.grade.breaking and delta.before is not None,
-        verdict.why or (row.grade.why if verdict.grade is Grade.DANGEROUS else ""),
+        verdict.why or (_why(row, fit, after) if verdict.grade is Grade.DANGEROUS else ""),
         verdict.approval,
         None if _difference(delta, before, after) else figures,
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),
     )
+
+
+def _why(row: Row, fit: Fit, after: Facts) -> str:
+    return as_held(row.grade.why, next(iter(fit.subject), ""), after.contract)
 
 
 def _endless(path: Path, facts: Facts) -> str | None:
@@ -389,6 +378,7 @@ def _of_lines(left: LinesLeft) -> Change:
         text if left.whole == "removed" else _some(left.before),
         text if left.whole == "added" else _some(left.after),
         Grade.REVIEW,
+        follows=True,
     )
 
 

@@ -10,14 +10,15 @@ from cellc.contract.review import ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.causes import Cause, State, as_cause, attributed, causes_between, facts_of_document, flow_of
 from cellc.tools.review.change import Change, in_units
-from cellc.tools.review.compare import change_of, changes_between, follows, merged, order_of, reported
+from cellc.tools.review.compare import change_of, changes_between, merged, reported
 from cellc.tools.review.device_folders import by_folders, folder_causes
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.folder_names import facts_with_names, renames_between_folders
-from cellc.tools.review.groups import NAME_OF, only_follows
+from cellc.tools.review.groups import NAME_OF
 from cellc.tools.review.kept import kept_beside
 from cellc.tools.review.leaves import Leaf, Path, Prose, differences, same
 from cellc.tools.review.renames import Names, Rename, names_of, renamed, renames_between
+from cellc.tools.review.repeated import follows
 from cellc.tools.review.sides import Package
 from cellc.tools.review.units import units_in
 
@@ -48,8 +49,9 @@ def explained(before: Package, after: Package) -> Explained:
     first = [_as_cause(rename) for rename in leading]
     in_folders = folder_causes(was.document, now.document) if any(number is None for number, _ in found) else ()
     wanted = [_units_of(cause) for cause in causes]
-    found = [(number, change if number is None else in_units(change, wanted[number])) for number, change in found]
     of_folders, found = by_folders(found, in_folders, len(causes), base.facts, now.facts)
+    of_lines = [*wanted, *map(_units_written, of_folders)]
+    found = [(number, change if number is None else in_units(change, of_lines[number])) for number, change in found]
     numbered: list[tuple[int | None, Change]] = list(enumerate(names))
     numbered += [(0, change) for change in _beside_names(renames, was.facts, base.facts)]
     numbered += [(None if number is None else number + len(first), change) for number, change in found]
@@ -62,7 +64,7 @@ def explained(before: Package, after: Package) -> Explained:
             ),
             *of_folders,
         ),
-        _with_echoes(merged(numbered, before.facts, after.facts)),
+        merged(numbered, before.facts, after.facts),
         renames,
     )
 
@@ -73,15 +75,9 @@ def _units_of(cause: Cause) -> frozenset[str]:
     return frozenset().union(*(units_in(flow_of(child)) for child in written if child is not None))
 
 
-def _with_echoes(changes: Sequence[ReviewChange]) -> tuple[ReviewChange, ...]:
-    """Return changes in which lines of documents that follow from others of the same line of the spec are safe."""
-    told = {change.cause for change in changes if change.cause is not None and not only_follows(change)}
-    echo = {"grade": Grade.SAFE, "why": "follows from the changes beside it"}
-    after = [
-        change.model_copy(update=echo) if change.cause in told and only_follows(change) else change
-        for change in changes
-    ]
-    return tuple(sorted(after, key=order_of))
+def _units_written(cause: ReviewCause) -> frozenset[str]:
+    texts = (cause.before, cause.after, *(text for value in cause.values for text in (value.before, value.after)))
+    return frozenset().union(*(units_in(text) for text in texts if text))
 
 
 def _of_folders(before: Package, after: Package) -> Explained:
@@ -136,6 +132,8 @@ def _of_rename(rename: Rename, before: Facts, after: Facts) -> Change:
     followed = _followed(rename, before, after)
     known = [name for name in _known_outside(before) if name in followed or name == rename.before]
     more = f" and {len(known) - _FEW} more" if len(known) > _FEW else ""
+    names = names_of([rename], inside=_LETTERS)
+    told = [name if name == rename.before else f"{name} -> {names.in_text(name)}" for name in known[:_FEW]]
     return Change(
         rename.area,
         rename.after,
@@ -145,7 +143,7 @@ def _of_rename(rename: Rename, before: Facts, after: Facts) -> Change:
         Grade.REVIEW,
         f"{count(len(followed), 'name')} follow{'s' * (len(followed) == 1)}" if followed else "",
         breaking=bool(known),
-        why=f"consumers of {', '.join(known[:_FEW])}{more}" if known else "",
+        why=f"consumers of {', '.join(told)}{more}" if known else "",
         approval="graph" if known else None,
     )
 

@@ -11,7 +11,7 @@ from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChang
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.change import PRESENT
-from cellc.tools.review.compare import UNCLASSIFIED
+from cellc.tools.review.compare import order_of
 from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.replaced import LENGTH, MASS
 from cellc.tools.review.titles import Quote, leading_first, shortest_of, title_of
@@ -80,7 +80,7 @@ class Group:
     def _without_place(self, width: int) -> str:
         cause = self.cause
         assert cause is not None
-        sized = next((change.delta for change in self.telling if change.delta), "")
+        sized = next((change.delta for change in self.changes if change.delta), "")
         tail = f" ({sized})" if sized else ""
         parts = cause.line.split(".")
         shown = [".".join(parts), *("..." + ".".join(parts[at:]) for at in range(1, len(parts) - 1))]
@@ -125,12 +125,6 @@ class Group:
         return "" if self.cause is None or not self.cause.kept else f"left as it was: {'; '.join(self.cause.kept)}"
 
     @property
-    def telling(self) -> tuple[ReviewChange, ...]:
-        """The changes without the lines of documents that only follow: others of the same cause explain them."""
-        kept = tuple(change for change in self.changes if not only_follows(change))
-        return kept if self.cause is not None and kept else self.changes
-
-    @property
     def figures(self) -> tuple[str, ...]:
         """How far the most telling of its quantities changed, where it has several changes."""
         if len(self.changes) < 2:
@@ -151,7 +145,7 @@ class Group:
     @property
     def asks(self) -> str:
         """Who approves it: area and owner of each change that is not safe."""
-        return asked_of(self.telling)
+        return asked_of(self.changes)
 
 
 def asked_of(changes: Sequence[ReviewChange]) -> str:
@@ -198,24 +192,19 @@ def groups_of(review: Review) -> tuple[Group, ...]:
         Group(None if number < 0 else leading_first(review.causes[number], changes), tuple(changes))
         for (number, _), changes in held.items()
     ]
-    return tuple(sorted(groups, key=_order))
+    return tuple(sorted(groups, key=lambda group: _order(group, groups)))
 
 
-def _order(group: Group) -> tuple[int, int]:
-    worst = [change for change in group.changes if change.grade is group.grade]
+def _order(group: Group, groups: Sequence[Group]) -> tuple[int, int, tuple[object, ...]]:
+    """Return the place of a group: by its grade, a device with another model by that of all that is said of it."""
+    grade = group.grade
+    if group.cause is not None and group.is_model:
+        of = group.cause.line.removesuffix(_MODEL)
+        grades = [each.grade for each in groups if each.cause is not None and each.cause.line.startswith(of)]
+        grade = max((grade, *grades), key=tuple(Grade).index)
     # What else changed is read with the names after, and beside another model.
     is_name = group.cause is not None and group.cause.renamed
-    return -tuple(Grade).index(group.grade), -2 if is_name else -1 if group.is_model else min(map(_rank, worst))
-
-
-def _rank(change: ReviewChange) -> int:
-    """Return the place of a change among those of its grade: in the order of areas, what safety approves first."""
-    return 0 if change.approval == "safety" else tuple(ReviewArea).index(change.area)
-
-
-def only_follows(change: ReviewChange) -> bool:
-    """Tell whether a change is that of lines of a document, which follow what the spec says."""
-    return change.area is ReviewArea.DOCUMENTS and change.quantity.endswith(UNCLASSIFIED)
+    return -tuple(Grade).index(grade), -2 if is_name else -1 if group.is_model else 0, order_of(group.changes[0])
 
 
 def _in_backticks(value: str) -> str:

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from cellc.tools.review.leaves import Delta, words
 from cellc.tools.review.tokens import holder, ordered, parts
 
 _MOST_PAIRS = 250_000
@@ -44,12 +43,6 @@ class Known:
             return differing <= self.words or not self.names.isdisjoint(_with_parts(differing))
         named = self.names | self.differing
         return differing - common <= self.words or not named.isdisjoint(_with_parts(differing))
-
-    def explains_leaf(self, delta: Delta) -> bool:
-        """Tell the same of a value, which may stand under a name that was added or removed."""
-        if self.names.intersection(delta.path):
-            return True
-        return self.explains(words(delta.before), words(delta.after))
 
 
 def _differing(before: Sequence[str], after: Sequence[str]) -> set[str]:

@@ -101,7 +101,7 @@ def _of_group(group: Group, room: int) -> tuple[list[str], int]:
 
 def _row(change: ReviewChange) -> str:
     what = f"{as_code(subjects_of(change))} {as_prose(change.quantity)}"
-    what += "<br>**breaks consumers**" if change.breaking else ""
+    what += "<br>**may break consumers**" if change.breaking else ""
     what += f"<br>{as_prose(change.why)}" if change.why else ""
     owner = as_prose(change.owner) if change.owner else "no owner"
     approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {owner}"

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from cellc.contract.contract import Contract
+from cellc.contract.grading import OTHER_LOAD
+from cellc.contract.vocabulary import Gravity, Loop
 from cellc.tools.review.rules import Row
 
 _REASONS: Mapping[str, str] = {
     "contract approvals safety": "somebody else approves what protects people",
     "spec safety stop independent_of": "the stop may fail together with what it must stop",
     "spec safety stop evidence": "nothing proves that the stop works",
-    "interface {interface} kind": "both ends no longer understand each other",
-    "interface {interface} type": "both ends no longer understand each other",
+    "interface {interface} kind": "an end that does not change with it receives nothing",
+    "interface {interface} type": "an end that does not change with it receives nothing",
     "interface {interface} frame": "its coordinates are read in another frame",
     "interface {interface} unit": "its figures are read in another unit",
     "interface {interface} owner": "it has no owner",
-    "interface {interface} on_stale": "motion may go on with old data",
+    "interface {interface} on_stale": "what moves with old data is handled otherwise",
     "interface {interface} on_timeout": "what moves is handled otherwise after a timeout",
     "controller {controller} plugin": "another program commands the joints",
     "controller {controller} behavior": "the joints are commanded otherwise",
@@ -30,9 +33,8 @@ _REASONS: Mapping[str, str] = {
     "contract calibrations {calibration} revision": "an older measurement is used again",
     "contract calibrations {calibration} owner": "it has no owner",
     "contract frames {frame} calibration": "the pose rests on no measurement",
-    "contract devices {device} model": "body, limits and behavior are those of another device",
+    "contract devices {device} model": "its body and behavior are those of another device",
     "contract devices {device} architecture": "commands reach the joints by another path",
-    "contract adapters {device} stop_time_s": "it moves on for longer after a stop",
     "contract groups {group} tip_frame": "another point is moved to each goal",
     "contract groups {group} ...": "other joints move to the goal",
     "contract goals {goal} group": "other joints move to the goal",
@@ -51,7 +53,7 @@ _REASONS: Mapping[str, str] = {
     "frame {frame} reference_points": "fewer points show that the frame is still where it was measured",
     "device {device} payload_limit_kg": "a load that was allowed may be too heavy",
     "watch {watch} ...": "controllers may stay active though their device stopped",
-    "check thresholds {device}": "a contact may be noticed later, or at a higher force",
+    "check thresholds {device}": "a contact is noticed at another force",
     "check joint_impedance {device}": "the joint yields by another amount, or swings",
     "check tool_impedance {device}": "the tool yields by another amount, or presses harder",
     "spec surroundings {part} none": "an arm may meet what this says is not there",
@@ -60,8 +62,8 @@ _REASONS: Mapping[str, str] = {
     "real joint {joint} type": "the joint moves otherwise, or not at all",
     "real joint {joint} mimic ...": "the joint follows another one, or otherwise",
     "parameters {_} {node} ros__parameters goal_tolerance": "the joint may end further from its goal",
-    "parameters {_} {node} ros__parameters enforce_command_limits": "commands beyond the limits may reach the joints",
-    "parameters {_} {node} ros__parameters hardware_components_initial_state ...": "hardware may be enabled too early",
+    "parameters {_} {node} ros__parameters enforce_command_limits": "commands beyond the limits are handled otherwise",
+    "parameters {_} {node} ros__parameters hardware_components_initial_state ...": "hardware is enabled earlier",
     "real hardware {component} plugin": "another driver commands the hardware",
     "mock hardware {component} plugin": "what is started as the mock may reach hardware",
     "matrix {part}": "nothing says any more that the versions work together",
@@ -71,7 +73,7 @@ _REASONS: Mapping[str, str] = {
     "step real {step} after": "it may start before what it rests on",
     "step real {step} request controllers": "other controllers may move the hardware",
     "step real {step} ...": "hardware is asked for something else",
-    "spec bringup commissioning stages": "motion may be fast before a slower one was tried",
+    "spec bringup commissioning stages": "the stages before full speed are others",
     "file config/uncertainty.json tolerances {goal}": "a worse end counts as a success",
     "file config/uncertainty.json expected {rehearsal} success": "fewer successes suffice",
     "file config/uncertainty.json expected {rehearsal} confidence": "the success rate may rest on chance",
@@ -81,3 +83,17 @@ _REASONS: Mapping[str, str] = {
 def with_reason(row: Row) -> Row:
     """Return a row with the reason for its danger: that of its field, else the one above."""
     return row if row.grade.why else Row(row.pattern, row.grade._replace(why=_REASONS.get(row.pattern, "")))
+
+
+def as_held(why: str, device: str, contract: Contract) -> str:
+    """Return the reason of another load with what it does to a device, by what holds its joints."""
+    law = contract.devices[device].law if why == OTHER_LOAD and device in contract.devices else None
+    if law is None:
+        return why
+    if law.loop is Loop.POSITION:
+        return f"{why}: it stops by itself, or notices a contact later"
+    if law.loop is Loop.UNKNOWN:
+        return f"{why}: how far the arm sags is not known"
+    if law.gravity is Gravity.COMPENSATED:
+        return f"{why}: the arm sags, or rises"
+    return "the springs of the joints hold another load: the arm droops by another amount"

@@ -67,6 +67,11 @@ def _names(body: Description) -> frozenset[str]:
     return frozenset((*(link.name for link in body.links), *(joint.name for joint in body.joints)))
 
 
+def joints_of(device: str, facts: Facts) -> frozenset[str]:
+    """Return the joints of a device, without those of what is mounted on it."""
+    return _body(device, facts)[1]
+
+
 def _body(device: str, facts: Facts) -> tuple[frozenset[str], frozenset[str]]:
     """Return the links and the joints of a device, without what is mounted on it."""
     others = {each.root_link for name, each in facts.contract.devices.items() if name != device}

@@ -12,6 +12,7 @@ from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGat
 from cellc.contract.vocabulary import ReviewArea
 from cellc.tools.review.explained import explained
 from cellc.tools.review.renames import Names, Rename, names_of
+from cellc.tools.review.replaced import joints_of
 from cellc.tools.review.rules import REPEATED
 from cellc.tools.review.sides import Package
 
@@ -48,7 +49,11 @@ def _gates(before: Package, after: Package, changes: Sequence[ReviewChange]) -> 
 
 def _side(package: Package) -> ReviewSide:
     contract = package.facts.contract
-    return ReviewSide(name=package.name, cell=contract.cell, configuration_id=contract.configuration_id)
+    joints = {
+        device: tuple(name for name in contract.joint_limits if name in joints_of(device, package.facts))
+        for device in contract.devices
+    }
+    return ReviewSide(name=package.name, cell=contract.cell, configuration_id=contract.configuration_id, joints=joints)
 
 
 _RANK = (Severity.ERROR, Severity.BLOCKER, Severity.WARNING)

@@ -17,11 +17,11 @@ from cellc.contract.contract import Contract, ContractController, ContractManage
 from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.contract.grading import (
     DEVIATES,
-    FURTHER,
+    FASTER,
     GRIPPED,
+    OTHER_LOAD,
     OTHER_MASS,
     PLANNED,
-    SECOND_CLIENT,
     UNAVOIDED,
     Graded,
     Rule,
@@ -39,7 +39,7 @@ _LAW = "contract devices {device} law"
 _YIELDS = "the joint yields by another amount, or swings"
 _MOVE_GROUP = "file config/moveit/move_group.yaml {_} ros__parameters"
 _STRAIGHT = "robot_description_planning.cartesian_limits"
-_BURNS = "a tool with a lower rating is destroyed"
+_BURNS = "a tool for another voltage fails, or is destroyed"
 _UNREADY = "it is not the first motion that people are ready for"
 _MEET = "arms may meet in it"
 _STARTS = "somebody else, or a program, starts what moves"
@@ -117,10 +117,10 @@ _ALL: Sequence[Row] = (
     # What stops, and what happens then.
     Row("area {area} {what}", Graded(_A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET)),
     Row("watch {watch} ...", Graded(_A.SAFETY, "watch that deactivates controllers", Rule.DANGEROUS, ordered=False)),
-    Row("check payload {device} {what}", Graded(_A.PAYLOAD, "robot payload", Rule.DANGEROUS, why="the arm may sag")),
+    Row("check payload {device} {what}", Graded(_A.PAYLOAD, "robot payload", Rule.DANGEROUS, why=OTHER_LOAD)),
     Row("check tcp {device} {what}", Graded(_A.PAYLOAD, "robot TCP", Rule.DANGEROUS, why="the TCP moves")),
     Row("check thresholds {device}", Graded(_A.SAFETY, "collision thresholds set in the robot", Rule.DANGEROUS)),
-    Row("check load {device}", Graded(_A.PAYLOAD, "load set in the robot", Rule.DANGEROUS, why="the arm may sag")),
+    Row("check load {device}", Graded(_A.PAYLOAD, "load set in the robot", Rule.DANGEROUS, why=OTHER_LOAD)),
     Row("check joint_impedance {device}", Graded(_A.SAFETY, "impedance of the joints", Rule.DANGEROUS)),
     Row("check tool_impedance {device}", Graded(_A.SAFETY, "impedance at the tool", Rule.DANGEROUS)),
     Row("check tool_voltage {device} {what}", Graded(_A.SAFETY, "tool connector", Rule.DANGEROUS, why=_BURNS)),
@@ -141,7 +141,12 @@ _ALL: Sequence[Row] = (
     ),
     Row("file config/frames.yaml calibrations {calibration} {what}", Graded(_A.CALIBRATION, "measurement")),
     # What moves, and how far.
-    Row("real joint {joint} limit effort", Graded(_A.LIMITS, "effort", Rule.MORE, "effort", why=FURTHER)),
+    Row(
+        "real joint {joint} limit effort",
+        Graded(
+            _A.LIMITS, "effort", Rule.MORE, "effort", why="the joint may press harder than people at the cell expect"
+        ),
+    ),
     Row("real joint {joint} axis", Graded(_A.MODEL, "axis", Rule.DANGEROUS, why="the joint turns about another axis")),
     Row("real joint {joint} type", Graded(_A.MODEL, "type", Rule.DANGEROUS)),
     Row("real joint {joint} mimic ...", Graded(_A.MODEL, "mimicked joint", Rule.DANGEROUS)),
@@ -153,7 +158,10 @@ _ALL: Sequence[Row] = (
     Row("real visuals {link} ...", Graded(_A.DOCUMENTS, "looks", Rule.SAFE)),
     Row("pair {links}", Graded(_A.MODEL, "reason why the pair is not checked for collision", why=PLANNED)),
     # Who commands, and by what.
-    Row("claim {interface}", Graded(_A.CONTROL, "controller that claims it", Rule.CLAIM, why=SECOND_CLIENT)),
+    Row(
+        "claim {interface}",
+        Graded(_A.CONTROL, "controller that claims it", Rule.CLAIM, why="another controller commands the joint"),
+    ),
     Row("controller {controller} {what}", Graded(_A.CONTROL, "controller")),
     Row("manager {manager} {what}", Graded(_A.CONTROL, "controller manager")),
     Row(
@@ -175,7 +183,7 @@ _ALL: Sequence[Row] = (
     ),
     Row(
         "file config/moveit/servo.yaml {_} ros__parameters moveit_servo scale {what}",
-        Graded(_A.LIMITS, "largest speed of servoing", Rule.MORE, why=FURTHER),
+        Graded(_A.LIMITS, "largest speed of servoing", Rule.MORE, why=FASTER),
     ),
     Row("parameters {_} {node} ros__parameters ...", Graded(_A.CONTROL, "parameter")),
     Row("real hardware {component} plugin", Graded(_A.CONTROL, "hardware plugin", Rule.DANGEROUS)),
@@ -193,11 +201,11 @@ _ALL: Sequence[Row] = (
     ),
     Row(
         f"{_MOVE_GROUP} {_STRAIGHT.replace('.', ' ')} max_trans_dec",
-        Graded(_A.LIMITS, "Cartesian limit", Rule.LESS, why=FURTHER),  # it is negative
+        Graded(_A.LIMITS, "Cartesian limit", Rule.LESS, why=FASTER),  # it is negative
     ),
     Row(
         f"{_MOVE_GROUP} robot_description_planning ...",
-        Graded(_A.LIMITS, "Cartesian limit", Rule.MORE, why=FURTHER),
+        Graded(_A.LIMITS, "Cartesian limit", Rule.MORE, why=FASTER),
     ),
     Row(f"{_MOVE_GROUP} trajectory_execution ...", Graded(_A.MOTION, "execution")),
     Row(f"{_MOVE_GROUP} ...", Graded(_A.MOTION, "planning", why=PLANNED)),
@@ -211,6 +219,7 @@ _ALL: Sequence[Row] = (
     Row("spec network ...", Graded(_A.NETWORK, "network")),
     Row("device {device} host", Graded(_A.NETWORK, "computer that it is connected to")),
     Row("spec hosts {host} ...", Graded(_A.NETWORK, "host")),
+    Row("spec nodes {node} owner", Graded(_A.OWNERS, "owner", Rule.NAMED)),
     Row("spec nodes {node} {what}", Graded(_A.CONTROL, "node")),
     Row("spec nodes {node} ...", Graded(_A.CONTROL, "parameter of the node")),
     Row("spec targets {target} {what}", Graded(_A.DEVICES, "target", Rule.DANGEROUS)),
@@ -229,14 +238,14 @@ _ALL: Sequence[Row] = (
     Row("step real {step} ...", Graded(_A.START_ORDER, "request on hardware", Rule.DANGEROUS, ordered=False)),
     Row("step mock {step} ...", Graded(_A.START_ORDER, "step on the mock", ordered=False)),
     Row("spec bringup commissioning stages", Graded(_A.LIMITS, "stages of commissioning", Rule.DANGEROUS)),
-    Row("spec bringup commissioning {what}", Graded(_A.LIMITS, "commissioning", Rule.MORE, "ratio", why=FURTHER)),
-    Row("stage {stage} {joint} velocity", Graded(_A.LIMITS, "share of its velocity", Rule.MORE, "ratio", why=FURTHER)),
+    Row("spec bringup commissioning {what}", Graded(_A.LIMITS, "commissioning", Rule.MORE, "ratio", why=FASTER)),
+    Row("stage {stage} {joint} velocity", Graded(_A.LIMITS, "share of its velocity", Rule.MORE, "ratio", why=FASTER)),
     Row(
         "stage {stage} {joint} acceleration",
-        Graded(_A.LIMITS, "share of its acceleration", Rule.MORE, "ratio", why=FURTHER),
+        Graded(_A.LIMITS, "share of its acceleration", Rule.MORE, "ratio", why=FASTER),
     ),
-    Row(f"stage {{stage}} {_STRAIGHT}.max_trans_dec", Graded(_A.LIMITS, "deceleration", Rule.LESS, why=FURTHER)),
-    Row("stage {stage} ...", Graded(_A.LIMITS, "cap", Rule.MORE, why=FURTHER)),
+    Row(f"stage {{stage}} {_STRAIGHT}.max_trans_dec", Graded(_A.LIMITS, "deceleration", Rule.LESS, why=FASTER)),
+    Row("stage {stage} ...", Graded(_A.LIMITS, "cap", Rule.MORE, why=FASTER)),
     *(
         row
         for kind, name, end in (("check", "{device}", ""), ("spec bringup", "{joint}", " value"))
@@ -272,25 +281,10 @@ _ALL: Sequence[Row] = (
 ROWS = tuple(map(with_reason, _ALL))
 """What no row fits is `review`, in the area of its file."""
 
-_REPEATING = (
-    "surroundings",
-    "program",
-    "bringup",
-    "recording",
-    "network",
-    "targets",
-    "mock_statements",
-    "hosts",
-    "nodes",
-)
-"""Sections of a spec that other files of the package hold in their own form."""
-
-FOLLOWS: Sequence[str] = (
+DERIVED: Sequence[str] = (
     "manifest version_tuple ...",
     "contract distro",
     "contract files ...",
-    "contract plugin_behaviors ...",
-    "controller {controller} command_interfaces",
     "controller {controller} full_name",
     "parameters {_} {node} ros__parameters constraints goal_time",
     *(
@@ -300,19 +294,29 @@ FOLLOWS: Sequence[str] = (
     "parameters {_} {node} ros__parameters update_rate",
     "parameters {_} {node} ros__parameters joints",
     "parameters {_} {node} ros__parameters {controller} type",
+    "file config/frames.yaml frames ...",
+    "file config/frames.yaml calibrations {calibration} revision",
+    "file config/frames.yaml calibrations {calibration} owner",
+    "file config/joint_limits.yaml ...",
+)
+"""Values that the compiler writes from others of the package, and from nothing else: told where a file was edited."""
+
+_REPEATING = ("bringup commissioning", "recording", "network", "targets", "mock_statements", "hosts", "nodes")
+"""Sections of a spec that other files of the package hold in their own form."""
+
+FOLLOWS: Sequence[str] = (
+    "contract plugin_behaviors ...",
+    "controller {controller} command_interfaces",
     "real visuals ...",
     "real joint {joint} limit ...",
     "real joint {joint} name",
     "real joint {joint} parent",
     "real joint {joint} child",
     "mock ...",
-    "file config/frames.yaml frames ...",
-    "file config/frames.yaml calibrations {calibration} revision",
-    "file config/frames.yaml calibrations {calibration} owner",
     "step mock ...",
+    "check first_motion ...",
     "step real {step} after",
     "contract clock_of ...",
-    "file config/joint_limits.yaml ...",
     "parameters nodes {node} ros__parameters qos_overrides ...",
     "file config/recording_qos.yaml ...",
     "file config/uncertainty.json quantities ...",
@@ -328,7 +332,7 @@ FOLLOWS: Sequence[str] = (
     *(f"spec safety recovery {name}" for name in ("states", "acknowledge", "on_reconnect")),
     *(f"spec {name} ..." for name in _REPEATING),
 )
-"""Values that repeat others: listed where no other change explains them, by their row or without one.
+"""Values that repeat others in their own form: left out where one line of the spec makes both, else listed.
 
 Who does what, such as the owner of the recovery, repeats nothing: that another line names the same people says nothing.
 """

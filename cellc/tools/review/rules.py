@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import get_args
 
-from cellc.contract.grading import Graded
+from cellc.contract.grading import OTHER_LOAD, Graded
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
 from cellc.tools.review.leaves import Path
@@ -127,11 +127,9 @@ THINGS: Sequence[Thing] = (
         _D,
         why="controllers may stay active though their device stopped",
     ),
-    Thing(
-        "check payload {device}", _A.PAYLOAD, "payload to set in the robot", _R, _D, shown="mass", why="the arm may sag"
-    ),
+    Thing("check payload {device}", _A.PAYLOAD, "payload to set in the robot", _R, _D, shown="mass", why=OTHER_LOAD),
     Thing("check tcp {device}", _A.PAYLOAD, "TCP to set in the robot", _R, _D, why=_UNCOMPARED),
-    Thing("check load {device}", _A.PAYLOAD, "load to set in the robot", _R, _D, why="the arm may sag"),
+    Thing("check load {device}", _A.PAYLOAD, "load to set in the robot", _R, _D, why=OTHER_LOAD),
     Thing("check joint_impedance {device}", _A.SAFETY, "impedance of the joints", _R, _D, why=_UNCOMPARED),
     Thing("check tool_impedance {device}", _A.SAFETY, "impedance at the tool", _R, _D, why=_UNCOMPARED),
     Thing(
@@ -140,7 +138,7 @@ THINGS: Sequence[Thing] = (
         "voltage of the tool connector",
         _D,
         _R,
-        why="a tool with a lower rating is destroyed",
+        why="a tool for another voltage fails, or is destroyed",
     ),
     Thing("check thresholds {device}", _A.SAFETY, "collision thresholds of the robot", _R, _D, why=_UNCOMPARED),
     Thing("area {area}", _A.SAFETY, "shared area", _R, _D, why="arms may meet in it"),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from cellc.contract.diagnostics.unsafe_text import escaped
@@ -35,6 +36,8 @@ class _Folds(NamedTuple):
     findings: _Fold
     titles: _Fold
     values: _Fold
+    whole: Mapping[frozenset[str], str]
+    """What several subjects are together, such as all joints of an arm."""
     reasons: bool
     """Whether each danger has its reason, where a line of values is cut."""
 
@@ -45,17 +48,20 @@ def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
     Long ones are broken where everything has room then; else values are cut first, then findings, then titles.
     """
     groups = groups_of(review)
+    whole = {
+        frozenset(joints): f"all joints of {device}" for device, joints in review.after.joints.items() if joints[1:]
+    }
     for folds in (
-        _Folds(broken, broken, broken, reasons=True),
-        _Folds(broken, broken, _cut, reasons=True),
-        _Folds(broken, broken, _cut, reasons=False),
-        _Folds(_cut, broken, _cut, reasons=False),
+        _Folds(broken, broken, broken, whole, reasons=True),
+        _Folds(broken, broken, _cut, whole, reasons=True),
+        _Folds(broken, broken, _cut, whole, reasons=False),
+        _Folds(_cut, broken, _cut, whole, reasons=False),
     ):
         lines = _rendered(review, groups, _UNBOUNDED, folds)
         if len(lines) <= most:
             yield from lines
             return
-    yield from _rendered(review, groups, most, _Folds(_cut, _cut, _cut, reasons=False))
+    yield from _rendered(review, groups, most, _Folds(_cut, _cut, _cut, whole, reasons=False))
 
 
 def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
@@ -63,18 +69,17 @@ def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds)
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
     if folds.titles is _cut:
         # Not every cause has room for who is asked, and for what breaks.
-        head += [(Styled(text, Style.DIM),) for text in broken(f"asks {asked_of(_telling_in(groups))}", "  ")]
-        head += broken(f"breaks consumers of {_first_of(names)}", "  ") if (names := broken_by(review.changes)) else []
+        asked = asked_of(review.changes)
+        head += [(Styled(text, Style.DIM),) for text in broken(f"asks {asked}", "  ") if asked]
+        head += (
+            broken(f"may break consumers of {_first_of(names)}", "  ") if (names := broken_by(review.changes)) else []
+        )
     new, foot = [*_findings(review, folds.findings)], [*_foot(review)]
     return [*head, *new, *_of_groups(groups, most - len(head) - len(new) - len(foot), folds), *foot]
 
 
 def _first_of(names: Sequence[str]) -> str:
     return ", ".join(names[:_FEW]) + (f" and {len(names) - _FEW} more" if len(names) > _FEW else "")
-
-
-def _telling_in(groups: Sequence[Group]) -> list[ReviewChange]:
-    return [change for group in groups for change in group.telling]
 
 
 def _cut(text: str, _: str) -> list[str]:
@@ -128,7 +133,7 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
         yield from inner
     if len(shown) < len(groups):
         rest = groups[len(shown) :]
-        changes = sum(len(group.telling) for group in rest)
+        changes = sum(len(group.changes) for group in rest)
         yield f"and {count(len(rest), 'cause')} more with {count(changes, 'change')}"
 
 
@@ -146,7 +151,7 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
     Args:
         is_listed: who approves is listed for all groups together.
     """
-    changes = sorted(group.telling, key=_is_of_lines)
+    changes = sorted(group.changes, key=_is_of_lines)
     asked: _Lines = (
         [(Styled(text, Style.DIM),) for text in broken(f"  asks {group.asks}", "    ")]
         if group.asks and not is_listed
@@ -163,10 +168,14 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
     others = len(changes) - sum(map(len, worst.values()))
     room = min(_FEW, most - len(figures) - len(asked) - (others > 0))
     listed = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
-    lines = [*figures, *(line for text in listed for line in _values(_line(text, worst[text]), worst[text], folds))]
+    reasons = set[str]()
+    lines = [*figures]
+    for text in listed:
+        lines += _values(_line(text, worst[text], folds.whole), worst[text], folds, reasons)
+        reasons.add(worst[text][0].why)
     rest = [change for change in changes if not any(change in worst[text] for text in listed)]
     if rest:
-        lines.append((Styled(cut(_rest(rest, group, is_whole=not listed)), Style.DIM),))
+        lines.append((Styled(cut(_rest(rest, group, folds.whole, is_whole=not listed)), Style.DIM),))
     room = max(most - len(asked), 0)
     if len(lines) > room > 0:
         lines = [*lines[: room - 1], (Styled(cut(f"  {_listed(changes, group)}"), Style.DIM),)]
@@ -188,37 +197,41 @@ def _is_of_lines(change: ReviewChange) -> bool:
     return change.quantity.endswith(UNCLASSIFIED) or change.quantity.startswith("file ")
 
 
-def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds) -> list[str]:
-    """Return a change with what it means where there is room for that; how much it changed is never cut."""
+def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds, said: Collection[str]) -> list[str]:
+    """Return a change with what it means where there is room for that; how much it changed is never cut.
+
+    Args:
+        said: what changes above it mean.
+    """
     change, fold = changes[0], folds.values
     why = (
         ""
-        if change.why.endswith((UNMEASURED, ENDS_ELSEWHERE))
+        if change.why in said or change.why.endswith((UNMEASURED, ENDS_ELSEWHERE))
         else change.why.partition(", before ")[0].replace("`", "")
     )
     is_told = folds.reasons and change.grade is not Grade.SAFE and not change.breaking
     reason = fold(f"    because {why}", "      ") if why and is_told else []
     if fold is broken:
         return [*fold(line, "    "), *reason]
-    return [_fitting(line, changes), *reason]
+    return [_fitting(line, changes, folds.whole), *reason]
 
 
-def _fitting(line: str, changes: Sequence[ReviewChange]) -> str:
+def _fitting(line: str, changes: Sequence[ReviewChange], whole: Mapping[frozenset[str], str]) -> str:
     """Return a change in one line: whole, else by how much, else with its values or its subject, what is shorter."""
     change = changes[0]
     head = f"{change.area}  {change.quantity}"
     is_name = change.quantity.startswith(NAME_OF)
-    sized = [_line(f"{head} {change.delta}", changes)] if change.delta and not is_name else []
-    whole = next((escaped(each) for each in (line, *sized) if len(escaped(each)) <= WIDTH), None)
-    if whole is not None:
-        return whole
-    return cut(line if is_name or len(line.partition(": ")[0]) <= _MOSTLY else _line(head, changes))
+    sized = [_line(f"{head} {change.delta}", changes, whole)] if change.delta and not is_name else []
+    fitting = next((escaped(each) for each in (line, *sized) if len(escaped(each)) <= WIDTH), None)
+    if fitting is not None:
+        return fitting
+    return cut(line if is_name or len(line.partition(": ")[0]) <= _MOSTLY else _line(head, changes, whole))
 
 
-def _rest(rest: Sequence[ReviewChange], group: Group, *, is_whole: bool) -> str:
+def _rest(rest: Sequence[ReviewChange], group: Group, whole: Mapping[frozenset[str], str], *, is_whole: bool) -> str:
     """Return what there is no room for: one change itself, of more those of each area, or of one area of each kind."""
     if len(rest) == 1:
-        return _line(_said(rest[0]), rest)
+        return _line(_said(rest[0]), rest, whole)
     return f"  {_listed(rest, group, count(len(rest), 'change') if is_whole else f'{len(rest)} more')}"
 
 
@@ -236,26 +249,30 @@ def _listed(changes: Sequence[ReviewChange], group: Group, head: str = "") -> st
 def _alike(changes: Sequence[ReviewChange]) -> dict[str, list[ReviewChange]]:
     """Return changes by what is said of them: those of several subjects that changed by as much are one line."""
     alike: dict[str, list[ReviewChange]] = {}
+    shares = Counter((change.area, change.quantity, change.delta) for change in changes if change.delta.endswith("%"))
     for change in changes:
-        alike.setdefault(_said(change), []).append(change)
+        is_share = shares[change.area, change.quantity, change.delta] > 1 and not change.breaking
+        said = f"{change.area}  {change.quantity} {change.delta}" if is_share else _said(change)
+        alike.setdefault(said, []).append(change)
     return alike
 
 
 def _said(change: ReviewChange) -> str:
     if change.quantity.startswith(NAME_OF):
-        return f"breaks {change.why}" if change.breaking else "no consumer outside the cell knows it"
-    breaks = ", breaks consumers" if change.breaking else ""
+        return f"may break {change.why}" if change.breaking else "no consumer outside the cell knows it"
+    breaks = ", may break consumers" if change.breaking else ""
     if change.quantity == "frame removed":
         return f"{change.area}  {change.quantity} (its parent was {change.before}){breaks}"
     values = change.delta if change.delta and len(values_of(change)) > _LONG else values_of(change)
     return f"{change.area}  {change.quantity} {values}".rstrip() + breaks
 
 
-def _line(text: str, changes: Sequence[ReviewChange]) -> str:
+def _line(text: str, changes: Sequence[ReviewChange], whole: Mapping[frozenset[str], str]) -> str:
     subjects = [subject for change in changes for subject in change.subjects]
     more = f" and {len(subjects) - 1} more" if len(subjects) > 1 else ""
     if changes[0].quantity in PAIRS:
         first, rest = ", ".join(subjects[:_FEW_PAIRS]), ", ..." * (len(subjects) > _FEW_PAIRS)
         return f"  {changes[0].area}  {count(len(subjects), 'pair')} {changes[0].quantity}: {first}{rest}"
     is_named = changes[0].quantity.startswith(NAME_OF) or subjects == [WHOLE]
-    return f"  {text}" if is_named else f"  {text}: {subjects[0]}{more}"
+    named = whole.get(frozenset(subjects), f"{subjects[0]}{more}")
+    return f"  {text}" if is_named else f"  {text}: {named}"

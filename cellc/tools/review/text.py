@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
@@ -39,17 +39,22 @@ def render_review(review: Review) -> Iterator[Line]:
 
 
 def summed_up(review: Review) -> str:
-    """Return one line: how many changes of each grade."""
+    """Return one line: how many headings have each grade, and how many changes stand under them."""
     if not review.changes:
         differing = len(review.files)
         text = f"; {differing} files differ only in order or spelling" if differing else ""
         return f"{review.after.name}: no change{text}"
-    changes = review.changes
-    counts = ((sum(change.grade is grade for change in changes), grade) for grade in reversed(Grade))
+    groups = groups_of(review)
+    counts = ((sum(group.grade is grade for group in groups), grade) for grade in reversed(Grade))
     listed = ", ".join(f"{number} {grade}" for number, grade in counts if number)
-    breaking = sum(change.breaking for change in review.changes)
-    more = f"; {breaking} break{'s' if breaking == 1 else ''} consumers outside the cell" if breaking else ""
-    return f"{review.after.name}: {count(len(changes), 'change')} ({listed}){more}"
+    noun = "cause" if review.causes else "area"
+    told = count(len(review.changes), "change")
+    return f"{review.after.name}: {count(len(groups), noun)} ({listed}), {told}{_breaking(review.changes)}"
+
+
+def _breaking(changes: Sequence[ReviewChange]) -> str:
+    number = sum(change.breaking for change in changes)
+    return f"; {number} may break consumers outside the cell" if number else ""
 
 
 def subjects_of(change: ReviewChange, few: int = _FEW) -> str:
@@ -81,7 +86,7 @@ def approved_by(change: ReviewChange) -> str:
 
 
 def _change(change: ReviewChange) -> Iterator[Line]:
-    breaking: tuple[str | Styled, ...] = ("  ", Styled("breaks consumers", Style.RED)) if change.breaking else ()
+    breaking: tuple[str | Styled, ...] = ("  ", Styled("may break consumers", Style.RED)) if change.breaking else ()
     grade = Styled(change.grade.value, STYLES[change.grade])
     yield ("  ", grade, f" {change.area}  {subjects_of(change)}: {change.quantity}", *breaking)
     yield from (f"      {values}" for values in [values_of(change)] if values)

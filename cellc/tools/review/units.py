@@ -92,6 +92,9 @@ def _with_unit(value: float, unit: str, wanted: Collection[str] = (), digits: in
 
 def _scale(unit: str, wanted: Collection[str]) -> tuple[float, str]:
     """Return the factor from SI and the name of the unit in which a value is shown."""
+    of_kind = [each for each in wanted if each in UNITS and unit in UNITS and UNITS[each][0] == UNITS[unit][0]]
+    if "/" in unit and len(of_kind) == 1:
+        return 1.0 / UNITS[of_kind[0]][1], of_kind[0]
     base, slash, rest = unit.partition("/")
     kind = UNITS.get(base, ("", 1.0))[0]
     written = {each for each in wanted if each and kind and UNITS[each][0] == kind}
