@@ -127,11 +127,17 @@ def attributed(
     known = [trial.changes for trial in trials if trial.valid]
     rest = len(alone) if together else None
     held = [(change, *_held(change, [len(set(map(_alike, cause))) for cause in alone], known)) for change in changes]
-    found = [(_cause_of(change, held_by, known, rest), change) for change, held_by, is_told in held if not is_told]
-    told = {number for number, change in found if not _is_of_lines(change)}
-    if (rest in told) if together else (None not in told and all(map(_tells, known))):
-        # Lines of documents come from lines of the spec, each of which is told.
-        found = [(number, change) for number, change in found if number != rest or not _is_of_lines(change)]
+    found = [
+        (_cause_of(change, held_by, known, rest), change) for change, held_by, is_repeated in held if not is_repeated
+    ]
+    found = without_lines(found)
+    if (
+        not together
+        and all(map(_has_facts, known))
+        and all(_is_of_lines(change) for number, change in found if number is None)
+    ):
+        # Lines of documents have no source but lines of the spec, each of which has facts.
+        found = [(number, change) for number, change in found if number is not None]
     if together:
         together = _leading_first(together, [change for number, change in found if number == rest])
     kept = sorted({number for number, _ in found if number is not None})
@@ -161,24 +167,32 @@ def _leading_first(cause: Cause, changes: Sequence[Change]) -> Cause:
 
 
 def _held(change: Change, lengths: Sequence[int], known: Sequence[_Changes]) -> tuple[Sequence[int], bool]:
-    """Return the causes that make a change by themselves, and whether it repeats what each of them is told by.
+    """Return the causes that make a change by themselves, and whether it repeats a fact of each of them.
 
     A value that repeats others is left out where one line of the spec makes it, beside a change of at least its grade;
-    lines of documents where each cause that changes them is told.
+    lines of documents where each cause that changes them has facts.
     """
     having = [number for number, changes in enumerate(known) if _key(change) in changes]
     if not change.follows or not having:
         return having, False
     if _is_of_lines(change):
-        untold = [number for number in having if not _tells(known[number])]
-        return untold or having, not untold
-    told = [max((_place(each) for each in known[number].values() if not each.follows), default=-1) for number in having]
+        bare = [number for number in having if not _has_facts(known[number])]
+        return bare or having, not bare
+    worst = [
+        max((_place(each) for each in known[number].values() if not each.follows), default=-1) for number in having
+    ]
     is_whole = len(having) > 1 or known[having[0]][_key(change)].after == change.after
     is_one = all(lengths[number] == 1 for number in having)
-    return having, is_whole and is_one and min(told) >= _place(change)
+    return having, is_whole and is_one and min(worst) >= _place(change)
 
 
-def _tells(changes: _Changes) -> bool:
+def without_lines(found: Sequence[tuple[int | None, Change]]) -> list[tuple[int | None, Change]]:
+    """Return changes without the lines of documents that a cause changes beside facts."""
+    having = {number for number, change in found if number is not None and not _is_of_lines(change)}
+    return [(number, change) for number, change in found if number not in having or not _is_of_lines(change)]
+
+
+def _has_facts(changes: _Changes) -> bool:
     return any(not _is_of_lines(change) for change in changes.values())
 
 
@@ -214,7 +228,7 @@ def facts_of_document(document: SourceDocument) -> Facts | None:
 
 
 def _by_key(changes: Sequence[Change]) -> dict[tuple[str, str], Change]:
-    # What is told by itself counts before what repeats it.
+    # A fact counts before what repeats it.
     return {_key(change): change for change in sorted(changes, key=lambda change: not change.follows)}
 
 

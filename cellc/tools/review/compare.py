@@ -80,15 +80,16 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     }
 
 
-def order_of(change: ReviewChange) -> tuple[int, bool, int, int, bool, str, tuple[str, ...]]:
-    """Return the place of a change: by grade, what safety approves, then by what it means to people, then by area."""
+def order_of(change: ReviewChange) -> tuple[int, int, bool, int, bool, str, tuple[str, ...]]:
+    """Return the place of a change: by grade, by what it means to people, by what safety approves, by area."""
     areas, grades = tuple(ReviewArea), tuple(Grade)
     is_later = change.quantity.endswith(LATER)
-    weight = next((place for place, words in _WEIGHTS if words.search(change.quantity)), _ANY)
+    other = 0 if change.area is ReviewArea.SAFETY else _ANY
+    weight = next((place for place, words in _WEIGHTS if words.search(change.quantity)), other)
     return (
         -grades.index(change.grade),
-        change.approval != "safety",
         weight,
+        change.approval != "safety",
         areas.index(change.area),
         is_later,
         change.quantity,

@@ -8,7 +8,16 @@ from dataclasses import dataclass, replace
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.causes import Cause, State, as_cause, attributed, causes_between, facts_of_document, flow_of
+from cellc.tools.review.causes import (
+    Cause,
+    State,
+    as_cause,
+    attributed,
+    causes_between,
+    facts_of_document,
+    flow_of,
+    without_lines,
+)
 from cellc.tools.review.change import Change, in_units
 from cellc.tools.review.compare import change_of, changes_between, merged, reported
 from cellc.tools.review.device_folders import by_folders, folder_causes
@@ -50,6 +59,7 @@ def explained(before: Package, after: Package) -> Explained:
     in_folders = folder_causes(was.document, now.document) if any(number is None for number, _ in found) else ()
     wanted = [_units_of(cause) for cause in causes]
     of_folders, found = by_folders(found, in_folders, len(causes), base.facts, now.facts)
+    found = without_lines(found)
     of_lines = [*wanted, *map(_units_written, of_folders)]
     found = [(number, change if number is None else in_units(change, of_lines[number])) for number, change in found]
     numbered: list[tuple[int | None, Change]] = list(enumerate(names))

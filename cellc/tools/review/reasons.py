@@ -49,6 +49,7 @@ _REASONS: Mapping[str, str] = {
     "spec safety stop ...": "the stop may fail together with what it must stop, or nothing proves it",
     "spec safety recovery ...": "motion may resume without a person who sees why it stopped",
     "spec safety risk_assessment ...": "more may be allowed than the assessment covers",
+    "spec nodes {node} owner": "it has no owner",
     "spec bringup gates": "what the gate proves is proved nowhere",
     "frame {frame} reference_points": "fewer points show that the frame is still where it was measured",
     "device {device} payload_limit_kg": "a load that was allowed may be too heavy",

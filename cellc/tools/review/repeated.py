@@ -1,8 +1,8 @@
 """Values that repeat others: which of them say, exactly, what another change has said.
 
 Nothing is left out because it has words in common with another change. Left out here is a value that says the same of
-the same part, and one that appears or vanishes with a part by its name; by what line of the spec a value changed,
-`causes` tells.
+the same part, and one that appears or vanishes with a part by its name; which line of the spec a value comes from is
+known by `causes`.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def spelled(names: Iterable[str]) -> set[str]:
 
 
 def is_covered(following: Change, things: Sequence[Change]) -> bool:
-    """Tell whether a part of the same name came or went with what a change says, which is of at least its grade."""
+    """Tell whether a part of the same name was added or removed with a change, which is of at least its grade."""
     end = _ADDED if following.quantity.endswith(_ADDED) else _REMOVED
     worst = [
         thing.grade
@@ -48,7 +48,7 @@ def is_covered(following: Change, things: Sequence[Change]) -> bool:
 
 
 def is_stated(delta: Delta, change: Change, values: Sequence[tuple[Delta, Change]], things: Sequence[Change]) -> bool:
-    """Tell whether a change repeats, exactly, one of the values, or what parts that came or went are called."""
+    """Tell whether a change repeats, exactly, one of the values, or the names of parts that were added or removed."""
     said = _said(delta)
     if any(
         (_is_named_alike(stated, change) and _is_as_bad(stated.grade, change))

@@ -299,7 +299,7 @@ DERIVED: Sequence[str] = (
     "file config/frames.yaml calibrations {calibration} owner",
     "file config/joint_limits.yaml ...",
 )
-"""Values that the compiler writes from others of the package, and from nothing else: told where a file was edited."""
+"""Values that the compiler writes from others of the package, and from nothing else: listed where a file was edited."""
 
 _REPEATING = ("bringup commissioning", "recording", "network", "targets", "mock_statements", "hosts", "nodes")
 """Sections of a spec that other files of the package hold in their own form."""
