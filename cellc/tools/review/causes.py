@@ -187,9 +187,13 @@ def _held(change: Change, lengths: Sequence[int], known: Sequence[_Changes]) -> 
 
 
 def without_lines(found: Sequence[tuple[int | None, Change]]) -> list[tuple[int | None, Change]]:
-    """Return changes without the lines of documents that a cause changes beside facts."""
-    having = {number for number, change in found if number is not None and not _is_of_lines(change)}
-    return [(number, change) for number, change in found if number not in having or not _is_of_lines(change)]
+    """Return changes without the lines of documents and the looks that a cause changes beside facts."""
+    having = {number for number, change in found if number is not None and not _is_look(change)}
+    return [(number, change) for number, change in found if number not in having or not _is_look(change)]
+
+
+def _is_look(change: Change) -> bool:
+    return _is_of_lines(change) or (change.follows and change.grade is Grade.SAFE)
 
 
 def _has_facts(changes: _Changes) -> bool:
