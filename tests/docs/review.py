@@ -47,10 +47,11 @@ of both sides on the mock and compares how they end. `--format markdown` writes 
 `--format json` the object of `review.schema.json` (`cellc schema review`).
 
 What is printed fits on a screen of 25 lines, and so does what a comment shows unfolded; `--all` prints every value,
-finding and gate. New findings come first, those that fail before others. Then each line of the spec that changed is a
-heading with what it causes under it: the worst first, and of one grade what safety approves first, then in the order
-of the areas below, which begin with what protects and what moves; of one area what stops motion, then tolerances, then
-gains. Lines that are too long are broken where the whole still fits, else cut, never in a quantity nor between the two
+finding and gate. The first line counts the headings by their grade, and the changes below them. New findings come
+first, those that fail before others. Then each line of the spec that changed is a heading with what it causes under
+it: the worst first, and of one grade what stops motion or is a matter of safety, then how far things get, what they
+carry, how fast they are, accelerations, tolerances, gains. A device with another model stands before what else changed
+of it. Several lines with the same values, of several devices, are one heading. Lines that are too long are broken where the whole still fits, else cut, never in a quantity nor between the two
 values of a change. Two lines that exchanged their values say so. To know what a line
 causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
 device and its controllers, are listed together; so are those of one part of the spec where there are many. Folders have
@@ -63,8 +64,12 @@ get from the mount, and what its links weigh in the description, of a camera ran
 links that one model alone has are one change. What the spec states for the model before and was left (the payload of
 the arm that carries it, frames on it, its mount, poses, the width of parts) is listed as left as it was.
 
+No change is left out because it has words in common with another one. A value that repeats others is left out where it
+says exactly the same of the same part, or where one line of the spec makes both and the other is graded no lower; lines
+of documents are left out where each line of the spec that changes them is listed with what it means.
+
 A part of the spec that has another name and says the same otherwise, or nearly, is renamed: one line with what it
-names, with how many names follow and which of those break consumers. What else changed is compared under the new
+names, with how many names follow and which of those may break consumers. What else changed is compared under the new
 names. A namespace is a name too. A finding that says another figure of the same thing, or the same of a part with
 another name, is neither new nor resolved.
 

@@ -246,7 +246,9 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) ->
     shown_leaf = next((delta for delta in inner if delta.path == (*path, thing.shown)), None)
     value = PRESENT if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
     compares = added and any(delta.path[-2:] == ("request", "kind") and delta.after == _COMPARES for delta in inner)
-    taken = thing.removed if not added else Grade.REVIEW if compares else thing.added
+    held = any(delta.path[len(path)] == thing.holds for delta in inner if len(delta.path) > len(path))
+    removed = thing.removed if held or not thing.holds else Grade.REVIEW
+    taken = removed if not added else Grade.REVIEW if compares else thing.added
     reaches = added and path[:2] == ("contract", "devices") and is_reaching(after.contract, path[2])
     return Change(
         thing.area,

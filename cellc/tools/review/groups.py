@@ -125,6 +125,12 @@ class Group:
         return "" if self.cause is None or not self.cause.kept else f"left as it was: {'; '.join(self.cause.kept)}"
 
     @property
+    def listed(self) -> tuple[ReviewChange, ...]:
+        """The changes that neither the heading nor its figures say."""
+        said = (_MODEL, *_VALUED) if self.is_model else ()
+        return tuple(change for change in self.changes if change.quantity not in said) or self.changes
+
+    @property
     def figures(self) -> tuple[str, ...]:
         """How far the most telling of its quantities changed, where it has several changes."""
         if len(self.changes) < 2:

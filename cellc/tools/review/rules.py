@@ -44,6 +44,7 @@ class Thing:
     Args:
         shown: the value that is reported with it.
         follows: it is reported only where nothing else of its name was added or removed.
+        holds: what it must have had for its removal to be dangerous; of one without that it is reviewed.
     """
 
     pattern: str
@@ -55,6 +56,7 @@ class Thing:
     shown: str = ""
     why: str = ""
     follows: bool = False
+    holds: str = ""
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -89,7 +91,16 @@ THINGS: Sequence[Thing] = (
     Thing(
         "interface {interface} clients {node}", _A.CONTROL, "client", _D, _R, why="another client may request motion"
     ),
-    Thing("controller {controller}", _A.CONTROL, "controller", _R, _D, shown="plugin", why=_UNHELD),
+    Thing(
+        "controller {controller}",
+        _A.CONTROL,
+        "controller",
+        _R,
+        _D,
+        shown="plugin",
+        why=_UNHELD,
+        holds="command_interfaces",
+    ),
     Thing("manager {manager} switches {switch}", _A.CONTROL, "controller switch", _R, _R),
     Thing("manager {manager}", _A.CONTROL, "controller manager", _R, _D, why=_UNHELD),
     Thing("contract clocks {clock}", _A.TIME, "clock", _R, _R),

@@ -151,7 +151,7 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
     Args:
         is_listed: who approves is listed for all groups together.
     """
-    changes = sorted(group.changes, key=_is_of_lines)
+    changes = sorted(group.listed, key=_is_of_lines)
     asked: _Lines = (
         [(Styled(text, Style.DIM),) for text in broken(f"  asks {group.asks}", "    ")]
         if group.asks and not is_listed
