@@ -216,6 +216,9 @@ class ContractJointLimits(ContractModel):
     )
 
 
+_EXECUTES = "another controller executes its plans"
+
+
 class ContractGroup(ContractModel):
     """A planning group."""
 
@@ -224,13 +227,12 @@ class ContractGroup(ContractModel):
         description="Frame that goals place."
     )
     joints: tuple[str, ...] = Field(description="Joints in chain order.")
-    controller: Annotated[str | None, Graded(ReviewArea.MOTION, rule=Rule.DANGEROUS, why=SECOND_CLIENT)] = Field(
+    controller: Annotated[str | None, Graded(ReviewArea.MOTION, rule=Rule.DANGEROUS, why=_EXECUTES)] = Field(
         description="Controller, by full name where managers share it, or device behind an adapter, that executes."
     )
-    start_outside: Magnitude = Field(
-        0.0,
-        description="How far outside its limits a joint may begin, rad or m; it is planned from them.",
-    )
+    start_outside: Annotated[
+        Magnitude, Graded(ReviewArea.CONTROL, "tolerance of a start outside the limits", unit="joint")
+    ] = Field(0.0, description="How far outside its limits a joint may begin, rad or m; it is planned from them.")
 
 
 class ContractPoseTarget(ContractModel):

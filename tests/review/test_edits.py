@@ -21,17 +21,6 @@ ARM += "arm_wrist_3_joint"
 OF_TRAJECTORY = ", ".join(f"arm_trajectory {joint}" for joint in ARM.split(", "))
 # The bring-up asks a node of a lifecycle, and what is asked must be there once.
 LOOKED_AT = "/perception/get_available_transitions, /perception/get_state"
-ALONE = "only nodes /robot_state_publisher, /controller_manager"
-STATES = "controller /controller_manager joint_states inactive"
-STOPPED = "topic /arm_io/robot_program_running std_msgs/msg/Bool data values False unsaid True"
-# What a UR's arm must show before its claims are given back, and who takes them.
-FOLLOWS = (
-    "topic /arm_io/robot_program_running std_msgs/msg/Bool data values True, "
-    "topic /arm_speed/speed_scaling std_msgs/msg/Float64 data above 0, "
-    "topic /arm_io/safety_mode ur_dashboard_msgs/msg/SafetyMode mode values 1, 2, "
-    "topic /arm_io/robot_mode ur_dashboard_msgs/msg/RobotMode mode values 7, node /claim_watch"
-)
-LESS_ALONE = f"lost {ALONE}, /perception; new {ALONE}"
 STALE = "stale_camera: {use: pick_and_place, inject: {freeze: camera, at: 2 s}, expect: stale_state}"
 CANCELED = "canceled: {use: pick_and_place, inject: {cancel: move, at: 3 s}, expect: canceled, within: 200 ms}"
 
@@ -206,19 +195,6 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous motion | pick | frame | object -> fixture_A",
             "dangerous start order | activate_perception, configure_perception | hardware startup step removed | "
             "start -> None",
-            f"dangerous start order | acknowledge_arm | precondition | {ALONE}, /perception, {FOLLOWS} -> "
-            f"{ALONE}, {FOLLOWS} | {LESS_ALONE}",
-            f"dangerous start order | activate_gripper | precondition | {ALONE}, /perception, {STOPPED} -> "
-            f"{ALONE}, {STOPPED} | {LESS_ALONE}",
-            "dangerous start order | claim_control | precondition | 13 entries -> 12 entries | "
-            f"lost lifecycle /perception active, {ALONE}, /perception; new {ALONE}",
-            f"dangerous start order | compare_versions | precondition | {ALONE}, /perception -> {ALONE}",
-            "dangerous start order | move | precondition | 10 entries -> 10 entries | "
-            f"lost lifecycle /perception active, {ALONE}, /perception; "
-            f"new action /arm_trajectory/follow_joint_trajectory, {ALONE}",
-            f"dangerous start order | observe_control | precondition | 9 entries -> 9 entries | {LESS_ALONE}",
-            f"dangerous start order | observe_gripper_again | precondition | {ALONE}, /perception, "
-            f"{STATES} -> {ALONE}, {STATES} | {LESS_ALONE}",
             "review control | /arm_trajectory/follow_joint_trajectory move_group | client removed | present -> None",
             "review control | /watcher | node added | None -> cell_tasks",
             "review motion | pick | place in the root frame | xyz 450 -150 860 mm, rpy 180 0 0 deg -> "

@@ -178,3 +178,14 @@ def test_a_payload_that_only_the_checklist_has_is_a_payload() -> None:
         "robot payload mass",
         "+10 %",
     )
+
+
+def test_what_a_person_wrote_into_a_file_is_listed_whatever_other_changes_say() -> None:
+    after = _as_folder("after", edited(("goal_time: 1 s", "goal_time: 2 s"), cell="minimal"), "minimal")
+    file = next(path for path in after.files if path.startswith("launch/") and path.endswith(".xml"))
+    # The line has no word but those of the value that changed.
+    files = {**after.files, file: after.files[file].replace("</launch>", "  <!-- 2 -->\n</launch>")}
+    assert files != after.files
+    found = review(_before("minimal"), replace(after, files=files, facts=facts_of(files)))
+    assert [change.after for change in found.changes if file in change.subjects] == ["<!-- 2 -->"]
+    assert not [change for change in review(_before("minimal"), after).changes if file in change.subjects]

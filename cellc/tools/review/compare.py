@@ -133,19 +133,25 @@ def reported(before: Facts, after: Facts) -> list[Change]:
     rest, pins = _pins(rest)
     changed = [(delta, change) for delta in rest if (change := change_of(delta, before, after)) is not None]
     values = [(delta, change) for delta, change in changed if not follows(delta.path)]
-    is_whole = not (before.edited or after.edited)
     reported = [*things, *effects(before, after)]
     reported += [_with_matrix(change, pins, before, after) for _, change in values]
     reported += [
         replace(change, follows=True)
         for delta, change in changed
-        if follows(delta.path) and not (is_whole and is_derived(delta.path))
+        if follows(delta.path) and (before.edited or after.edited or not is_derived(delta.path))
         if not is_stated(delta, change, values, things)
     ]
-    known = _known(reported, _ids(before) | _ids(after))
-    edited = before.edited | after.edited
+    ids, edited = _ids(before) | _ids(after), before.edited | after.edited
     renamed = before.contract.cell != after.contract.cell
-    left = lines_left(_lines_of(before, renamed), _lines_of(after, renamed), known)
+    sides = [_lines_of(facts, renamed) for facts in (before, after)]
+    left = [
+        item
+        # Nothing explains what a person wrote into a file of the package.
+        for by_hand, known in ((False, _known(reported, ids)), (True, Known(ids, frozenset(), frozenset())))
+        for item in lines_left(
+            *({file: side[file] for file in side if (file in edited) is by_hand} for side in sides), known
+        )
+    ]
     reported += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
     reported = [change for change in reported if not _is_of_a_gone_link(change, before, after)]
     return with_models(reported, before, after) or list(_unexplained(before, after))

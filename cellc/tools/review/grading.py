@@ -186,7 +186,13 @@ def _compared(delta: Delta, after: Facts) -> Grade:
         if path[:2] == delta.path[:2] and path[3:] == delta.path[3:]
         for item in _entries(leaf)
     }
-    return Grade.DANGEROUS if _entries(delta.before) - still else Grade.REVIEW
+    lost = {_part(item) for item in _entries(delta.before)} - {_part(item) for item in still}
+    return Grade.DANGEROUS if lost else Grade.REVIEW
+
+
+def _part(compared: str) -> str:
+    """Return which part a step compares, whose package or version may be another one."""
+    return compared.partition("=")[0]
 
 
 def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:

@@ -113,6 +113,8 @@ _ALL: Sequence[Row] = (
             ("evidence", "evidence of the stop"),
         )
     ),
+    Row("spec safety recovery owner", Graded(_A.SAFETY, "recovery owner", Rule.DANGEROUS)),
+    Row("spec safety recovery observer", Graded(_A.SAFETY, "recovery observer", Rule.DANGEROUS)),
     *_DECLARED,
     # What stops, and what happens then.
     Row("area {area} {what}", Graded(_A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET)),
@@ -316,6 +318,9 @@ FOLLOWS: Sequence[str] = (
     "step mock ...",
     "check first_motion ...",
     "step real {step} after",
+    "step real {step} proof",
+    "step real {step} effect",
+    "step real {step} request controllers",
     "contract clock_of ...",
     "parameters nodes {node} ros__parameters qos_overrides ...",
     "file config/recording_qos.yaml ...",
