@@ -48,16 +48,16 @@ of both sides on the mock and compares how they end. `--format markdown` writes 
 
 What is printed fits on a screen of 25 lines, and so does what a comment shows unfolded; `--all` prints every value,
 finding and gate. The first line counts the headings by their grade, and the changes below them. New findings come
-first, those that fail before others. Then each line of the spec that changed is a heading with what it causes under
-it: the worst first, and of one grade what stops motion or is a matter of safety, then how far things get, what they
-carry, how fast they are, accelerations, tolerances, gains. A device with another model stands before what else changed
-of it. Several lines with the same values, of several devices, are one heading. Lines that are too long are broken where the whole still fits, else cut, never in a quantity nor between the two
-values of a change. Two lines that exchanged their values say so. To know what a line
-causes, cellc builds the cell with that line alone, or with all but that line. Lines that cannot stand alone, such as a
-device and its controllers, are listed together; so are those of one part of the spec where there are many. Folders have
-no spec: their changes are listed by area, and names that changed are found in the contract. In a pull request the
-action annotates what is new, and what fails (`cellc check --format github --against REVISION`), and draws both states
-of each cell that changed in one page (`cellc view SPEC --against REVISION`).
+first, those that fail before others. Then each line of the spec that changed is a heading with what it causes under it:
+the worst first, and of one grade what stops motion or is a matter of safety, then how far things get, what they carry,
+how fast they are, accelerations, tolerances, gains. A device with another model stands before what else changed of it.
+Several lines with the same values, of several devices, are one heading. Lines that are too long are broken where the
+whole still fits, else cut, never in a quantity nor between the two values of a change. Two lines that exchanged their
+values say so. To know what a line causes, cellc builds the cell with that line alone, or with all but that line. Lines
+that cannot stand alone, such as a device and its controllers, are listed together; so are those of one part of the spec
+where there are many. Folders have no spec: their changes are listed by area, and names that changed are found in the
+contract. In a pull request the action annotates what is new, and what fails (`cellc check --format github --against
+REVISION`), and draws both states of each cell that changed in one page (`cellc view SPEC --against REVISION`).
 
 Of a device with another model the heading has reach, payload, stroke and force before and after, how far its shapes
 get from the mount, and what its links weigh in the description, of a camera range, view and resolution. Joints and

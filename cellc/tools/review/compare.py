@@ -148,9 +148,8 @@ def reported(before: Facts, after: Facts) -> list[Change]:
         item
         # Nothing explains what a person wrote into a file of the package.
         for by_hand, known in ((False, _known(reported, ids)), (True, Known(ids, frozenset(), frozenset())))
-        for item in lines_left(
-            *({file: side[file] for file in side if (file in edited) is by_hand} for side in sides), known
-        )
+        for was, now in [[{file: side[file] for file in side if (file in edited) is by_hand} for side in sides]]
+        for item in lines_left(was, now, known)
     ]
     reported += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
     reported = [change for change in reported if not _is_of_a_gone_link(change, before, after)]
