@@ -50,7 +50,7 @@ What is printed fits on a screen of 25 lines, and so does what a comment shows u
 finding and gate. The first line counts the headings by their grade, and the changes below them. New findings come
 first, those that fail before others. Then each line of the spec that changed is a heading with what it causes under it:
 the worst first, and of one grade what stops motion or is a matter of safety, then how far things get, what they carry,
-how fast they are, accelerations, tolerances, gains. A device with another model stands before what else changed of it.
+how fast they are, accelerations, tolerances, gains. A device with another model is before what else changed of it.
 Several lines with the same values, of several devices, are one heading. Lines that are too long are broken where the
 whole still fits, else cut, never in a quantity nor between the two values of a change. Two lines that exchanged their
 values say so. To know what a line causes, cellc builds the cell with that line alone, or with all but that line. Lines

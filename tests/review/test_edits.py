@@ -78,9 +78,6 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review safety | floor | what is stated around the arms open.person | None -> safety",
             "dangerous model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, "
             "length 40 mm",
-            "safe documents | table | looks | pose position 0, 0, 0 quaternion 0, 0, 0, 1 geometry size 0.9, 1.2, 0.04 "
-            "scene_fixture rgba 0.7, 0.7, 0.7, 1 -> pose position 0, 0, 0 quaternion 0, 0, 0, 1 geometry radius 0.7 "
-            "length 0.04 scene_fixture rgba 0.7, 0.7, 0.7, 1",
         ],
     ),
     "what was measured again": (
@@ -245,7 +242,7 @@ def test_another_claim_another_type_and_one_gate_more_are_told(repository: Repos
         finding for finding in found if finding.split()[1] in ("control", "interfaces", "QoS", "gates", "safety")
     ) == sorted(
         [
-            f"dangerous control | arm_software | controller removed | {software}Controller -> None",
+            f"review control | arm_software | controller removed | {software}Controller -> None",
             "dangerous interfaces | /object_pose | type | geometry_msgs/msg/PoseStamped -> "
             "geometry_msgs/msg/PoseWithCovarianceStamped | breaks",
             "review control | fingers | name of the controller | gripper_action -> fingers | 1 name follows | breaks",
