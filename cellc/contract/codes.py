@@ -8,7 +8,7 @@ from cellc.contract.diagnostics import Severity
 
 _WARNINGS = (
     *("device-against-description", "gripper-against-description", "implausible-fact", "pretended-hardware"),
-    *("xacro-warning", "unused-ignore"),
+    *("shape-of-another-part", "xacro-warning", "unused-ignore"),
 )
 _CODES = {
     "source": """
@@ -42,8 +42,8 @@ _CODES = {
     "ignores": "ignore-refused ignore-without-reason unknown-ignored-code unused-ignore",
     "fleet": "shared-domain-id",
     "plant": """
-        crossing-differs crossing-frame-apart crossing-not-declared mixed-distributions parts-may-meet unknown-part
-        unsupported-in-plant
+        crossing-differs crossing-frame-apart crossing-not-declared mixed-distributions parts-may-meet
+        shape-of-another-part unknown-part unsupported-in-plant
     """,
     "verify": "verify-frames verify-joints verify-json verify-scene verify-text verify-urdf",
     "output": """

@@ -172,3 +172,33 @@ class TestMeeting:
 
     def test_an_area_that_holds_only_a_part_of_it_does_not(self, tmp_path: Path) -> None:
         assert found(tmp_path, self.NEAR, self.HERE, self.area("4 1 4 m")) == [("parts-may-meet", PLANT, PART_2)]
+
+
+class TestThings:
+    """A post of line 2 that is 0.9 m beside the arm of line 1, and what line 1 says of it."""
+
+    POST = (LINE_2, "nodes:", "scene: {post: {parent: world, xyz: 5 0.9 0.5 m, box: 100 100 1000 mm}}\nnodes:")
+
+    @staticmethod
+    def known(box: str, at: str = "0 -0.9 0.5 m") -> tuple[str, str, str]:
+        return (LINE_1, "nodes:", f"scene: {{theirs: {{parent: world, xyz: {at}, box: {box}}}}}\nnodes:")
+
+    def test_a_thing_in_reach_that_the_cell_does_not_know_is_a_warning_there(self, tmp_path: Path) -> None:
+        checked = judge(hall(tmp_path, self.POST))
+        (warning,) = checked.diagnostics
+        assert (warning.code, warning.span.line, checked.ok) == ("shape-of-another-part", PART_1, True)
+        assert [Path(each.span.file).parent.name for each in warning.related] == ["line_2"]
+
+    def test_a_shape_that_holds_it_answers_it_and_a_smaller_one_does_not(self, tmp_path: Path) -> None:
+        assert found(tmp_path / "a", self.POST, self.known("100 100 1000 mm")) == []
+        half = self.known("100 100 1000 mm", "0 -0.92 0.5 m")  # two of its four edges are within
+        for number, edit in enumerate((self.known("100 90 1000 mm"), half)):
+            assert [code for code, *_ in found(tmp_path / f"{number}", self.POST, edit)] == ["shape-of-another-part"]
+
+    def test_a_thing_of_the_first_cell_is_a_warning_at_the_second(self, tmp_path: Path) -> None:
+        post = self.known("100 100 1000 mm", "5 -0.9 0.5 m")
+        assert found(tmp_path, post) == [("shape-of-another-part", PLANT, PART_2)]
+
+    def test_floors_are_not_compared(self, tmp_path: Path) -> None:
+        floor = ("nodes:", "scene: {floor: {parent: world, plane: 12 m}}\nnodes:")
+        assert found(tmp_path, (LINE_2, *floor)) == []

@@ -184,6 +184,13 @@ def swept_balls(graph: CellGraph) -> tuple[tuple[str, Ball], ...]:
     return tuple((mover.name, mover.ball) for mover in _balls(graph, _movers(graph)[0]))
 
 
+def resting_shapes(graph: CellGraph) -> tuple[Block, ...]:
+    """Return the shapes at rest, in the world; not the surfaces of all that is behind them."""
+    planes = {solid.name for solid in graph.cell.scene if solid.is_plane}
+    blocks = _blocks(graph, _movers(graph)[0])
+    return tuple(block for block in blocks if not block.is_area and block.link not in planes)
+
+
 def _movers(graph: CellGraph) -> tuple[list[str], Sets]:
     """Return the devices and things that a joint moves or that hang on one of them, and which belong together."""
     owned, sets = graph.once(owners), Sets()
@@ -238,7 +245,7 @@ class _Mover:
 
 
 @dataclass(frozen=True, slots=True)
-class _Block:
+class Block:
     """A shape at rest, or an area: half the edges of a box around it, whose center is at ``pose``."""
 
     owner: str
@@ -317,18 +324,18 @@ def _half(graph: CellGraph, shape: Geometry) -> Vector3:
     return mesh_reach(graph, shape) or (math.inf, math.inf, math.inf)
 
 
-def _blocks(graph: CellGraph, movers: Iterable[str]) -> Iterator[_Block]:
+def _blocks(graph: CellGraph, movers: Iterable[str]) -> Iterator[Block]:
     """Yield the shapes at rest, and the areas."""
     moving, owned = frozenset(movers), graph.once(owners)
     for name, owner, pose, half in _shapes(graph):
         place = None if owner in moving else graph.frames.in_world(name)
         if place is not None:
-            yield _Block(owner, name, place @ pose, half)
+            yield Block(owner, name, place @ pose, half)
     for area in graph.cell.areas:
         place = graph.frames.in_world(area.parent)
         if place is not None and (area.parent not in owned or owned[area.parent].name not in moving):
             x, y, z = area.size
-            yield _Block(area.name, "", place @ area.transform_to_parent, (x / 2.0, y / 2.0, z / 2.0))
+            yield Block(area.name, "", place @ area.transform_to_parent, (x / 2.0, y / 2.0, z / 2.0))
 
 
 def _near(things: Sequence[_Thing], of: Iterable[_Round], margin_m: float) -> Iterator[list[_Thing]]:
@@ -354,9 +361,9 @@ def _join_near(movers: Sequence[_Mover], sets: Sets) -> None:
             sets.join(mover.name, other.name)
 
 
-def _touched(movers: Sequence[_Mover], blocks: Sequence[_Block], sets: Sets) -> dict[_Block, list[str]]:
+def _touched(movers: Sequence[_Mover], blocks: Sequence[Block], sets: Sets) -> dict[Block, list[str]]:
     """Return the movers that can come within the margin of each block."""
-    touched: dict[_Block, list[str]] = {}
+    touched: dict[Block, list[str]] = {}
     for mover, near in zip(movers, _near(blocks, movers, MARGIN_M), strict=True):
         for block in near:
             if block.is_near(mover.ball, MARGIN_M):
@@ -364,7 +371,7 @@ def _touched(movers: Sequence[_Mover], blocks: Sequence[_Block], sets: Sets) -> 
     return touched
 
 
-def _standing(blocks: Sequence[_Block], parts: Sequence[Part]) -> Iterator[tuple[str, str]]:
+def _standing(blocks: Sequence[Block], parts: Sequence[Part]) -> Iterator[tuple[str, str]]:
     """Yield the pairs of links at rest within the margin of each other, and that no part has both of."""
     inside: dict[str, set[int]] = {}
     for number, part in enumerate(parts):

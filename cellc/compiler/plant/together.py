@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
-from cellc.compiler.feasibility.reach import Ball, swept_balls
+from cellc.compiler.feasibility.answers import MARGIN_M
+from cellc.compiler.feasibility.reach import Ball, Block, resting_shapes, swept_balls
 from cellc.compiler.output.findings import shared_output
 from cellc.compiler.plant.crossings import check_crossings
 from cellc.compiler.plant.findings import finding
@@ -16,7 +17,7 @@ from cellc.compiler.plant.plant import Part, Plant, PlantArea
 from cellc.compiler.rules.shared_domain import Presence, presence_of
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Diagnostic, Related
-from cellc.contract.transforms import Vector3
+from cellc.contract.transforms import Pose, Vector3
 from cellc.contract.vocabulary import UNKNOWN
 
 _ALONE = ("localhost", "off")
@@ -43,6 +44,8 @@ def check_together(plant: Plant) -> Iterator[Diagnostic]:
         yield from _names(one, other)
         yield from _robots(one, other)
         yield from _meeting(plant, one, other)
+        yield from _in_reach(one, other)
+        yield from _in_reach(other, one)
     yield from _graphs(plant)
     yield from _unheard(plant)
 
@@ -140,7 +143,35 @@ _Box = tuple[Vector3, Vector3]
 
 def _balls(part: Part) -> tuple[tuple[str, Ball], ...]:
     """Return the balls that the moving devices of a cell never leave, in the world of the plant."""
-    return tuple((name, Ball(part.pose.apply(ball.center), ball.radius)) for name, ball in swept_balls(part.graph))
+    return tuple((name, Ball(part.pose.apply(ball.center), ball.radius)) for name, ball in part.graph.once(swept_balls))
+
+
+def _in_reach(one: Part, other: Part) -> Iterator[Diagnostic]:
+    """Yield what is at rest in a cell, in reach of devices of another one whose own spec does not have it."""
+    there = one.pose.inverse() @ other.pose
+    own = one.graph.once(resting_shapes)
+    back = there.inverse()
+    balls = [(name, Ball(back.apply(ball.center), ball.radius)) for name, ball in one.graph.once(swept_balls)]
+    met = [
+        (name, shape)
+        for shape in other.graph.once(resting_shapes)
+        for name in [next((name for name, ball in balls if shape.is_near(ball, MARGIN_M)), None)]
+        if name is not None and not any(_covers(mine, shape, there) for mine in own)
+    ]
+    if met:
+        name, shape = met[0]
+        more = f", and {len(met) - 1} more" if len(met) > 1 else ""
+        message = f"`{one.key}/{name}` may reach `{other.key}/{shape.link}`{more}, which `{one.key}` does not know"
+        frame = other.graph.frames.get(shape.link)
+        related = () if frame is None else (Related(f"in `{other.key}`", frame.span),)
+        advice = f"write it under `scene:` of `{one.file}` too, or mount the cells farther apart"
+        yield finding("shape-of-another-part", message, one.span, one.path, advice, related)
+
+
+def _covers(mine: Block, shape: Block, there: Pose) -> bool:
+    """Tell whether a shape of a cell holds one of another cell, to a millimeter."""
+    corners = product(*((-half, half) for half in shape.half))
+    return all(mine.is_near(Ball((there @ shape.pose).apply((x, y, z)), 0.0), 1e-3) for x, y, z in corners)
 
 
 def _common(one: Ball, other: Ball) -> _Box | None:
