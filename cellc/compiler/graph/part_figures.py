@@ -1,0 +1,34 @@
+"""What a simulator takes a part as: the figures of its grasp, and a default for each that is not stated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cellc.compiler.cell.frame import FRICTION, Grasp
+from cellc.contract.transforms import Vector3
+
+EDGE_M = 0.05
+DENSITY_KG_M3 = 1000.0
+_DIGITS = 12
+
+
+def edges_m(grasp: Grasp) -> Vector3:
+    """Return the edges of the box: those that are stated, else of a cube as wide as fingers meet it."""
+    edge = grasp.width_m or EDGE_M
+    return grasp.size_m or (edge, edge, edge)
+
+
+def mass_kg(grasp: Grasp) -> float:
+    """Return the mass that is stated, or that of as much water."""
+    x, y, z = edges_m(grasp)
+    return grasp.mass_kg or round(DENSITY_KG_M3 * x * y * z, _DIGITS)
+
+
+def assumed(grasp: Grasp) -> Iterator[str]:
+    """Yield what of a part is not stated, with what is taken in its place."""
+    if grasp.size_m is None:
+        yield f"its size, as a cube of {grasp.width_m or EDGE_M:g} m"
+    if not grasp.mass_kg:
+        yield "its mass, as of water"
+    if grasp.friction is None:
+        yield f"its friction, {FRICTION:g}"
