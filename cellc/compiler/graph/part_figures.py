@@ -1,4 +1,4 @@
-"""What a simulator takes a part as: the figures of its grasp, and a default for each that is not stated."""
+"""What a simulator takes in the place of figures that nothing states: of a part by its grasp, and of what moves."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from cellc.contract.transforms import Vector3
 EDGE_M = 0.05
 DENSITY_KG_M3 = 1000.0
 _DIGITS = 12
+LIGHT_KG = 0.001
+"""What a body weighs that moves and of which no mass is stated: none at all is refused."""
 
 
 def edges_m(grasp: Grasp) -> Vector3:

@@ -52,7 +52,7 @@ class SimulatedCamera:
 
     @property
     def parameters(self) -> dict[str, str]:
-        """What its plugin is told of it; images that no stream has are published below the name of the camera."""
+        """Parameters of its plugin; images that no stream has are published below the name of the camera."""
         known = self.color or self.depth
         topics = {"info_topic": "" if known is None else known.info_topic}
         topics["image_topic"] = "" if self.color is None else self.color.topic
