@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
-from cellc.contract.entities import HardwareState, Target
+from cellc.contract.entities import HardwareState, LaunchTarget
 from cellc.contract.grading import Graded, Rule
 from cellc.contract.vocabulary import BringUpPhase, Need, ReviewArea
 
@@ -84,7 +84,7 @@ class TransformProof(ContractModel):
 
 
 class MockProof(ContractModel):
-    """The description that a node holds names no hardware plugin but those of the mock."""
+    """The description that a node holds names no hardware plugin but those of the mock, or of the simulator."""
 
     kind: Literal["mock"]
     node: str = Field(description="Full name of the node with the parameter `robot_description`.")
@@ -209,9 +209,10 @@ class BringUp(ContractModel):
     cell: str = Field(description="Name of the cell.")
     enclave: str = Field(description="SROS2 enclave of what asks.")
     mock: tuple[BringUpStep, ...] = Field(description="Steps on the mock, in order.")
+    sim: tuple[BringUpStep, ...] = Field((), description="Steps on the simulator, where the spec asks for it.")
     real: tuple[BringUpStep, ...] = Field(description="Steps on the real target, in order.")
     watches: tuple[Watch, ...] = Field((), description="What the stopper watches on the real target.")
 
-    def steps(self, target: Target) -> tuple[BringUpStep, ...]:
+    def steps(self, target: LaunchTarget) -> tuple[BringUpStep, ...]:
         """Return the steps on a target."""
-        return self.mock if target == "mock" else self.real
+        return {"mock": self.mock, "sim": self.sim, "real": self.real}[target]

@@ -17,6 +17,10 @@ from cellc.contract.vocabulary import InterfaceKind, ReviewArea
 
 Target = Literal["mock", "real"]
 TARGETS: tuple[Target, ...] = ("mock", "real")
+"""Every cell has them."""
+
+LaunchTarget = Literal["mock", "sim", "real"]
+"""What the launch files start: a simulator where the spec asks for one."""
 """What the hardware interfaces of a cell reach."""
 HardwareState = Literal["unconfigured", "inactive", "active"]
 """A state of a hardware component of ros2_control."""

@@ -165,4 +165,4 @@ class Proofs:
         foreign = ", ".join(sorted(self._plugins - set(proof.plugins)))
         if self._plugins and not foreign:
             return ""
-        return f"{proof.node} must describe only the mock, got {foreign or 'no hardware'}"
+        return f"{proof.node} must describe only {', '.join(proof.plugins)}, got {foreign or 'no hardware'}"

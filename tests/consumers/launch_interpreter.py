@@ -63,6 +63,7 @@ class Launch:
     namespace: str = ""
     processes: list[Process] = field(default_factory=list)
     commands: list[Command] = field(default_factory=list)
+    of_all: dict[str, tuple[str, str]] = field(default_factory=dict)
     descriptions: dict[str, str] = field(default_factory=dict)
 
     def run(self, path: str) -> Launch:
@@ -85,6 +86,7 @@ class Launch:
             "push_ros_namespace": self._push,
             "node": self._node,
             "executable": self._executable,
+            "set_parameter": self._set_parameter,
         }
         if action.tag not in known:
             raise LaunchError(f"unknown action <{action.tag}>")
@@ -101,10 +103,13 @@ class Launch:
         return expand(text, World(self.configurations, self._command))
 
     def _command(self, line: str) -> str:
-        program, *arguments = shlex.split(line)
-        if program not in ("xacro", "cat") or len(arguments) != 1:
+        program, file, *arguments = shlex.split(line)
+        if program not in ("xacro", "cat") or (arguments and program != "xacro"):
             raise LaunchError(f"unknown command {line}")
-        return self.texts[self._file(arguments[0])]
+        if not all(":=" in argument for argument in arguments):
+            raise LaunchError(f"xacro knows no {arguments}")
+        given = dict(argument.split(":=", 1) for argument in arguments)
+        return re.sub(r"\$\(arg (\w+)\)", lambda found: given.get(found[1], found[0]), self.texts[self._file(file)])
 
     def _file(self, path: str) -> str:
         """Return the path in the package of an installed file; one that it lacks stops launching."""
@@ -179,7 +184,8 @@ class Launch:
                     for parameter in parameters
                     if "from" in parameter.attrib
                 ),
-                values={
+                values=self.of_all
+                | {
                     parameter.attrib["name"]: (self._text(parameter.attrib["value"]), parameter.get("type", ""))
                     for parameter in parameters
                     if "from" not in parameter.attrib
@@ -190,6 +196,12 @@ class Launch:
                 on_exit=action.get("on_exit"),
             )
         )
+
+    def _set_parameter(self, action: Element) -> None:
+        """Give a parameter to every node that follows, before its own: ``SetParameter`` of launch_ros 0.19 to 0.29."""
+        if set(action.attrib) - {"name", "value", "if", "unless"}:
+            raise LaunchError(f"<set_parameter> has unknown {sorted(action.attrib)}")
+        self.of_all[self._text(action.attrib["name"])] = (self._text(action.attrib["value"]), "")
 
     def _executable(self, action: Element) -> None:
         if unknown := set(action.attrib) - _EXECUTABLE | {child.tag for child in action}:

@@ -30,9 +30,9 @@ def hosts(built: Build) -> list[str]:
 
 
 def bring_ups(built: Build, target: str) -> list[Launch]:
-    """Launch the cell: the mock in one place, the real target on each of its hosts with its confirmation."""
-    if target == "mock":
-        return [launched(built)]
+    """Launch the cell: the mock and the simulator in one place, the real target on each host, confirmed."""
+    if target != "real":
+        return [launched(built, target=target)]
     places = [{"host": host} for host in hosts(built)] or [{}]
     return [launched(built, **CONFIRMED, **place) for place in places]
 
@@ -41,14 +41,20 @@ def moves(built: Build, target: str) -> list[Process]:
     """Return what the second launch file starts, the one with what asks for motion."""
     if "launch/move.launch.xml" not in built.texts:
         return []
-    return launched(built, "move", **(MOTION_CONFIRMED if target == "real" else {})).processes
+    return launched(built, "move", **(MOTION_CONFIRMED if target == "real" else {"target": target})).processes
+
+
+def targets(built: Build) -> tuple[str, ...]:
+    """Return the choices of the argument `target`."""
+    choices = fromstring(built.texts["launch/cell.launch.xml"]).findall("arg[@name='target']/choice")
+    return tuple(choice.attrib["value"] for choice in choices)
 
 
 def every_process(built: Build) -> list[Process]:
     """Return what every launch file but the one with motion starts, those that a person releases too."""
     files = [path.removeprefix("launch/").removesuffix(".launch.xml") for path in built.texts if "launch.xml" in path]
     started = [
-        process for target in ("mock", "real") for launch in bring_ups(built, target) for process in launch.processes
+        process for target in targets(built) for launch in bring_ups(built, target) for process in launch.processes
     ]
     for file in files:
         if file in ("activate", "claim", "goal"):

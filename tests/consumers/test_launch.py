@@ -23,6 +23,7 @@ from tests.consumers.starting import (
     node_name,
     processes,
     spawners,
+    targets,
     written,
     written_managers,
 )
@@ -219,13 +220,17 @@ def test_node_names_differ_and_nothing_that_commands_is_started_again(cell: str,
 def test_every_parameter_file_is_read_by_a_process(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     parameters = {path for path, text in texts.items() if path.startswith("config/") and "ros__parameters:" in text}
-    for target, other in (("mock", "real"), ("real", "mock")):
+    every = targets(build(cell, distro))
+    for target in every:
         read = {file for process in processes(cell, distro, target) for file in process.files}
         assert read <= parameters
         # A driver's own parameters wait for real hardware.
         stages = {path for path in parameters if path.startswith("config/commissioning/")}
-        assert read & stages == stages & {f"config/commissioning/stage_{'100' if target == 'mock' else '10'}.yaml"}
-        assert target == "mock" or read | stages == {path for path in parameters if f".{other}.yaml" not in path}
+        assert read & stages == stages & {f"config/commissioning/stage_{'10' if target == 'real' else '100'}.yaml"}
+        others = tuple(f".{other}.yaml" for other in every if other != target)
+        assert target != "real" or read | stages == {path for path in parameters if not path.endswith(others)}
+        own = {path for path in parameters if path.endswith(f".{target}.yaml")}
+        assert own <= read
 
 
 _BESIDE = {"installed_versions", *(f"observe_{part}" for part in ("checks", "host", "listener", "reports"))}
@@ -238,7 +243,7 @@ _KEYS = {"yaml": "python3-yaml"}
 def test_what_is_launched_or_found_is_a_dependency_and_is_installed(cell: str, distro: str) -> None:
     texts = build(cell, distro).texts
     depends = {tag.text for tag in fromstring(texts["package.xml"]).findall("exec_depend")}
-    launch = {process.package for process in processes(cell, distro, "real")}
+    launch = {process.package for target in targets(build(cell, distro)) for process in processes(cell, distro, target)}
     # The packages that bring `ros2 control`, the other commands, and tf2_echo.
     launch |= {"ros2controlcli", "ros2cli_common_extensions", "tf2_ros"}
     launch -= {cell}
@@ -247,7 +252,7 @@ def test_what_is_launched_or_found_is_a_dependency_and_is_installed(cell: str, d
     imports = r"^ *(?:from (\w+)[\w.]* import|import (\w+)$)"
     imported = {"".join(names) for text in programs for names in re.findall(imports, text, re.MULTILINE)}
     imported = {_KEYS.get(name, name) for name in imported - sys.stdlib_module_names - _BESIDE}
-    assert launch | found | imported <= depends
+    assert launch | found - {cell} | imported <= depends
     installed = set(re.findall(r"^  ([a-z_.]+)$", texts["CMakeLists.txt"], re.MULTILINE))
     assert {path.split("/")[0] for path in texts if path.startswith(("launch", "config", "urdf"))} <= installed
 

@@ -11,7 +11,7 @@ from tests.cells import DISTROS
 from tests.consumers.declared import complaints
 from tests.consumers.matrix import build, every_build
 from tests.consumers.parameter_files import sections, told
-from tests.consumers.starting import node_name, processes
+from tests.consumers.starting import node_name, processes, targets
 
 
 def controllers(cell: str, distro: str) -> Iterator[tuple[str, str, dict[str, Any]]]:
@@ -54,11 +54,13 @@ def test_every_section_belongs_to_a_node_that_runs(cell: str, distro: str) -> No
     texts = build(cell, distro).texts
     nodes = {node_name(process) for process in processes(cell, distro, "real")}
     nodes |= {name for name, _, _ in controllers(cell, distro)}
+    nodes |= {"/mujoco_ros2_control_node"}  # of the plugin, in the process of the manager
     for path, text in texts.items():
         if path.startswith("config/") and "ros__parameters:" in text:
             named = {key for key in sections(text) if not key.startswith("/**")}
             assert named <= nodes, path
-            started = [process for target in ("mock", "real") for process in processes(cell, distro, target)]
+            every = targets(build(cell, distro))
+            started = [process for target in every for process in processes(cell, distro, target)]
             read = {node_name(one) for one in started if path in one.files}
             assert {node_name(one) for one in started} & named <= read, path
 

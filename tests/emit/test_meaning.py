@@ -127,7 +127,7 @@ def test_launch_starts_each_process_once_and_real_hardware_behind_its_gate() -> 
         ("cell_perception", "detector", None, None),
         ("moveit_ros_move_group", "move_group", None, None),
         ("controller_manager", "spawner", None, None),
-        ("demo", "bring_up", None, real),
+        ("demo", "bring_up", real.replace("real", "mock"), None),
         ("demo", "bring_up", real, None),
     ]
     first, gate = (arg for arg in launch.iterfind("arg") if arg.get("if"))

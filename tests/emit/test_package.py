@@ -66,7 +66,7 @@ def test_launch_refers_to_files_of_the_package(cell: str) -> None:
     paths = set(re.findall(rf"\$\(find-pkg-share {cell}\)/((?:\$\(var (?:target|stage)\)|[^\"') ])+)", text))
     assert paths
     for path in paths:
-        for target in ("mock", "real"):
+        for target in re.findall(r'<choice value="(mock|sim|real)"/>', text):
             for stage in ("10", "25", "50", "100"):
                 assert path.replace("$(var target)", target).replace("$(var stage)", stage) in artifacts
 
@@ -74,16 +74,28 @@ def test_launch_refers_to_files_of_the_package(cell: str) -> None:
 def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
     launch = ElementTree.fromstring(artifacts_of("ur5e_pick")["launch/cell.launch.xml"])
     only_real = "$(eval \"'$(var target)' == 'real'\")"
+    only_mock, only_sim = (only_real.replace("real", target) for target in ("mock", "sim"))
     drivers = {"ur_robot_driver", "realsense2_camera"}
     assert {node.get("if") for node in launch.findall("node") if node.get("pkg") in drivers} == {only_real}
     started = {node.get("args", "").split(" --target ")[-1]: node for node in launch.findall("node")}
-    assert started["real start"].get("if") == started["mock start activate claim"].get("unless") == only_real
+    assert started["real start"].get("if") == only_real
+    assert started["mock start activate claim"].get("if") == only_mock
+    assert started["sim start activate claim"].get("if") == only_sim
     spawners = [node for node in launch.findall("node") if node.get("exec") == "spawner"]
-    assert [node.get("if") for node in spawners] == [None, only_real]
+    assert [(node.get("if"), node.get("unless")) for node in spawners] == [
+        (None, only_sim),
+        (only_real, None),
+        (only_sim, None),
+    ]
     assert spawners[1].get("args", "").startswith("arm_io ")  # what the mock lacks
     kept = {*drivers, "ur5e_pick"}
     others = [node for node in launch.findall("node") if node.get("pkg") not in kept and node not in spawners]
-    assert {node.get("if") for node in others} == {None}
+    managers = [node for node in others if node.get("exec") == "ros2_control_node"]
+    assert [(node.get("pkg"), node.get("if"), node.get("unless")) for node in managers] == [
+        ("controller_manager", None, only_sim),
+        ("mujoco_ros2_control", only_sim, None),
+    ]
+    assert {node.get("if") for node in others if node not in managers} == {None}
     gate = next(argument for argument in launch.findall("arg[@name='confirm_real']") if argument.get("if") == only_real)
     assert gate.get("default") is None
     assert len(gate.findall("choice")) == 1
@@ -92,10 +104,10 @@ def test_mock_target_starts_no_driver_and_real_target_needs_a_person() -> None:
 def test_launch_arguments_are_described_and_target_is_mock_by_default() -> None:
     launch = ElementTree.fromstring(artifacts_of("ur5e_pick")["launch/cell.launch.xml"])
     arguments = {argument.attrib["name"]: argument for argument in launch.findall("arg") if argument.get("if") is None}
-    assert sorted(arguments) == ["arm_address", "confirm_real", "stage", "target"]
+    assert sorted(arguments) == ["arm_address", "confirm_real", "headless", "stage", "target"]
     assert all(argument.get("description") for argument in arguments.values())
     assert arguments["target"].get("default") == "mock"
-    assert [choice.get("value") for choice in arguments["target"].findall("choice")] == ["mock", "real"]
+    assert [choice.get("value") for choice in arguments["target"].findall("choice")] == ["mock", "sim", "real"]
 
 
 def test_alternates_are_configured_and_not_activated(tmp_path: Path) -> None:

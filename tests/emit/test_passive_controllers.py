@@ -69,16 +69,18 @@ def test_service_claims_interfaces_of_its_device_on_real_hardware_alone() -> Non
 
 def test_each_target_spawns_what_it_has() -> None:
     lists = {node.attrib["args"].split(" -c ")[0]: node.attrib for node in _spawners("ur5e_pick")}
-    both, real = (
+    both, real, sim = (
         "scaling joint_states arm_trajectory gripper_action arm_speed",
         "activation arm_io arm_tcp arm_software",
+        "joint_states arm_trajectory gripper_action",
     )
-    assert set(lists) == {both, real}
-    assert not {"if", "unless"} & set(lists[both])
+    assert set(lists) == {both, real, sim}
+    assert "sim" in lists[both]["unless"]
     assert "real" in lists[real]["if"]
+    assert "sim" in lists[sim]["if"]
     alone = {node.attrib["args"].split(" -c ")[0]: node.attrib for node in _spawners("fr3_hand")}
     assert "if" in alone["arm_state"]
-    assert "unless" in alone["hand_action"]
+    assert "mock" in alone["hand_action"]["if"]
 
 
 def test_parameters_are_given_in_the_types_that_the_vendor_declares() -> None:

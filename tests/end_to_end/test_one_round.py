@@ -77,7 +77,7 @@ def test_names_are_resolved_behind_a_value_that_is_left_out(tmp_path: Path) -> N
 
 
 def test_a_comment_that_excuses_a_finding_excuses_it_behind_a_mistake_too(tmp_path: Path) -> None:
-    clean = "    grasp: {width: 77 mm, tolerance: 2 mm, mass: 0.2 kg}"
+    clean = "    grasp: {width: 77 mm, tolerance: 2 mm, mass: 0.2 kg, size: 77 77 77 mm, friction: 0.5}"
     text = spec_text("ur5e_pick")
     coarse = text.replace("residual: 0.8 mm", "residual: 80 mm")
     ((code, line),) = _codes(written(tmp_path, coarse)) - _codes(written(tmp_path, text))

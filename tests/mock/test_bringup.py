@@ -92,8 +92,8 @@ NEVER: list[tuple[str, dict[str, Any], str]] = [
     ("mock", {"node": "/nobody", "plugins": ["mock_components/GenericSystem"]}, "no node /nobody with a description"),
     (
         "mock",
-        {"node": "/robot_state_publisher", "plugins": []},
-        "/robot_state_publisher must describe only the mock, got mock_components/GenericSystem",
+        {"node": "/robot_state_publisher", "plugins": ["mine/Sim"]},
+        "/robot_state_publisher must describe only mine/Sim, got mock_components/GenericSystem",
     ),
 ]
 

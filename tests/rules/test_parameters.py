@@ -183,7 +183,7 @@ _SERVO = "moveit_servo/servo_node"
             {"wrong-parameter-type", "discouraged-parameter"},
         ),
         (_GROUP, "my_capability.rate: 1", "jazzy", set()),
-        (_GROUP, "use_sim_time: false", "jazzy", set()),
+        (_GROUP, "use_sim_time: false", "jazzy", {"mixed-clocks"}),
         (_GROUP, "robot_description_kinematics.panda_arm.kinematics_solver: a", "jazzy", {"parameter-of-nothing"}),
         (_SERVO, "moveit_servo.joint_limit_margin: 0.1", "jazzy", {"unknown-node-parameter"}),
         (_SERVO, "incoming_command_timeout: 0.1", "jazzy", {"unknown-node-parameter"}),

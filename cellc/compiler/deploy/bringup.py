@@ -34,6 +34,7 @@ from cellc.compiler.deploy.versions import compared_on
 from cellc.compiler.deploy.watches import heard, watches
 from cellc.compiler.graph.claims import crosses_an_adapter
 from cellc.compiler.graph.enclaves import bring_up_enclave
+from cellc.compiler.graph.simulated import is_asked, simulated
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
 from cellc.contract.bring_up import (
     CLAIM_WATCH,
@@ -74,6 +75,7 @@ def bring_up(cell: Cell) -> BringUp:
         cell=cell.name,
         enclave=bring_up_enclave(cell),
         mock=tuple(_steps(cell, "mock")),
+        sim=tuple(_steps(simulated(cell), "mock")) if is_asked(cell) else (),
         real=(*_comparisons(cell, real), *real),
         watches=tuple(watches(cell)),
     )
@@ -336,7 +338,7 @@ def _step(
         name=name,
         phase=phase,
         host=host,
-        proof=tuple(proof),
+        proof=tuple(dict.fromkeys(proof)),
         request=request,
         effect=tuple(effect),
         deadline_s=DEADLINE_S,

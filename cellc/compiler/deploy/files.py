@@ -47,6 +47,9 @@ SOURCES = "sources.repos"
 SCENE = "sim/scene.xml"
 """The cell for a simulator of contacts and torques."""
 
+CONTROLLERS_ON_SIM = "config/controllers.sim.yaml"
+"""Controllers and cameras as the simulator has them."""
+
 RVIZ = "config/cell.rviz"
 """What RViz shows of the cell."""
 

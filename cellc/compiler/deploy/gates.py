@@ -156,12 +156,13 @@ class GateTexts(CatalogModel):
     """All gates: from the powered-off manifest to a trajectory, and from the cable to the command path.
 
     ``usage`` is on each page below its own text, ``result`` the line that ends each gate, ``closed`` the one line of a
-    gate of real hardware where the real target is closed.
+    gate of real hardware where the real target is closed, ``simulated`` what a run in a simulator proves.
     """
 
     pages: Mapping[str, PageText]
     usage: Text
     result: Text
+    simulated: Text
     closed: Text
     promotion: tuple[GateText, ...]
     network: tuple[GateText, ...]

@@ -1,6 +1,7 @@
 """``urdf/<cell>.<target>.urdf`` and ``config/moveit/<cell>.srdf``: the robot description, and what goes with it.
 
-URDF 1.0 with ``<ros2_control>`` tags for ``mock`` and ``real``, as robot_state_publisher and ros2_control read it. The
+URDF 1.0 with ``<ros2_control>`` tags for ``mock`` and ``real``, as robot_state_publisher and ros2_control read it,
+and for ``sim`` where the spec asks for it: one tag, of the simulator, for the hardware of all devices. The
 launch file passes it through xacro, which puts in the share folders of installed packages (``$(find …)`` in hardware
 parameters); nothing else in it needs xacro. A cell with several controller managers has one more for each,
 ``urdf/<cell>.<manager>.<target>.urdf``: a manager takes all hardware that it reads of, and two that drive one robot are
@@ -24,12 +25,13 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.motion import NamedPose
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.files import description_file, manager_description_file, semantic_file
+from cellc.compiler.deploy.files import SCENE, description_file, manager_description_file, semantic_file
 from cellc.compiler.feasibility import MARGIN_M, RNG_SEED, disabled_links, part_with, parts_of
 from cellc.compiler.formats.numbers import shortest
-from cellc.compiler.formats.urdf.robot import manager_description, robot_description
+from cellc.compiler.formats.urdf.robot import manager_description, robot_description, simulated_description
 from cellc.compiler.formats.xml_text import comment, element, render
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.simulated import SIM, is_asked
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
@@ -40,6 +42,9 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         for manager in cell.managers if len(cell.managers) > 1 else ():
             robot = manager_description(part_with(graph, manager.devices), target, manager.devices)
             yield Artifact(manager_description_file(cell, manager, target), render(robot, plan.header.text))
+    if is_asked(cell):
+        robot = simulated_description(cell, SCENE)
+        yield Artifact(description_file(cell, SIM), render(robot, plan.header.text))
     if cell.groups:
         root = element("robot", {"name": cell.name}, _semantic(graph))
         yield Artifact(semantic_file(cell), render(root, plan.header.text))

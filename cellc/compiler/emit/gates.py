@@ -16,6 +16,7 @@ from cellc.compiler.deploy.files import NETWORK_CHECKLIST, PROMOTION_CHECKLIST
 from cellc.compiler.deploy.gates import Check, Gate, gate_texts
 from cellc.compiler.formats.escape import code, markdown, markdown_comment
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.simulated import is_asked
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
@@ -27,6 +28,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     ):
         usage = texts.usage.replace("{cell}", graph.cell.name)
         title, text = f"# {graph.cell.name}: {page.title}", f"{page.text} {usage}"
+        text += f" {texts.simulated}" if is_asked(graph.cell) else ""
         blocks = [markdown_comment(plan.header.text), title, text, *(_gate(gate, texts.result) for gate in gates)]
         yield Artifact(path, "\n\n".join(blocks) + "\n")
 

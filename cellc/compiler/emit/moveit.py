@@ -32,6 +32,7 @@ from cellc.compiler.formats.yaml_text import Tree, render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.commissioning import LINEAR_M_S, LINEAR_M_S2, TURNING_RAD_S
 from cellc.compiler.graph.control_laws import start_outside
+from cellc.compiler.graph.simulated import SIM, is_asked, simulated
 from cellc.compiler.link.control import TRAJECTORY_ACTION
 from cellc.compiler.link.names import JOINT_STATES
 from cellc.contract.diagnostics import YamlPath
@@ -99,8 +100,11 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     if cell.servo is not None:
         section = NodeParameters(ANY_NODE, ("motion", "servo"), _servo(cell, cell.servo))
         yield Artifact(SERVO, parameter_file(plan.header, [section]))
-    for file, target in {moveit_controllers_file(cell, target): target for target in TARGETS}.items():
-        section = NodeParameters(ANY_NODE, control_path(cell), _controllers(cell, target))
+    called = {moveit_controllers_file(cell, target): _controllers(cell, target) for target in TARGETS}
+    if is_asked(cell) and len(called) > 1:
+        called[moveit_controllers_file(cell, SIM)] = _controllers(simulated(cell), "mock")
+    for file, parameters in called.items():
+        section = NodeParameters(ANY_NODE, control_path(cell), parameters)
         yield Artifact(file, parameter_file(plan.header, [section]))
 
 

@@ -24,6 +24,7 @@ from cellc.compiler.formats.urdf.hardware import share_folders
 from cellc.compiler.formats.xml_text import comment, element, render
 from cellc.compiler.formats.yaml_text import render as yaml
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.simulated import LEAST_VERSION, PACKAGES, is_asked, simulated
 from cellc.compiler.graph.versions import unreleased
 from cellc.contract.pins import version_number
 
@@ -93,6 +94,7 @@ def _pinned(cell: Cell) -> dict[str, str]:
         packages, versions = device.software.packages, device.software.versions
         parts += [(packages.driver, versions.driver), (packages.sdk_package, versions.sdk)]
         parts += [(packages.description, versions.description)]
+    parts += [(name, LEAST_VERSION) for name in PACKAGES]
     return {name: number for name, text in parts if name and (number := version_number(text))}
 
 
@@ -125,6 +127,8 @@ def _dependencies(cell: Cell) -> tuple[str, ...]:
     names |= {interface.type.partition("/")[0] for interface in cell.interfaces if interface.name in read}
     if reporting(cell):
         names |= set(_CYCLES)
+    if is_asked(cell):
+        names |= {*PACKAGES, *(each.package for each in simulated(cell).controllers if "mock" in each.targets)}
     if cell.managers:
         names |= set(_CONTROL)
         # Every topic that the bring-up listens to is one whose type it imports.

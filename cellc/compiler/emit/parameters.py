@@ -2,7 +2,8 @@
 
 ``controllers.yaml`` tells a manager its rate and the plugin of each controller, then each controller its parameters;
 there is one file for each manager (``<manager>.controllers.yaml`` where there are several, ``controllers.mock.yaml``
-and ``controllers.real.yaml`` where a controller commands real hardware otherwise). ``nodes.yaml`` has a section for
+and ``controllers.real.yaml`` where a controller commands real hardware otherwise). ``controllers.sim.yaml`` has the
+controllers and the cameras of the simulator. ``nodes.yaml`` has a section for
 each other node, ``drivers.yaml`` for each that only real hardware starts. Overrides of QoS have the names of rclcpp's
 QosOverridingOptions; a node whose author passed no such options ignores them silently: gate L4 looks at what the
 endpoints really offer. ``recording_qos.yaml`` is the override file of rosbag2: what an attempt records, with the QoS
@@ -15,18 +16,28 @@ none, and of interfaces that the spec does not write.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller, ControllerManager
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.deploy.deployment import Deployment
-from cellc.compiler.deploy.files import DRIVERS, NODES, RECORDING, control_path, controllers_file, node_file
+from cellc.compiler.deploy.files import (
+    CONTROLLERS_ON_SIM,
+    DRIVERS,
+    NODES,
+    RECORDING,
+    control_path,
+    controllers_file,
+    node_file,
+)
 from cellc.compiler.deploy.recording import record_command
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.parameter_file import NodeParameters, node_parameters, parameter_file
 from cellc.compiler.formats.yaml_text import render_rows
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.simulated import CAMERA_PLUGIN, CAMERAS, PLUGIN_NODE, cameras, is_asked, simulated
 from cellc.contract.entities import TARGETS, Qos, Target
 from cellc.contract.vocabulary import Feature, features
 
@@ -40,6 +51,8 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
 
 def _of_managers(graph: CellGraph, header: Header) -> Iterator[Artifact]:
     cell = graph.cell
+    if is_asked(cell):
+        yield Artifact(CONTROLLERS_ON_SIM, parameter_file(header, _on_simulator(simulated(cell))))
     for manager in cell.managers:
         for file, target in {controllers_file(cell, manager, target): target for target in TARGETS}.items():
             yield Artifact(file, parameter_file(header, _sections(cell, manager, target)))
@@ -49,6 +62,21 @@ def _sections(cell: Cell, manager: ControllerManager, target: Target) -> Iterato
     yield NodeParameters(f"{manager.namespace}/controller_manager", manager.path, _of_manager(cell, manager))
     for controller in manager.controllers:
         yield _of_controller(manager, controller, target)
+
+
+def _on_simulator(cell: Cell) -> Iterator[NodeParameters]:
+    """Yield the sections of what the simulator has alone, and of its cameras."""
+    (manager,) = cell.managers
+    there = tuple(controller for controller in manager.controllers if "mock" in controller.targets)
+    yield from _sections(cell, replace(manager, controllers=there), "mock")
+    if watched := tuple(cameras(cell)):
+        parameters: dict[str, ParameterValue] = {
+            f"{CAMERAS}.type": CAMERA_PLUGIN,
+            f"{CAMERAS}.camera_publish_rate": max(camera.rate_hz for camera in watched),
+        }
+        for camera in watched:
+            parameters |= {f"{CAMERAS}.{camera.frame}.{key}": value for key, value in camera.parameters.items()}
+        yield NodeParameters(f"{manager.namespace}/{PLUGIN_NODE}", ("devices",), parameters)
 
 
 def _of_manager(cell: Cell, manager: ControllerManager) -> dict[str, ParameterValue]:

@@ -41,6 +41,7 @@ from cellc.compiler.formats.escape import code, markdown, markdown_comment
 from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import commissioning_enclave, people_enclave
+from cellc.compiler.graph.simulated import is_asked
 from cellc.compiler.graph.versions import unreleased
 from cellc.contract.vocabulary import BringUpPhase, InterfaceKind
 
@@ -54,7 +55,7 @@ _NO_PLANNER = (
 )
 _GOAL = "launch/goal.launch.xml"
 _FILES = (
-    ("urdf/", "the description for the mock and for real hardware"),
+    ("urdf/", "the description for each target"),
     (
         SCENE,
         "the cell for MuJoCo, with masses, contacts and actuators; open it with `python -m mujoco.viewer --mjcf`",
@@ -117,6 +118,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         *_enforced(cell),
         "To try the cell on the mock:",
         _fenced((plan.header.command, f"cellc mock generated/{cell.name}", start_mock(cell))),
+        *_on_simulator(cell),
         *_questions(plan.questions),
         "## Data flow",
         "\n".join(f"- {markdown(sentence)}" for sentence in _flow(cell)),
@@ -128,6 +130,15 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         "" if plans(cell) else _NO_PLANNER,
     ]
     yield Artifact("README.md", "\n\n".join(block for block in blocks if block) + "\n")
+
+
+def _on_simulator(cell: Cell) -> Iterator[str]:
+    if is_asked(cell):
+        yield (
+            "To try it in MuJoCo, behind the same interfaces and on the time of the simulation. Nothing there is real, "
+            "and a run is evidence for no gate; `audit.md` lists what it cannot show:"
+        )
+        yield _fenced((f"{start_mock(cell)} target:=sim headless:=true",))
 
 
 def _gates(graph: CellGraph, plan: Deployment) -> Iterator[str]:

@@ -19,6 +19,7 @@ from cellc.compiler.deploy.processes import is_adapter, motion_clients
 from cellc.compiler.emit.audit.ages import ages_section
 from cellc.compiler.emit.audit.caps import caps_section
 from cellc.compiler.emit.audit.moments import moments_section, stops_section
+from cellc.compiler.emit.audit.simulator import simulator_section
 from cellc.compiler.emit.audit.tables import (
     calibration_section,
     command_section,
@@ -37,6 +38,7 @@ from cellc.compiler.formats.escape import code, markdown, markdown_comment
 from cellc.compiler.formats.markdown_table import table
 from cellc.compiler.formats.parameter_file import spec_path
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.simulated import is_asked
 from cellc.compiler.graph.versions import Answer, Judgment, compatibility
 from cellc.contract.vocabulary import UNKNOWN, InterfaceKind, Moment, Motion
 
@@ -89,6 +91,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
         **({"What resumes": stops_section(cell)} if any(map(stops_of, cell.devices)) else {}),
         "After a crash or lost connection": "\n".join(_after_a_loss(cell)) or "None.",
         "What the mock cannot prove": "\n".join(_not_provable(cell)),
+        **({"What the simulator cannot show": simulator_section(cell)} if is_asked(cell) else {}),
     }
     blocks = [markdown_comment(plan.header.text), f"# {cell.name}: audit"]
     blocks += [f"## {title}\n\n{text}" for title, text in sections.items()]

@@ -36,11 +36,11 @@ from cellc.compiler.deploy.labels import (
 from cellc.compiler.deploy.processes import past_controllers
 from cellc.compiler.formats.escape import code
 from cellc.compiler.formats.markdown_table import table
-from cellc.compiler.formats.mjcf.parts import assumed, edges_m, mass_kg
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.claims import claimed_by_device
+from cellc.compiler.graph.part_figures import assumed, edges_m, mass_kg
 from cellc.compiler.graph.stated_parameters import unchecked_parameters
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER
 from cellc.contract.vocabulary import InterfaceKind

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs the steps of config/bring_up.json: waits for the proof of each, sends its request once, checks the effect.
 
-    bring_up --plan FILE --target mock|real [--host HOST] [--release DEVICE] PHASE...      run the steps of these phases
-    bring_up --plan FILE --target mock|real move -- PROGRAM ARGUMENT...   prove, then run PROGRAM while claims hold
+    bring_up --plan FILE --target mock|sim|real [--host HOST] [--release DEVICE] PHASE...  run the steps of phases
+    bring_up --plan FILE --target mock|sim|real move -- PROGRAM ARGUMENT...  prove, then run PROGRAM while claims hold
 
 A step that fails prints what is missing and ends this with 1. It enables no drive, and restores no claim by itself.
 """
@@ -215,7 +215,7 @@ class Unmet:
         text = answer.values[0].string_value if answer.values else ""
         used = {part.partition("</plugin>")[0].strip() for part in text.split("<plugin>")[1:]}
         foreign = ", ".join(sorted(used - set(proof.plugins))) if used else "no hardware"
-        return f"{proof.node} must describe only the mock, got {foreign}" if foreign else ""
+        return f"{proof.node} must describe only {', '.join(proof.plugins)}, got {foreign}" if foreign else ""
 
 
 def contradiction(proof: SimpleNamespace, message: Any) -> str:
@@ -372,23 +372,23 @@ def main(arguments: Sequence[str]) -> int:
     command = [*arguments[arguments.index("--") + 1 :]] if "--" in arguments else []
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--plan", type=Path, required=True, help="config/bring_up.json of the package")
-    parser.add_argument("--target", choices=("mock", "real"), required=True)
+    parser.add_argument("--target", choices=("mock", "sim", "real"), required=True)
     parser.add_argument("--host", default="", help="run only the steps of this computer")
     parser.add_argument("--release", default="", help="run only the steps of this device")
-    stated = os.environ.get("CELL_WAIT_S") or "0"
-    parser.add_argument("--wait", type=seconds, default=stated, help="seconds that replace all deadlines (CELL_WAIT_S)")
+    wait = os.environ.get("CELL_WAIT_S") or "0"
+    parser.add_argument("--wait", type=seconds, default=wait, help="seconds that replace all deadlines (CELL_WAIT_S)")
     parser.add_argument("phases", nargs="+", choices=("start", "activate", "claim", "move"))
     read = parser.parse_args(options)
     PATIENCE_S, MANIFEST = read.wait or PATIENCE_S, read.plan.parent.parent / "manifest.json"
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
-    hosts = (read.host, "") if read.host else {step.host for step in getattr(plan, read.target)}
-    released = [step for step in getattr(plan, read.target) if read.release in ("", getattr(step, "release", ""))]
+    taken = getattr(plan, read.target, None) or parser.error(f"{read.plan} has no steps on {read.target}")
+    hosts = (read.host, "") if read.host else {step.host for step in taken}
+    released = [step for step in taken if read.release in ("", getattr(step, "release", ""))]
     steps = [step for step in released if step.phase in read.phases and step.host in hosts]
     graph = Graph(f"bring_up_{read.phases[-1]}", plan.enclave)
     try:
-        if not take_all(graph, steps):
-            return 1
-        return run_while_claimed(graph, steps[-1], command) if command else 0
+        proven = take_all(graph, steps)
+        return run_while_claimed(graph, steps[-1], command) if proven and command else int(not proven)
     finally:
         graph.leave()
 

@@ -1,6 +1,8 @@
 """``launch/*.launch.xml``: starts the cell on the mock, or on real hardware up to where a human takes over.
 
-Launch XML for ``ros2 launch``, Humble to Lyrical: only actions and substitutions that all of them know.
+Launch XML for ``ros2 launch``, Humble to Lyrical: only actions and substitutions that all of them know. Where the spec
+asks for the target ``sim``, MuJoCo is started in the place of every device: it is brought up as the mock is, all of it
+on one computer, and no driver and no program of a device starts.
 ``cell.launch.xml`` discovers, configures and observes, and on the mock claims; it enables no drive and starts no motion
 client, on any target. With several hosts it includes the file of the host in its argument. On the real target a person
 releases ``activate.launch.xml`` (self-moving hardware) and ``claim.launch.xml``. ``move.launch.xml`` starts motion
@@ -23,15 +25,25 @@ from cellc.compiler.deploy.files import is_capped, stage_files
 from cellc.compiler.deploy.first_goal import NODE, FirstGoal, first_goals
 from cellc.compiler.deploy.processes import started_by_a_person
 from cellc.compiler.deploy.releases import ACTIVATE, CLAIM, GOAL, MOVE, START, Release
-from cellc.compiler.emit.launch.processes import ON_REAL, STAGE, enclave, moving_node, on_host, share
+from cellc.compiler.emit.launch.processes import (
+    ON_REAL,
+    STAGE,
+    enclave,
+    moving_node,
+    on_host,
+    share,
+    simulated_time,
+)
 from cellc.compiler.emit.launch.stages import before_motion, bring_up, programs_and_plan, stages
 from cellc.compiler.formats.escape import launch_text, launch_words
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import decimal
 from cellc.compiler.formats.parameter_file import spec_path
+from cellc.compiler.formats.urdf.hardware import HEADLESS
 from cellc.compiler.formats.xml_text import comment, element, render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import first_goal_enclave
+from cellc.compiler.graph.simulated import SIM, is_asked
 from cellc.contract.vocabulary import BringUpPhase
 
 _VERSION = {"version": "0.1.1"}
@@ -89,10 +101,12 @@ def _host_file(host: str) -> str:
 
 
 def _arguments(cell: Cell) -> Iterator[Element]:
-    yield _target_argument()
-    yield _release_argument(START)
+    yield _target_argument(cell)
+    yield from _headless_argument(cell)
+    yield _release_argument(cell, START)
     yield from _stage_argument(cell)
     yield from _address_arguments(cell)
+    yield from simulated_time(cell)
 
 
 def _gate(release: Release, *more: Element) -> Iterator[Element]:
@@ -114,7 +128,8 @@ def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
     yield from _gate(START, _stated_host_argument(hosts))
     yield comment("the part of each computer; its steps wait for the others")
     staged = (STAGE,) if stage_files(cell) else ()
-    passed = {name: f"$(var {name})" for name in ("target", START.argument, *staged, *addresses(cell))}
+    simulated = (HEADLESS,) if is_asked(cell) else ()
+    passed = {name: f"$(var {name})" for name in ("target", *simulated, START.argument, *staged, *addresses(cell))}
     for host in hosts:
         yield _include(cell, _host_file(host), passed, {"if": on_host(host)})
 
@@ -126,13 +141,14 @@ def _include(cell: Cell, path: str, arguments: dict[str, str], condition: dict[s
 
 
 def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
-    yield _target_argument()
-    yield _release_argument(MOVE)
+    yield _target_argument(cell)
+    yield _release_argument(cell, MOVE)
     if any(is_capped(cell, node) for node in plan.motion_clients):
         yield from _stage_argument(cell)
     if plan.hosts:
         yield _host_argument(plan.hosts)
     yield from _gate(MOVE)
+    yield from simulated_time(cell)
     yield comment(
         "motion clients: each waits for claims, actions and states; on the mock, each also waits for the mock"
     )
@@ -180,14 +196,24 @@ def _limit(value: float | None) -> str:
     return "" if value is None else decimal(value)
 
 
-def _target_argument() -> Element:
-    """Return the choice between the mock and real hardware."""
-    return _argument("target", "mock", "Hardware that the interfaces reach: mock or real.", "mock", "real")
+def _target_argument(cell: Cell) -> Element:
+    """Return the choice between the mock, the simulator and real hardware."""
+    if not is_asked(cell):
+        return _argument("target", "mock", "Hardware that the interfaces reach: mock or real.", "mock", "real")
+    text = "Hardware that the interfaces reach: mock, sim or real. In sim MuJoCo moves everything and nothing is real."
+    return _argument("target", "mock", text, "mock", SIM, "real")
 
 
-def _release_argument(release: Release) -> Element:
+def _headless_argument(cell: Cell) -> Iterator[Element]:
+    """Yield the choice of whether the simulator opens a window."""
+    if is_asked(cell):
+        yield _argument(HEADLESS, "false", "Whether the simulator runs without a window.", "false", "true")
+
+
+def _release_argument(cell: Cell, release: Release) -> Element:
     """Return the argument with which a person releases something; alone it releases nothing."""
-    return _argument(release.argument, _NOT_YET, f"{release.about} Not needed on the mock.", _NOT_YET, release.word)
+    where = "on the mock or in sim" if is_asked(cell) else "on the mock"
+    return _argument(release.argument, _NOT_YET, f"{release.about} Not needed {where}.", _NOT_YET, release.word)
 
 
 def _gate_argument(release: Release) -> Element:

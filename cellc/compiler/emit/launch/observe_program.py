@@ -213,8 +213,8 @@ def read_package(folder: Path, target: str) -> Package:
     description = ElementTree.parse(folder / contract["files"][f"urdf_{target}"]).getroot()
     written: dict[str, dict[str, Any]] = {}
     for file in sorted((folder / "config").rglob("*.yaml")):
-        other = {"real": ".mock", "mock": ".real"}[target]
-        for node, values in read_parameters(file) if not file.stem.endswith(other) else ():
+        of = Path(file.stem).suffix
+        for node, values in read_parameters(file) if of not in {".mock", ".sim", ".real"} - {f".{target}"} else ():
             written.setdefault(node, {}).update(values)
     shared = {name: plan[name] for name in ("enclave", "recorded", "computers")}
     return Package(contract, {**shared, "readings": (), **plan[target]}, description, written)

@@ -2,11 +2,12 @@
 
 A manager takes all hardware of the description that it is given. The one manager of a cell takes the cell's. Of
 several, each has a description with its own hardware alone, on a topic of its own. All report joints on one topic.
+On the simulator the one manager runs in the program of MuJoCo, and ``set_parameter`` puts every node on its time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.cell.cell import Cell
@@ -14,6 +15,7 @@ from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.interface import Node
 from cellc.compiler.cell.robot import HostProgram
 from cellc.compiler.deploy.files import (
+    CONTROLLERS_ON_SIM,
     REQUIRED_PROGRAM,
     controllers_file,
     description_file,
@@ -33,8 +35,10 @@ from cellc.compiler.deploy.spawning import spawnings
 from cellc.compiler.formats.escape import launch_text, launch_words
 from cellc.compiler.formats.numbers import decimal
 from cellc.compiler.formats.parameter_file import node_parameters
+from cellc.compiler.formats.urdf.hardware import HEADLESS
 from cellc.compiler.formats.xml_text import element
 from cellc.compiler.graph.enclaves import enclave_of, manager_enclave, spawner_enclave
+from cellc.compiler.graph.simulated import PACKAGE, is_asked, simulated
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.contract.vocabulary import Feature, features
 
@@ -47,13 +51,26 @@ STAGE = "stage"
 
 ON_REAL = f"$(eval \"'{TARGET}' == 'real'\")"
 """True on the real target; `eval` because Humble has no `equals`, harmless because the argument has choices."""
+_ON_MOCK = ON_REAL.replace("real", "mock")
+ON_SIM = ON_REAL.replace("real", "sim")
 
 _TOPIC = "robot_description"
 
 
 def only_on(target: str | None) -> dict[str, str]:
     """Return the condition of what is started on one target alone; none for what is started on every target."""
-    return {} if target is None else {"if" if target == "real" else "unless": ON_REAL}
+    return {} if target is None else {"if": {"mock": _ON_MOCK, "sim": ON_SIM, "real": ON_REAL}[target]}
+
+
+def not_on_sim(cell: Cell) -> dict[str, str]:
+    """Return the condition of what the simulator has something of its own in the place of."""
+    return {"unless": ON_SIM} if is_asked(cell) else {}
+
+
+def simulated_time(cell: Cell) -> Iterator[Element]:
+    """Yield what puts every node that follows on the time of the simulation; SetUseSimTime is for launch itself."""
+    if is_asked(cell):
+        yield element("set_parameter", {"name": "use_sim_time", "value": "true", **only_on("sim")})
 
 
 def on_host(host: str) -> str:
@@ -66,9 +83,9 @@ def share(cell: Cell, path: str) -> str:
     return f"$(find-pkg-share {cell.name})/{path}"
 
 
-def expanded(file: str) -> str:
+def expanded(file: str, *arguments: str) -> str:
     """Return the text of an installed description, share folders of other packages put in by xacro."""
-    return f"$(command 'xacro {file}')"
+    return f"$(command '{' '.join(('xacro', file, *arguments))}')"
 
 
 def enclave(path: str) -> dict[str, str]:
@@ -87,9 +104,14 @@ def ends_launch(cell: Cell) -> dict[str, str]:
     return {"launch-prefix": f"$(find-pkg-prefix {cell.name})/lib/{cell.name}/{program} --"}
 
 
-def _description_parameter(file: str) -> Element:
+def _description_parameter(file: str, *arguments: str) -> Element:
     """Return the parameter that holds a description of the package, its type stated so that no parser reads it."""
-    return element("param", {"name": "robot_description", "value": expanded(file), "type": "str"})
+    return element("param", {"name": "robot_description", "value": expanded(file, *arguments), "type": "str"})
+
+
+def _shown(cell: Cell) -> str:
+    """Return the argument of the description that the simulator runs; others do not know it, and xacro lets it be."""
+    return f"{HEADLESS}:=$(var {HEADLESS})" if is_asked(cell) else ""
 
 
 def remap(source: str, target: str) -> Element:
@@ -121,7 +143,7 @@ def robot_state_publisher(cell: Cell, node: Node) -> Element:
     """Return the one authority for all static frames."""
     # Said though it is the default: what reads /tf is promised this rate.
     rate = element("param", {"name": "publish_frequency", "value": decimal(TF_RATE_HZ)})
-    return element("node", identity(cell, node), [_description(cell), rate])
+    return element("node", identity(cell, node), [_description(cell, _shown(cell)), rate])
 
 
 def cell_node(cell: Cell, node: Node) -> Element:
@@ -164,15 +186,25 @@ def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
     yield from remaps(node)
 
 
-def _description(cell: Cell) -> Element:
-    return _description_parameter(share(cell, description_file(cell, TARGET)))
+def _description(cell: Cell, argument: str = "") -> Element:
+    return _description_parameter(share(cell, description_file(cell, TARGET)), *filter(None, (argument,)))
 
 
 def control(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
     """Yield the processes of one update loop: one for its description where it has its own, and the loop."""
     publishers = (node for node in cell.nodes if node.name == DESCRIPTION_PUBLISHER and node.path == manager.path)
     yield from (_description_publisher(cell, manager, node) for node in publishers)
-    yield _manager(cell, manager)
+    yield _manager(cell, manager, not_on_sim(cell))
+    if is_asked(cell):
+        yield _simulator(cell, manager)
+
+
+def _simulator(cell: Cell, manager: ControllerManager) -> Element:
+    """Return the same loop in the program of the simulator, which has its time and its cameras."""
+    node = _manager(cell, manager, only_on("sim"))
+    node.set("pkg", PACKAGE)
+    node[0].set("from", share(cell, CONTROLLERS_ON_SIM))
+    return node
 
 
 def _description_publisher(cell: Cell, manager: ControllerManager, node: Node) -> Element:
@@ -180,12 +212,13 @@ def _description_publisher(cell: Cell, manager: ControllerManager, node: Node) -
     return element("node", identity(cell, node), [description, *remaps(node)])
 
 
-def _manager(cell: Cell, manager: ControllerManager) -> Element:
+def _manager(cell: Cell, manager: ControllerManager, condition: Mapping[str, str]) -> Element:
     # Without a name: it would apply to the nodes of the hardware as well.
     place = _place(manager)
     parameters = [element("param", {"from": share(cell, controllers_file(cell, manager, TARGET))})]
     if Feature.DESCRIPTION_TOPIC not in features(cell.distro):
-        parameters.append(_description_parameter(share(cell, manager_description_file(cell, manager, TARGET))))
+        file = share(cell, manager_description_file(cell, manager, TARGET))
+        parameters.append(_description_parameter(file, *filter(None, (_shown(cell),))))
     topic = f"{description_home(manager) if len(cell.managers) > 1 else ''}/{_TOPIC}"
     return element(
         "node",
@@ -196,6 +229,7 @@ def _manager(cell: Cell, manager: ControllerManager) -> Element:
             "output": "both",
             **ends_launch(cell),  # without its update loop a cell only looks alive
             **enclave(manager_enclave(cell, manager)),
+            **condition,
         },
         [
             *parameters,
@@ -227,17 +261,28 @@ def spawners(cell: Cell, manager: ControllerManager) -> Iterator[Element]:
     One process for all: several of them race for a controller that the manager has found in its file (Humble 2.54).
     """
     for spawning in spawnings(manager):
-        yield element(
-            "node",
-            {
-                "pkg": "controller_manager",
-                "exec": "spawner",
-                **_place(manager),
-                "args": launch_words(
-                    *spawning.controllers, "-c", manager.node, "--inactive", *_controller_arguments(cell, manager)
-                ),
-                "output": "both",
-                **enclave(spawner_enclave(cell, manager)),
-                **only_on(spawning.only),
-            },
-        )
+        condition = not_on_sim(cell) if spawning.only is None else only_on(spawning.only)
+        yield _spawner(cell, manager, spawning.controllers, condition)
+    if is_asked(cell):
+        (there,) = simulated(cell).managers
+        for spawning in spawnings(there):
+            if spawning.only == "mock":
+                yield _spawner(cell, manager, spawning.controllers, only_on("sim"))
+
+
+def _spawner(
+    cell: Cell, manager: ControllerManager, controllers: tuple[str, ...], condition: Mapping[str, str]
+) -> Element:
+    arguments = ("-c", manager.node, "--inactive", *_controller_arguments(cell, manager))
+    return element(
+        "node",
+        {
+            "pkg": "controller_manager",
+            "exec": "spawner",
+            **_place(manager),
+            "args": launch_words(*controllers, *arguments),
+            "output": "both",
+            **enclave(spawner_enclave(cell, manager)),
+            **condition,
+        },
+    )

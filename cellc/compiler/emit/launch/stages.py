@@ -41,7 +41,7 @@ from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.contract.bring_up import CLAIM_WATCH
-from cellc.contract.entities import Target
+from cellc.contract.entities import LaunchTarget
 from cellc.contract.store.regular_file import own_text
 from cellc.contract.vocabulary import BringUpPhase
 
@@ -56,8 +56,10 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
         yield comment("configure: load and configure every controller, activate none")
         yield from spawned
     if mock := [phase for phase in phases(plan.bring_up, "mock", host) if phase is not BringUpPhase.MOVE]:
-        yield comment("configure and observe; on the mock also claim")
+        yield comment(f"configure and observe; on the mock{' and in sim' if plan.bring_up.sim else ''} also claim")
         yield bring_up(cell, "mock", mock, host)
+        if plan.bring_up.sim:
+            yield bring_up(cell, "sim", mock, host)
     if BringUpPhase.START in phases(plan.bring_up, "real", host):
         yield bring_up(cell, "real", [BringUpPhase.START], host)
     if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
@@ -68,7 +70,7 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
 
 def bring_up(
     cell: Cell,
-    target: Target,
+    target: LaunchTarget,
     taken: Sequence[str],
     host: str | None = None,
     *,

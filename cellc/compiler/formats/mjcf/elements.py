@@ -9,6 +9,7 @@ from xml.etree.ElementTree import Element
 from cellc.compiler.cell.device import DeviceJoint
 from cellc.compiler.formats.numbers import rounded, shortest
 from cellc.compiler.formats.xml_text import comment, element
+from cellc.compiler.graph.part_figures import LIGHT_KG
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
 from cellc.robot.description.model import Box, Cylinder, Geometry, Inertial, Joint, Link, Mesh, Sphere
@@ -17,8 +18,6 @@ _DIGITS = 12
 """Of a tensor that is turned: the figures that rounding leaves."""
 _LOCKED = 1e-6
 """Width of the range of a joint that may not move, rad or m: a range of none is refused."""
-LIGHT_KG = 0.001
-"""What a body weighs that moves and of which no mass is stated: none at all is refused."""
 _Tensor = tuple[tuple[float, float, float], ...]
 Attributes = dict[str, str]
 

@@ -10,11 +10,8 @@ from cellc.compiler.formats.mjcf.elements import numbers
 from cellc.compiler.formats.mjcf.loops import Actuator
 from cellc.compiler.formats.mjcf.tree import Body
 from cellc.compiler.formats.numbers import rounded
-from cellc.compiler.formats.urdf.robot import HOME, start_positions
+from cellc.compiler.formats.urdf.robot import first_keyframe, start_positions
 from cellc.compiler.formats.xml_text import element
-
-START = "start"
-"""The keyframe of a cell without a pose ``home``."""
 
 
 def keys(cell: Cell, world: Body, actuators: Sequence[Actuator]) -> Iterator[Element]:
@@ -23,7 +20,7 @@ def keys(cell: Cell, world: Body, actuators: Sequence[Actuator]) -> Iterator[Ele
     named = {pose.name: dict[str, float]() for pose in cell.poses}
     for pose in cell.poses:
         named[pose.name] |= dict(zip(pose.joints, pose.positions, strict=False))
-    first = HOME if HOME in named else START
+    first = first_keyframe(cell)
     for name in dict.fromkeys((first, *named)):
         positions = start | ({} if name == first else named[name])
         yield element(

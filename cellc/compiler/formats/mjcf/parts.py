@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
-from cellc.compiler.cell.frame import FRICTION, Grasp
 from cellc.compiler.formats.mjcf.elements import numbers
 from cellc.compiler.formats.mjcf.tree import Part
 from cellc.compiler.formats.numbers import rounded, shortest
 from cellc.compiler.formats.xml_text import element
-from cellc.contract.transforms import Vector3
+from cellc.compiler.graph.part_figures import assumed, edges_m, mass_kg
 
-EDGE_M = 0.05
-DENSITY_KG_M3 = 1000.0
 _COLOR = "0.85 0.55 0.2 1"
 _TURNING = "0.005 0.0001"
 """What MuJoCo has against turning about the normal of a contact, m, and against rolling, m."""
@@ -35,18 +31,6 @@ def part_elements(part: Part) -> tuple[Element, ...]:
     )
 
 
-def edges_m(grasp: Grasp) -> Vector3:
-    """Return the edges of the box: those that are stated, else of a cube as wide as fingers meet it."""
-    edge = grasp.width_m or EDGE_M
-    return grasp.size_m or (edge, edge, edge)
-
-
-def mass_kg(grasp: Grasp) -> float:
-    """Return the mass that is stated, or that of as much water."""
-    x, y, z = edges_m(grasp)
-    return grasp.mass_kg or rounded(DENSITY_KG_M3 * x * y * z)
-
-
 def defaults_of(part: Part) -> str:
     """Return what a part is taken as, and what of it is not stated, as a line of the file."""
     x, y, z = (shortest(edge) for edge in edges_m(part.grasp))
@@ -54,13 +38,3 @@ def defaults_of(part: Part) -> str:
     return f"frames, grasp: {part.name} is a box of {x} by {y} by {z} m about its frame" + (
         f"; not stated: {not_stated}" if not_stated else ""
     )
-
-
-def assumed(grasp: Grasp) -> Iterator[str]:
-    """Yield what of a part is not stated, with what is taken in its place."""
-    if grasp.size_m is None:
-        yield f"its size, as a cube of {shortest(grasp.width_m or EDGE_M)} m"
-    if not grasp.mass_kg:
-        yield "its mass, as of water"
-    if grasp.friction is None:
-        yield f"its friction, {shortest(FRICTION)}"

@@ -20,6 +20,7 @@ from cellc.compiler.formats.mjcf.tree import Body, body_tree, sensed_link
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.xml_text import comment, element
 from cellc.compiler.graph.cell_graph import CellGraph
+from cellc.compiler.graph.simulated import force_sensors
 from cellc.robot.description.model import Mesh
 
 _RULES = {
@@ -33,7 +34,6 @@ _READ = (".stl", ".obj")
 """Meshes that MuJoCo reads."""
 _EQUAL = {"solref": "0.004 1", "solimp": "0.9999 0.9999 0.001"}
 """Fingers that follow another do so within two milliseconds."""
-_FORCES = ("force.x", "force.y", "force.z", "torque.x", "torque.y", "torque.z")
 _USUAL_BUFFER = (640, 480)
 _TOO_DEEP = "left out: bodies carry each other deeper than parsers of XML read"
 
@@ -131,8 +131,6 @@ def _followers(world: Body) -> Iterator[Element]:
 def _sensors(cell: Cell) -> Iterator[Element]:
     """Yield force and torque of each sensor that measures both, at the frame where the tools of its device hang."""
     for device in cell.devices:
-        groups = () if device.control.hardware is None else device.control.hardware.sensors
-        for group in groups:
-            if set(_FORCES) <= set(group.state_interfaces):
-                site = {"site": sensed_link(cell, device)}
-                yield from (element(kind, {"name": f"{group.name}_{kind}", **site}) for kind in ("force", "torque"))
+        for group in force_sensors(device):
+            site = {"site": sensed_link(cell, device)}
+            yield from (element(kind, {"name": f"{group.name}_{kind}", **site}) for kind in ("force", "torque"))

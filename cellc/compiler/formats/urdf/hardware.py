@@ -1,7 +1,7 @@
-"""The ``<ros2_control>`` tag of a device: plugin, parameters and interfaces for one target.
+"""The ``<ros2_control>`` tag of a device for one target, or of a simulator for all: plugin, parameters, interfaces.
 
-Limits are not repeated here: ros2_control takes those of the URDF's joints. Only the mock gets initial values, real
-hardware tells its own.
+Limits are not repeated here: ros2_control takes those of the URDF's joints. Only the mock gets initial values: real
+hardware tells its own, and the simulator begins at a keyframe of its scene.
 """
 
 from __future__ import annotations
@@ -10,17 +10,28 @@ import re
 from collections.abc import Iterator, Mapping
 from xml.etree.ElementTree import Element
 
+from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, DeviceJoint
 from cellc.compiler.cell.hardware import HardwareComponent, InterfaceGroup
 from cellc.compiler.formats.escape import xacro_text
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.xml_text import element
+from cellc.compiler.graph.simulated import (
+    COMPONENT,
+    FORCES,
+    PLUGIN,
+    commands,
+    force_sensors,
+    simulated_devices,
+    states,
+)
 from cellc.contract.entities import Target
 
 # Only an installed workspace knows the folder; xacro puts it in when the launch file reads the description.
 # Credentials are no part of the package: xacro reads them from the environment, or a file, of who launches.
 _VARIABLE = re.compile(r"\{env:([A-Z][A-Z0-9_]*)\}")
 _ENTRY = re.compile(r"\{yaml:((?:/[A-Za-z0-9_][A-Za-z0-9_.-]*)+):([a-z]+)\}")
+_ARGUMENT = re.compile(r"\{arg:([a-z]+)\}")
 _SHARE = re.compile(r"\{share:([A-Za-z_][A-Za-z0-9_]*)\}")
 
 
@@ -41,6 +52,53 @@ def ros2_control(device: Device, hardware: HardwareComponent, target: Target, st
             *(_group(tag, group, target) for tag, group in groups if _has_tag(group, target)),
         ],
     )
+
+
+HEADLESS = "headless"
+"""The argument of the description of a simulator that leaves out its window."""
+
+
+def simulator(cell: Cell, scene: str, keyframe: str) -> Element:
+    """Return the tag of the one component of a simulator, which finds its joints and sensors in the scene by name.
+
+    Args:
+        scene: path of the scene in the package.
+        keyframe: where it begins.
+    """
+    devices = tuple(simulated_devices(cell))
+    parameters = {
+        "mujoco_model": f"{{share:{cell.name}}}/{scene}",
+        "initial_keyframe": keyframe,
+        HEADLESS: f"{{arg:{HEADLESS}}}",
+    }
+    return element(
+        "ros2_control",
+        {"name": COMPONENT, "type": "system"},
+        [
+            element(
+                "hardware",
+                children=[element("plugin", text=PLUGIN), *(_parameter(*each) for each in parameters.items())],
+            ),
+            *(
+                _tag(joint.name, commands(joint), states(joint))
+                for device in devices
+                for joint in device.joints
+                if commands(joint) or states(joint)
+            ),
+            *(_force_sensor(group) for device in devices for group in force_sensors(device)),
+        ],
+    )
+
+
+def _tag(name: str, taken: tuple[str, ...], offered: tuple[str, ...]) -> Element:
+    commanded = [element("command_interface", {"name": each}) for each in taken]
+    return element("joint", {"name": name}, [*commanded, *(_state(each, None) for each in offered)])
+
+
+def _force_sensor(group: InterfaceGroup) -> Element:
+    facts = {"mujoco_type": "fts", "mujoco_sensor_name": group.name}
+    offered = (_state(name, None) for name in FORCES)
+    return element("sensor", {"name": group.name}, [*(_parameter(*each) for each in facts.items()), *offered])
 
 
 def _has_tag(group: InterfaceGroup, target: Target) -> bool:
@@ -66,6 +124,7 @@ def for_xacro(root: Element) -> Element:
 
 def _found_at_launch(text: str) -> str:
     text = _VARIABLE.sub(r"$(env \1)", _SHARE.sub(r"$(find \1)", text))
+    text = _ARGUMENT.sub(r"$(arg \1)", text)
     return _ENTRY.sub(r"${xacro.load_yaml('\1')['\2']}", text)
 
 
@@ -96,16 +155,16 @@ def _joints(device: Device, start: Mapping[str, float]) -> Iterator[Element]:
 
 
 def _joint(joint: DeviceJoint, start: float | None) -> Element:
-    commands = [element("command_interface", {"name": name}) for name in joint.command_interfaces]
-    states = [_state(name, start if name == "position" else None) for name in joint.state_interfaces]
-    return element("joint", {"name": joint.name}, [*commands, *states])
+    taken = [element("command_interface", {"name": name}) for name in joint.command_interfaces]
+    offered = [_state(name, start if name == "position" else None) for name in joint.state_interfaces]
+    return element("joint", {"name": joint.name}, [*taken, *offered])
 
 
 def _group(tag: str, group: InterfaceGroup, target: Target) -> Element:
     initial = group.initial if target == "mock" else {}
-    commands = [element("command_interface", {"name": name}) for name in group.command_interfaces]
-    states = [_state(name, initial.get(name)) for name in group.state_interfaces]
-    return element(tag, {"name": group.name}, [*commands, *states])
+    taken = [element("command_interface", {"name": name}) for name in group.command_interfaces]
+    offered = [_state(name, initial.get(name)) for name in group.state_interfaces]
+    return element(tag, {"name": group.name}, [*taken, *offered])
 
 
 def _state(name: str, initial: float | None) -> Element:

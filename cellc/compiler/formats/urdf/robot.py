@@ -22,7 +22,7 @@ from cellc.compiler.formats.urdf.elements import (
     scene_link,
     scene_materials,
 )
-from cellc.compiler.formats.urdf.hardware import for_xacro, ros2_control
+from cellc.compiler.formats.urdf.hardware import HEADLESS, for_xacro, ros2_control, simulator
 from cellc.compiler.formats.xml_text import comment, element
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.contract.entities import Target
@@ -30,10 +30,26 @@ from cellc.contract.entities import Target
 HOME = "home"
 """A named pose of this name is where the cell begins."""
 
+START = "start"
+"""What a simulator calls where a cell without one begins."""
+
 
 def robot_description(cell: Cell, target: Target) -> Element:
     """Return the description of a cell for the target ``mock`` or ``real``, with the hardware of all devices."""
     return manager_description(cell, target, tuple(device.name for device in cell.devices))
+
+
+def simulated_description(cell: Cell, scene: str) -> Element:
+    """Return the description of a cell with one simulator for all of its hardware; ``scene`` is its path there."""
+    argument = element("xacro:arg", {"name": HEADLESS, "default": "false"})
+    tag = [comment("hardware of every device, sim"), simulator(cell, scene, first_keyframe(cell))]
+    attributes = {"name": cell.name, "xmlns:xacro": "http://www.ros.org/wiki/xacro"}
+    return for_xacro(element("robot", attributes, [argument, *_body(cell), *tag]))
+
+
+def first_keyframe(cell: Cell) -> str:
+    """Return the name of the keyframe where a simulator begins."""
+    return HOME if any(pose.name == HOME for pose in cell.poses) else START
 
 
 def manager_description(cell: Cell, target: Target, devices: tuple[str, ...]) -> Element:
@@ -61,6 +77,15 @@ def _standing(cell: Cell) -> Iterator[Solid]:
 
 
 def _parts(cell: Cell, target: Target, devices: tuple[str, ...]) -> Iterator[Element]:
+    yield from _body(cell)
+    start = start_positions(cell) if target == "mock" else {}
+    for device in cell.devices:
+        if device.control.hardware is not None and target in device.control.hardware.targets and device.name in devices:
+            yield comment(f"hardware of devices.{device.name}, {target}")
+            yield ros2_control(device, device.control.hardware, target, start)
+
+
+def _body(cell: Cell) -> Iterator[Element]:
     yield frame_link(WORLD)
     for device in cell.devices:
         yield comment(f"devices.{device.name}: {device.model}")
@@ -74,11 +99,6 @@ def _parts(cell: Cell, target: Target, devices: tuple[str, ...]) -> Iterator[Ele
         yield comment(f"scene.{box.name}: {box.kind}")
         yield scene_link(box)
         yield _held(box.name, box)
-    start = start_positions(cell) if target == "mock" else {}
-    for device in cell.devices:
-        if device.control.hardware is not None and target in device.control.hardware.targets and device.name in devices:
-            yield comment(f"hardware of devices.{device.name}, {target}")
-            yield ros2_control(device, device.control.hardware, target, start)
 
 
 def _device(device: Device) -> Iterator[Element]:
