@@ -12,23 +12,15 @@ from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, DeviceJoint
-from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Grasp, Solid
+from cellc.compiler.cell.frame import WORLD, FrameKind, Solid
 from cellc.compiler.graph.frame_tree import FrameTree
+from cellc.compiler.graph.part_figures import Part, parts
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
 from cellc.robot.description.model import Joint, Link
 
 _DEEPEST = 100
 """Bodies within each other: parsers of XML, and writers of it, end at some depth."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Part:
-    """What a gripper takes: a free body, named like the frame that follows it, or after the one that it lies at."""
-
-    name: str
-    grasp: Grasp
-    pose: Pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,34 +156,19 @@ def sensed_link(cell: Cell, device: Device) -> str:
 
 
 def _frame_edges(cell: Cell, frames: FrameTree) -> Iterator[_Edge]:
-    taken = {frame.name for frame in cell.frames}
+    free = parts(cell, frames)
     for frame in cell.frames:
         if frame.kind is FrameKind.FIXED and frame.transform_to_parent is not None:
             yield _Edge(placed=Placed(name=frame.name, pose=frame.transform_to_parent), parent=frame.parent)
-        yield from _followed(frame, frames, taken)
+        if frame.name in free:
+            part = free[frame.name]
+            yield _Edge(placed=Placed(name=part.name, pose=part.pose), parent=WORLD, begins=True, part=part)
+        elif frame.kind is FrameKind.DYNAMIC and frame.simulated_pose is not None:
+            placed = Placed(name=frame.name, pose=frame.simulated_pose.pose)
+            yield _Edge(placed=placed, parent=frame.simulated_pose.parent)
     for solid in cell.scene:
         placed = Placed(name=solid.name, pose=solid.transform_to_parent, solid=solid)
         yield _Edge(placed=placed, parent=solid.parent)
-
-
-def _followed(frame: Frame, frames: FrameTree, taken: set[str]) -> Iterator[_Edge]:
-    """Yield a part, or the frame that follows something else; nothing where no pose in the world is stated."""
-    pose = frames.in_world(frame.name)
-    is_dynamic = frame.kind is FrameKind.DYNAMIC
-    if frame.grasp is not None and pose is not None:
-        name = frame.name if is_dynamic else _free_name(f"{frame.name}_part", taken)
-        part = Part(name=name, grasp=frame.grasp, pose=pose)
-        yield _Edge(placed=Placed(name=name, pose=pose), parent=WORLD, begins=True, part=part)
-    elif is_dynamic and frame.simulated_pose is not None:
-        placed = Placed(name=frame.name, pose=frame.simulated_pose.pose)
-        yield _Edge(placed=placed, parent=frame.simulated_pose.parent)
-
-
-def _free_name(name: str, taken: set[str]) -> str:
-    while name in taken:
-        name += "_"
-    taken.add(name)
-    return name
 
 
 def weight_kg(body: Body) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cellc.compiler.cell.device import Device
-from cellc.compiler.graph.part_figures import LIGHT_KG, assumed
+from cellc.compiler.graph.part_figures import LIGHT_KG, assumed, parts
 from cellc.compiler.graph.simulated import is_asked, obstacles
 from cellc.compiler.rules.kit import CellGraph, Findings, Severity, found, rule
 from cellc.robot.description.model import Link
@@ -26,8 +26,9 @@ def assumed_in_simulation(graph: CellGraph) -> Findings:
     """
     if not is_asked(graph.cell):
         return
+    stated = parts(graph.cell, graph.frames)
     for frame in graph.cell.frames:
-        if frame.grasp is not None and (missing := tuple(assumed(frame.grasp))):
+        if frame.name in stated and (missing := tuple(assumed(stated[frame.name]))):
             message = f"the simulator assumes of the part at `{frame.name}`: {'; '.join(missing)}"
             yield found(graph, (*frame.path, "grasp"), message)
     for device in graph.cell.devices:
