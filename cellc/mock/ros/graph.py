@@ -70,6 +70,12 @@ class Graph:
         self._bridge.open_subscription(channel, MOCK, topic, kind, qos)
         return channel
 
+    def act(self, node: str, action: str, kind: str) -> int:
+        """Return the channel of goals that arrive for an action, which a node offers from now on."""
+        channel = self._channels[action] = len(self._channels)
+        self._bridge.open_action(channel, node, action, kind)
+        return channel
+
     def look(self) -> None:
         """Look again who hears what: what no node hears is neither drawn nor sent."""
         self._heard = self._bridge.heard()
