@@ -1,7 +1,7 @@
 """A task node of rclpy, and subtly wrong ones: ``ros_task.py FOLDER REHEARSAL [WRONG]``.
 
-It takes the steps of a rehearsal of a generated folder. What it decides is in `tests.mock.ros.task_program`; here is what
-it hears and sends. Transforms are looked up here, because no wheel has tf2.
+It takes the steps of a rehearsal of a generated folder. What it decides is in `tests.mock.ros.task_program`; here is
+what it hears and sends. Transforms are looked up here, because no wheel has tf2.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
 from cellc.contract.transforms import Pose, identity
-from tests.mock.ros.task_program import Program, Seen
+from tests.mock.ros.task_program import Program, Seen, States
 
 _TICK_S = 0.02
 
@@ -124,7 +124,7 @@ class Task(Node):  # type: ignore[misc]  # rclpy has no types
 
     def __init__(self, contract: Mapping[str, Any], steps: Any, wrong: str) -> None:
         super().__init__("task", parameter_overrides=[Parameter("use_sim_time", value=True)])
-        self.states: tuple[int, Mapping[str, float]] | None = None
+        self.states: States | None = None
         self.observed: Seen | None = None
         self.canceled = self.acknowledged = False
         self.transforms = Transforms(self)
@@ -148,7 +148,7 @@ class Task(Node):  # type: ignore[misc]  # rclpy has no types
 
     def _take_states(self, message: JointState) -> None:
         stamp_ns = Time.from_msg(message.header.stamp).nanoseconds
-        self.states = stamp_ns, dict(zip(message.name, message.position, strict=True))
+        self.states = States(stamp_ns, self.now_ns, dict(zip(message.name, message.position, strict=True)))
 
     def _take_pose(self, message: PoseStamped) -> None:
         p, q = message.pose.position, message.pose.orientation

@@ -56,16 +56,20 @@ class Conduct:
         for joint, value in _joints(goal.asked, self._joints_of(goal)):
             self._check_value(goal, joint, value)
 
+    def rely(self, context: TaskContext, target: str) -> None:
+        """Let a step rest on the observation that its target needs, which must keep arriving."""
+        entry = context.contract.goals.get(target)
+        self._expected = None
+        context.acting_on = None if entry is None else dynamic_ancestor(context.contract, entry.frame)
+
     def examine(self, context: TaskContext, attempt: Attempt, target: str, goal: ServedGoal) -> Waiting[None]:
         """Look where a goal goes to, and what it rests on.
 
         Raises:
             AttemptError: what it rests on is stale, or not known.
         """
-        self._expected = None
         entry = context.contract.goals.get(target)
         if entry is None:
-            context.acting_on = None
             return
         frame = dynamic_ancestor(context.contract, entry.frame)
         inbox = None if frame is None else context.node.observations.get(frame)
@@ -80,21 +84,21 @@ class Conduct:
                 text = f"`{self._full}` sent a goal to `{goal.action}`: {stale.fault_code}"
                 self._note(Violation.COMMANDED_ON_STALE_STATE, goal, text)
             raise
-        context.acting_on = located.observed_frame
         self._expected = located.goal.tip_in_base
         self._check_reach(entry.group, goal, located.goal.approach, target)
 
-    def away(self, context: TaskContext, attempt: Attempt, target: str) -> str:
+    def away(self, now_ns: int, target: str) -> str:
         """Say how far the arm is from the target of a step; nothing where it is there."""
-        positions = self._plant.world.joint_positions(context.now_ns)
-        if target in context.contract.poses:
-            for pose in context.contract.poses[target]:
+        contract = self._plant.contract
+        positions = self._plant.world.joint_positions(now_ns)
+        if target in contract.poses:
+            for pose in contract.poses[target]:
                 for joint, expected in zip(self._joints_in(pose), pose.positions, strict=True):
                     if abs(positions[joint] - expected) > ARRIVAL_TOLERANCE:
                         return f"joint `{joint}` at {positions[joint]:.4g}, expected {expected:.4g} in `{target}`"
             return ""
-        group = context.contract.groups[context.contract.goals[target].group]
-        base, tip = (self._plant.world.link_pose(each, context.now_ns) for each in (group.base_link, group.tip_frame))
+        group = contract.groups[contract.goals[target].group]
+        base, tip = (self._plant.world.link_pose(each, now_ns) for each in (group.base_link, group.tip_frame))
         if self._expected is None:
             return f"without a goal to `{target}`"
         return _apart(base.inverse() @ tip, self._expected, group.tip_frame, target)
@@ -116,7 +120,7 @@ class Conduct:
         upper = math.inf if limit is None or limit.upper is None else limit.upper
         if lower - _ROUNDING <= value <= upper + _ROUNDING:
             return
-        degrees = "; in degrees it would be" if lower <= math.radians(value) <= upper else ""
+        degrees = "; taken as degrees it would be inside" if lower <= math.radians(value) <= upper else ""
         text = f"`{self._full}` wants joint `{joint}` at {value:.4g}, outside {lower:.4g} to {upper:.4g}{degrees}"
         self._note(Violation.GOAL_OUTSIDE_LIMITS, goal, text)
 

@@ -226,7 +226,7 @@ class _Around:
         plant.simulation.run_process(_idle(_IDLE_NS))
         self._plant = plant
         clock = plant.clocks.of(next(iter(self._tested)))
-        graph = Graph(self._bridge, plant.contract, self._tested.values(), clock)
+        graph = Graph(self._bridge, plant.contract, self._tested.values(), clock, plant.simulation)
         plant.simulation.heard_outside = True
         bag = RunBag(graph, plant)
         bag.begin(self._cell.folder.urdf)

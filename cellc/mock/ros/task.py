@@ -26,7 +26,7 @@ from cellc.mock.ros.graph import Graph
 from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.ros.servers import SERVED, ActionServers, ServedGoal
 from cellc.mock.task.bounds import cancel_bound_s
-from cellc.mock.task.context import Attempt, AttemptError, TaskContext
+from cellc.mock.task.context import Attempt, AttemptError, TaskContext, current_state
 from cellc.mock.task.execute import RESPONSE_S, held_since, look_for_motion, note_result, require_success
 from cellc.mock.task.grip import require_arrival, require_part
 from cellc.mock.task.move import state_since
@@ -106,7 +106,8 @@ class TaskUnderTest:
             graph.look()
         for goal in () if self._servers is None else self._servers.open_goals():
             kind = "grip" if goal.is_grip else "move"
-            if plant.task.requests.is_cancel_asked(kind) and kind not in self._told:
+            asked = goal.sent is not None and plant.task.requests.is_cancel_asked(kind)
+            if asked and kind not in self._told:
                 self._told.add(kind)
                 self._ask(f"{self._full}/cancel")
         if self._timing.pace is None and self._offered:
@@ -177,24 +178,35 @@ class TaskUnderTest:
             if context.now_ns >= until_ns:
                 text = f"`{self._full}` has sent no goal for {IDLE_S:g} s; `{step.title}` is next"
                 raise AttemptError(AttemptOutcome.TIMEOUT, text)
+            if step.kind is StepKind.MOVE:
+                current_state(context.plant)
             yield from context.pause(until_ns, servers.changed)
         return servers.goals[self._seen]
 
     def _move(self, context: TaskContext, attempt: Attempt, step: StepEntry) -> Waiting[None]:
         """Follow goals until the arm is where the step has it."""
         _, conduct = self._bound()
+        conduct.rely(context, step.target)
+        away = ""
         while True:
-            goal = yield from self._next(context, step)
+            try:
+                goal = yield from self._next(context, step)
+            except AttemptError:
+                self._note_away(step, "sends no more goals", away)
+                raise
             if goal.is_grip:
-                away = conduct.away(context, attempt, step.target)
-                text = f"`{self._full}` goes on with `{goal.action}`, {away or 'before it has moved'}"
-                self._judgment.note(Violation.GOAL_ELSEWHERE, step.title, text)
+                self._note_away(step, f"goes on with `{goal.action}`", away or f"without a goal to `{step.target}`")
                 return
             self._seen += 1
             yield from conduct.examine(context, attempt, step.target, goal)
             yield from self._executed(context, attempt, "move", goal)
-            if not conduct.away(context, attempt, step.target):
+            away = conduct.away(context.now_ns, step.target)
+            if not away:
                 return
+
+    def _note_away(self, step: StepEntry, what: str, away: str) -> None:
+        if away:
+            self._judgment.note(Violation.GOAL_ELSEWHERE, step.title, f"`{self._full}` {what}, {away}")
 
     def _grip(self, context: TaskContext, attempt: Attempt, step: StepEntry) -> Waiting[None]:
         """Follow the goal of a gripper, and look whether it holds what it should."""
@@ -248,7 +260,7 @@ class TaskUnderTest:
                         accepted = True
                         self._note_accepted(context, attempt, goal)
                     look_ns = look_for_motion(context, goal.sent)
-                if requests.is_cancel_asked(kind):
+                if goal.sent is not None and requests.is_cancel_asked(kind):
                     raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as requested")
                 yield from context.pause(look_ns, servers.changed, requests.changed)
         finally:
@@ -282,15 +294,15 @@ class TaskUnderTest:
             AttemptError: a cancel was asked for, and did not come in time.
         """
         servers, since_ns, plant = self._bound()[0], context.now_ns, context.plant
-        goals = [goal for goal in servers.open_goals() if goal.sent is not None]
+        goals = servers.open_goals()
         if not goals:
             return
         until_ns = since_ns + round((_REACTION_S + cancel_bound_s(context.contract)) * 1e9)
-        joints = tuple(joint for goal in goals if goal.sent is not None for joint in goal.sent.joints)
         held_ns: int | None = None
         while (held_ns is None or any(goal.is_open for goal in goals)) and plant.now_ns < until_ns:
             yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed, servers.changed))
-            held_ns = held_since(plant, joints, since_ns)
+            joints = tuple(joint for goal in goals if goal.sent is not None for joint in goal.sent.joints)
+            held_ns = held_since(plant, joints, since_ns) if joints else plant.now_ns
         late = [goal for goal in goals if goal.cancel_ns is None and goal.is_open]
         latency_s = None if held_ns is None or late else (held_ns - since_ns) / 1e9
         attempt.cancel = CancelRecord(since_ns, None if late else held_ns, latency_s, None if late else 0)

@@ -6,6 +6,7 @@ A program is advanced at each tick of its node. It sees the cell through what it
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -31,6 +32,15 @@ class Sent(Protocol):
 
 
 @dataclass
+class States:
+    """A joint state."""
+
+    stamp_ns: int
+    arrived_ns: int
+    positions: Mapping[str, float]
+
+
+@dataclass
 class Seen:
     """Where a part was seen, in the frame of the camera."""
 
@@ -44,13 +54,18 @@ class View(Protocol):
     """What a node has heard, and what it can do.
 
     Attributes:
-        states: stamp and positions of the last joint state.
+        states: the last joint state.
+        observed: where the part was seen last.
         canceled: somebody asked to cancel.
         acknowledged: a person has acknowledged a stop.
     """
 
-    states: tuple[int, Mapping[str, float]] | None
-    observed: Seen | None
+    @property
+    def states(self) -> States | None: ...
+
+    @property
+    def observed(self) -> Seen | None: ...
+
     canceled: bool
     acknowledged: bool
 
@@ -78,6 +93,8 @@ class Program:
     def __init__(self, view: View, contract: Mapping[str, Any], steps: Sequence[Mapping[str, Any]], wrong: str) -> None:
         self.view, self.contract, self.steps, self.wrong = view, contract, steps, wrong
         self.band: Mapping[str, Any] | None = None
+        self.early: Seen | None = None
+        """Where the part was seen first while the arm was moving."""
 
     def run(self) -> Iterator[None]:
         stopped = False
@@ -90,7 +107,8 @@ class Program:
             except StoppedError:
                 stopped = True
                 if self.wrong == "retries":
-                    yield from getattr(self, step["kind"])(step)
+                    with suppress(StoppedError):
+                        yield from getattr(self, step["kind"])(step)
 
     def wait(self, step: Mapping[str, Any]) -> Iterator[None]:
         until_ns = self.view.now_ns + round(step["duration_s"] * 1e9)
@@ -132,7 +150,7 @@ class Program:
         elif not self.is_fresh() or self.view.observed is None:
             raise StoppedError("what was seen is too old")
         else:
-            seen = self.view.observed
+            seen = self.early if self.wrong == "latest" and self.early is not None else self.view.observed
             while not self.view.is_known(seen.frame, seen.stamp_ns) and self.wrong != "latest":
                 yield
             frame = self.view.in_world(seen.frame, 0 if self.wrong == "latest" else seen.stamp_ns)
@@ -154,6 +172,8 @@ class Program:
         """Wait for the end of a goal, and cancel it where the cell is no longer known, or somebody asks for it."""
         until_ns = self.view.now_ns + round(TIMEOUT_S * 1e9)
         while sent.status is None:
+            if self.view.now_ns > until_ns - round((TIMEOUT_S - 0.5) * 1e9):
+                self.early = self.early or self.view.observed
             lost = not self.knows_state() or (looks and not self.is_fresh()) or not self.holds()
             if self.wrong == "no_look":
                 lost = False
@@ -170,17 +190,20 @@ class Program:
     def knows_state(self) -> bool:
         if self.view.states is None:
             return False
-        age_s = (self.view.now_ns - self.view.states[0]) / 1e9
+        states = self.view.states
+        taken_ns = states.arrived_ns if self.wrong == "arrival" else states.stamp_ns
+        age_s = (self.view.now_ns - taken_ns) / 1e9
         return abs(age_s) <= MAX_STATE_AGE_S or self.wrong == "stale"
 
     def is_fresh(self) -> bool:
         if self.view.observed is None:
             return False
-        seen_ns = self.view.observed.arrived_ns if self.wrong == "arrival" else self.view.observed.stamp_ns
-        return abs(self.view.now_ns - seen_ns) / 1e9 <= MAX_OBSERVATION_AGE_S or self.wrong == "stale"
+        return (
+            abs(self.view.now_ns - self.view.observed.stamp_ns) / 1e9 <= MAX_OBSERVATION_AGE_S or self.wrong == "stale"
+        )
 
     def holds(self) -> bool:
         """Tell whether the fingers are where they hold a part, if they hold one."""
         if self.band is None or self.view.states is None:
             return True
-        return bool(self.band["lower"] <= self.view.states[1][self.band["joint"]] <= self.band["upper"])
+        return bool(self.band["lower"] <= self.view.states.positions[self.band["joint"]] <= self.band["upper"])

@@ -19,7 +19,7 @@ from cellc.mock.ros.bridge import GraphEnd, Received
 from cellc.mock.ros.session import Judged, rehearse_among
 from cellc.mock.tf.buffer import Transform
 from tests.mock.ros.stand_in import Graph
-from tests.mock.ros.task_program import Program, Seen
+from tests.mock.ros.task_program import Program, Seen, States
 
 STATES, POSES = "/joint_states", "/object_pose"
 MOVES, GRIPS = "/move_action", "/gripper_action/gripper_cmd"
@@ -118,13 +118,14 @@ class TaskGraph(Graph):
         return self.bound.clocks.of("task").read(self.bound.now_ns)
 
     @property
-    def states(self) -> tuple[int, Mapping[str, float]] | None:
+    def states(self) -> States | None:
         (feed,) = self.bound.task.feeds
-        newest = feed.newest(self.bound.now_ns)
-        if newest is None:
+        newest, arrived_ns = feed.newest(self.bound.now_ns), feed.newest_arrival_ns(self.bound.now_ns)
+        if newest is None or arrived_ns is None:
             return None
         stamp_ns = self.bound.clocks.of(feed.history.broadcaster).read(int(feed.history.stamps[newest]))
-        return stamp_ns, dict(zip(feed.history.names, feed.history.positions[newest].tolist(), strict=True))
+        positions = dict(zip(feed.history.names, feed.history.positions[newest].tolist(), strict=True))
+        return States(stamp_ns, arrived_ns, positions)
 
     @property
     def observed(self) -> Seen | None:
