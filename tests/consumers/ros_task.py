@@ -115,8 +115,9 @@ def _between(stamps: list[int], poses: list[Pose], stamp_ns: int) -> Pose:
     sign = 1.0 if sum(x * y for x, y in zip(a.quaternion, b.quaternion, strict=True)) >= 0.0 else -1.0
     turn = [x + share * (sign * y - x) for x, y in zip(a.quaternion, b.quaternion, strict=True)]
     norm = math.sqrt(sum(part * part for part in turn))
-    place = [x + share * (y - x) for x, y in zip(a.position, b.position, strict=True)]
-    return Pose(tuple(place), tuple(part / norm for part in turn))
+    qx, qy, qz, qw = (part / norm for part in turn)
+    x, y, z = (x + share * (y - x) for x, y in zip(a.position, b.position, strict=True))
+    return Pose((x, y, z), (qx, qy, qz, qw))
 
 
 class Task(Node):  # type: ignore[misc]  # rclpy has no types
