@@ -97,17 +97,24 @@ def _tasks(contract: Contract) -> set[str]:
     return {task} if can_be_left_out(contract, task) else set()
 
 
+_NOT_ON_THE_GRAPH = (FaultKind.MISMATCH_QOS, FaultKind.UNREACHABLE, FaultKind.DOUBLE_FRAME)
+"""Faults of the played task alone: what it requests, where it has its goals, and what reaches its listener."""
+
+
 def concerns(contract: Contract, without: Collection[str], fault: FaultEntry) -> bool:
-    """Tell whether nodes under test can see a fault: in their images, topics, transforms and clocks, or of a part."""
+    """Tell whether nodes under test can see a fault.
+
+    An observer sees those in its images, topics, transforms and clocks, or of a part; a task all that are on the graph.
+    """
     cameras = {device: facts.camera.topic for device, facts in contract.devices.items() if facts.camera is not None}
     interface = contract.interfaces.get(cameras.get(fault.target, fault.target))
     ends = () if interface is None else (*interface.sources, *interface.sinks)
-    return (
-        task_node(contract) in without
-        or any(end.node in without for end in ends)
-        or fault.target in contract.frames
-        or fault.kind is FaultKind.JUMP_CLOCK
-    )
+    task = task_node(contract)
+    if task in without and fault.kind not in _NOT_ON_THE_GRAPH:
+        return True
+    observers = set(without) - {task}
+    seen = fault.target in contract.frames or fault.kind is FaultKind.JUMP_CLOCK
+    return any(end.node in observers for end in ends) or (bool(observers) and seen)
 
 
 def rehearse_among(
@@ -208,6 +215,7 @@ class _Around:
         self._cell, self._bridge, self._tested, self._asked = cell, bridge, tested, asked
         self._arrivals = Arrivals(bridge, self.judgment)
         self._plant: Plant | None = None
+        self._graph: Graph | None = None
         self._task: TaskUnderTest | None = None
         name = task_node(cell.contract)
         if name in tested:
@@ -228,6 +236,7 @@ class _Around:
         clock = plant.clocks.of(next(iter(self._tested)))
         graph = Graph(self._bridge, plant.contract, self._tested.values(), clock, plant.simulation)
         plant.simulation.heard_outside = True
+        self._graph = graph
         bag = RunBag(graph, plant)
         bag.begin(self._cell.folder.urdf)
         photographer = Photographer(plant, self._cell.folder.description, self._cell.folder.mesh_roots)
@@ -254,14 +263,14 @@ class _Around:
 
     def end(self) -> None:
         """Publish what is left, and note who has ended and how the host kept up."""
-        if self._task is not None and self._plant is not None:
-            self._task.end(self._plant)
+        if self._task is not None and self._plant is not None and self._graph is not None:
+            self._task.end(self._plant, self._graph)
         if self._listener is not None:
             self._listener.end()
         for node in self._nodes:
             node.end()
         code = self._bridge.exit_code()
-        if code is not None:
+        if code is not None and (code or self._task is None):  # a task that is done may end
             text = f"`{self._asked.launch}` ended with exit code {code} before the rehearsal did"
             self.judgment.note(Violation.ENDED, self._asked.launch, text)
         if self._pacer is not None and self._pacer.latest_s > _LATE_S:

@@ -5,18 +5,22 @@ The watchdogs of the played task run on: what ends an attempt there ends it here
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
-from time import monotonic
+from time import monotonic, sleep
 
 from cellc.contract.attempt import CancelRecord, PacketStep
 from cellc.contract.contract import Contract
 from cellc.contract.devices import ContractGripper
 from cellc.contract.rehearsals import StepEntry
 from cellc.contract.steps import StepKind
+from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GoalStatus
 from cellc.mock.engine.process import Wait, Waiting
+from cellc.mock.evidence.bag import messages
+from cellc.mock.evidence.topics import pose_topic
 from cellc.mock.plant import Plant
 from cellc.mock.ros.arrivals import Arrivals
 from cellc.mock.ros.asked import Timing
@@ -43,6 +47,8 @@ _TICK_HZ = 40.0
 """With lockstep: how often time waits until the node has handled what was published; as often as `/clock` comes."""
 _TICKS_TO_LOOK = 40
 """After so many it is looked again who hears what."""
+_DYING_S = 2.0
+"""Of the host: a node that answers within it has not ended."""
 _SOON_S = 0.05
 """Of the host: how long it is waited for once it has not answered."""
 _TO_STOP = (AttemptOutcome.STALE_STATE, AttemptOutcome.GRIP_FAILURE, AttemptOutcome.CANCELED)
@@ -96,9 +102,27 @@ class TaskUnderTest:
         self._arrivals.go_to(self._node, self._servers.take)
         plant.simulation.every(plant.now_ns, _TICK_HZ, partial(self._tick, plant, graph))
 
-    def end(self, plant: Plant) -> None:
-        """Watch the node for a while after the end of the rehearsal."""
+    def end(self, plant: Plant, graph: Graph) -> None:
+        """Watch the node for a while after the end of the rehearsal, and show it a pose that is no number."""
         plant.simulation.run_process(_idle(plant.now_ns + _QUIET_NS))
+        nowhere = Pose((math.nan,) * 3, (0.0, 0.0, 0.0, 1.0))
+        for frame in plant.task.observations if self._offered else ():
+            topic = pose_topic(plant.contract, frame)
+            if topic is not None:
+                stamp_ns = plant.clocks.of(self._node).read(plant.now_ns)
+                data = messages.pose_stamped(stamp_ns, plant.contract.frames[frame].parent, nowhere)
+                graph.write(graph.declare(topic.name, topic.kind, topic.qos), data, plant.now_ns)
+                self._await_end_of(topic.name)
+
+    def _await_end_of(self, topic: str) -> None:
+        """Note a node that ends on what it was shown on a topic."""
+        problem = self._bridge.settle(self._full, _DYING_S)
+        until_s = monotonic() + self._timing.patience_s
+        while problem and self._bridge.exit_code() is None and monotonic() < until_s:
+            sleep(_SOON_S)
+        if self._bridge.exit_code():
+            text = f"`{self._full}` ended on a pose on `{topic}` whose position is no number"
+            self._judgment.note(Violation.ENDED, topic, text)
 
     def _tick(self, plant: Plant, graph: Graph, number: int) -> None:
         """Ask for a cancel where the rehearsal has one, and let the node handle what it was sent."""

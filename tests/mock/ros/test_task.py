@@ -10,12 +10,16 @@ from typing import Any
 import pytest
 
 from cellc.contract.faults import FaultKind
-from cellc.contract.rehearsals import FaultEntry, FaultEvent, StepEntry
+from cellc.contract.rehearsals import FaultEntry, FaultEvent, RehearsalEntry, StepEntry
 from cellc.contract.steps import StepKind
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell
-from cellc.mock.cell import cell_of
+from cellc.mock.campaign.campaign import execute
+from cellc.mock.campaign.plan import CampaignRun
+from cellc.mock.campaign.summary import failure_lines
+from cellc.mock.cell import Watch, cell_of
 from cellc.mock.errors import MockError
+from cellc.mock.result import RehearsalResult
 from cellc.mock.ros.incoming import MalformedMessageError
 from cellc.mock.ros.requests import FOLLOW_JOINT_TRAJECTORY, GRIPPER_COMMAND, asked_of
 from cellc.mock.ros.session import concerns
@@ -97,6 +101,7 @@ _WRONG = {
     ),
     "deaf": ("canceled", "cancel_ignored: `/task` let its goal of `/move_action` execute for 0.3 s more: the move was"),
     "no_look": ("lost_part", "not_stopped: `/task` let its goal of `/move_action` execute for 0.3 s more: lost: joint"),
+    "dies": ("gripper_activated", "node_ended: `/task` ended on a pose on `/object_pose` whose position is no number"),
     "blocks": ("pick_and_place", "blocked: `/task` has handled no message for"),
 }
 
@@ -175,10 +180,36 @@ def test_goals_of_controllers_are_read_as_they_are_sent() -> None:
         asked_of(FOLLOW_JOINT_TRAJECTORY, {"trajectory": {"points": [{"positions": ["x"]}]}})
 
 
-def test_every_fault_concerns_the_task(cell: MockCell) -> None:
-    fault = FaultEntry(kind=FaultKind.PROTECTIVE_STOP, target="arm", at_s=0.0)
-    assert concerns(cell.contract, ("task",), fault)
-    assert not concerns(cell.contract, ("perception",), fault)
+@pytest.mark.parametrize(
+    ("kind", "target", "expected"),
+    [
+        ("protective_stop", "arm", True),
+        ("freeze", "camera", True),
+        ("drop_frame", "arm_shoulder_link", True),
+        ("mismatch_qos", "/joint_states", False),
+        ("unreachable", "pick", False),
+    ],
+)
+def test_a_campaign_has_the_faults_that_are_on_the_graph(
+    cell: MockCell, kind: str, target: str, expected: bool
+) -> None:
+    fault = FaultEntry.model_validate({"kind": kind, "target": target, "at_s": 0.0})
+    assert concerns(cell.contract, ("task",), fault) is expected
+
+
+@pytest.mark.parametrize(("wrong", "passes"), [("", True), ("deaf", False)])
+def test_a_run_of_a_campaign_is_judged(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch, wrong: str, passes: bool
+) -> None:
+    baseline = CampaignRun.undisturbed(cell.entry("canceled"))
+
+    def rehearse(entry: RehearsalEntry, watch: Watch) -> RehearsalResult:
+        return run(cell, monkeypatch, entry.name, wrong, watch=watch).result
+
+    end = execute(cell, baseline, 0, rehearse)
+    assert end.limits.peaks != ()
+    told = [line for line in failure_lines(end, "again") if "against the contract: cancel_ignored" in line]
+    assert bool(told) is not passes
 
 
 def test_a_step_that_cannot_be_seen_from_outside_is_refused(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
