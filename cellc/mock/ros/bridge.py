@@ -163,15 +163,10 @@ class Bridge:
         Raises:
             MockError: its type is not installed.
         """
-        self._offered({"ask": "act", "channel": channel, "node": node, "action": action, "kind": kind}, action)
-
-    def open_service(self, channel: int, node: str, service: str, kind: str) -> None:
-        """Offer a service of a node; requests are taken under the number of the channel.
-
-        Raises:
-            MockError: its type is not installed.
-        """
-        self._offered({"ask": "serve", "channel": channel, "node": node, "service": service, "kind": kind}, service)
+        asked = {"ask": "act", "channel": channel, "node": node, "action": action, "kind": kind}
+        answer = self._ask(asked, may_fail=True)
+        if "error" in answer:
+            raise MockError("", f"`{action}` of type `{kind}` cannot be offered: {answer['error']}")
 
     def answer(self, number: int, value: object) -> None:
         """Answer what was asked under a number: whether a goal or a cancel is accepted, or a response."""
@@ -232,11 +227,6 @@ class Bridge:
         answer = self._ask({**asked, "qos": asdict(qos)}, may_fail=True)
         if "error" in answer:
             raise MockError("", f"`{asked['topic']}` of type `{asked['kind']}` cannot be opened: {answer['error']}")
-
-    def _offered(self, asked: dict[str, Any], name: str) -> None:
-        answer = self._ask(asked, may_fail=True)
-        if "error" in answer:
-            raise MockError("", f"`{name}` of type `{asked['kind']}` cannot be offered: {answer['error']}")
 
     def _ask(self, asked: dict[str, Any], within_s: float = _ANSWER_S, *, may_fail: bool = False) -> dict[str, Any]:
         self._send(_JSON, json.dumps(asked).encode())

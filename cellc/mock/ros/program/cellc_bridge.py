@@ -308,15 +308,6 @@ class Bridge:
             self._handles[end].publish_feedback(filled(imported(kind).Feedback(), values))
         return {}
 
-    def on_serve(self, channel: int, node: str, service: str, kind: str) -> dict[str, Any]:
-        """Offer a service of a node; each request is asked for."""
-
-        async def reply(request: Any, response: Any) -> Any:
-            return filled(response, await self._inquire(channel, {"request": plain(request)}))
-
-        self._node(node).create_service(imported(kind), service, reply, callback_group=ReentrantCallbackGroup())
-        return {}
-
     def on_settle(self, node: str, within_s: float) -> dict[str, Any]:
         """Wait until a node has handled what was published: it answers requests after the messages before them.
 
