@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 
+from cellc.contract.errors import CellcError
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import AttemptOutcome
@@ -283,7 +284,7 @@ class ActionServers:
         return answer
 
 
-class NotPlannedError(Exception):
+class NotPlannedError(CellcError):
     """Says why there is no plan, with its code."""
 
     def __init__(self, code: int, why: str) -> None:
