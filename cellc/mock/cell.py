@@ -45,8 +45,7 @@ class _Run:
     """One run of a rehearsal.
 
     Attributes:
-        watch: sees the plant first; it may listen, and must not change anything. It sees another plant where the run
-            is made again.
+        watch: sees the plant first, and another one where the run is made again; it must not change anything.
         reality: where the cell differs from what its folder says.
         snapshots: copies of the cell that the run may begin with; None where it must begin with a cell that is off.
         steps: what executes the steps of the task.

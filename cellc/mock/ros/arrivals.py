@@ -16,7 +16,7 @@ class Arrivals:
     """Takes what the nodes under test send, in the order in which it arrives."""
 
     def __init__(self, bridge: Bridge, judgment: Judgment) -> None:
-        """Begin with nobody whom anything is meant for."""
+        """Begin without a taker."""
         self._bridge = bridge
         self._judgment = judgment
         self._takers: list[tuple[str, Taker]] = []

@@ -45,7 +45,7 @@ class Conduct:
         stops = self._plant.stops.present()
         if stops or is_waiting(self._plant):
             why = str(stops[0]) if stops else "a claim was given up"
-            self._note(Violation.COMMANDED_WHILE_STOPPED, goal, f"{sent} while {why}, and nobody had acknowledged")
+            self._note(Violation.COMMANDED_WHILE_STOPPED, goal, f"{sent} while {why}, and no person had acknowledged")
         elif self.canceled_ns is not None:
             self._note(Violation.COMMANDED_AFTER_CANCEL, goal, f"{sent} after it was asked to cancel")
         else:
@@ -143,7 +143,7 @@ class Conduct:
 
 
 _FARTHEST_M = 0.5
-"""From its target: a goal that is farther is none on the way to it."""
+"""From its target: a goal that is farther is not on the way to it."""
 
 
 def _joints(asked: Asked, gripper: tuple[str, ...]) -> Iterator[tuple[str, float]]:

@@ -28,7 +28,7 @@ class Fingers:
 
     Attributes:
         last: the last goal of each controller.
-        failures: what went wrong as fingers opened, by controller, which no node of the cell sees.
+        failures: what was wrong as fingers opened, by controller, which no node of the cell sees.
     """
 
     def __init__(self, plant: Plant) -> None:

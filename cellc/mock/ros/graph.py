@@ -20,7 +20,7 @@ _OF_BAGS = "/cellc/"
 """Topics below it exist in bags alone: a real cell does not have them."""
 _LEFT_OUT = -1
 _SOON_NS = 2_000_000
-"""A message that is due within a cycle is published at once: it was not delayed."""
+"""A message of the present cycle is published immediately: it was not delayed."""
 
 
 def full_names(contract: Contract) -> frozenset[str]:
@@ -65,7 +65,7 @@ class Graph:
         return self._channels[topic]
 
     def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
-        """Publish a serialized message when it is due, where somebody hears it or may hear it later."""
+        """Publish a serialized message at its time, where somebody hears it or may hear it later."""
         if channel == self._clock:
             self.tick(publish_ns)
         elif channel in self._heard or channel in self._latched:

@@ -1,6 +1,6 @@
 """The actions that a task under test is a client of: served by the cell that is played, with goals of its own clients.
 
-A goal of a controller is sent to it as it came. A goal of the planner is planned, then sent to the controller of its
+A goal of a controller is sent to it unchanged. A goal of the planner is planned, then sent to the controller of its
 group, as move_group does; codes are those of moveit_msgs/MoveItErrorCodes.
 """
 
@@ -57,9 +57,9 @@ class ServedGoal:
     """A goal of a client on the graph, from its arrival to its end.
 
     Attributes:
-        end: number that its end is told under.
+        end: number of its end.
         server: node that takes it.
-        accepted: whether it was; None while nobody has answered.
+        accepted: whether it was; None without an answer.
         sent: what a controller executes of it.
         trajectory: that was planned for it.
         cancel_ns: when the client asked to cancel it.
@@ -164,7 +164,7 @@ class ActionServers:
     # -- goals -------------------------------------------------------------------------------------------------------
 
     def _begin(self, number: int, goal: ServedGoal) -> None:
-        """Answer a goal, unless its server answers nobody."""
+        """Answer a goal, unless its server answers no client."""
         self.goals.append(goal)
         self._judge(goal)
         if self._plant.network.answers(goal.server):

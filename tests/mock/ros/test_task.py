@@ -97,7 +97,7 @@ _WRONG = {
     "retries": (
         "stopped_and_resumed",
         "commanded_while_stopped: `/task` sent a goal to `/move_action` while hardware component arm_hardware reports "
-        "protective_stop, and nobody had acknowledged",
+        "protective_stop, and no person had acknowledged",
     ),
     "deaf": ("canceled", "cancel_ignored: `/task` let its goal of `/move_action` execute for 0.3 s more: the move was"),
     "no_look": ("lost_part", "not_stopped: `/task` let its goal of `/move_action` execute for 0.3 s more: lost: joint"),
