@@ -65,13 +65,16 @@ class Graph:
         return self._channels[topic]
 
     def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
-        """Publish a serialized message at its time, where somebody hears it or may hear it later."""
+        """Publish a serialized message, where somebody hears it or may hear it later.
+
+        Args:
+            log_ns: when it arrives, where it was delayed on its way.
+        """
         if channel == self._clock:
             self.tick(publish_ns)
         elif channel in self._heard or channel in self._latched:
-            due_ns = publish_ns if log_ns is None else log_ns
-            if due_ns > self._simulation.now_ns + _SOON_NS:
-                self._simulation.at_background(due_ns, partial(self._bridge.publish, channel, data))
+            if log_ns is not None and log_ns > self._simulation.now_ns + _SOON_NS:
+                self._simulation.at_background(log_ns, partial(self._bridge.publish, channel, data))
             else:
                 self._bridge.publish(channel, data)
 
