@@ -34,10 +34,10 @@ from cellc.mock.result import RehearsalResult, RunFailure, StageEvidence
 from cellc.mock.snapshot import SnapshotMemory, has_same_bring_up
 from cellc.mock.task.context import TaskContext
 from cellc.mock.task.mass import findings
-from cellc.mock.task.task import Task
+from cellc.mock.task.task import EXECUTED, Steps, Task
 
 Watch = Callable[[Plant], None]
-"""Called with the plant before anything runs, so that recorders of evidence can listen from the first cycle on."""
+"""Called with the plant before anything runs: recorders of evidence listen from the first cycle on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +45,10 @@ class _Run:
     """One run of a rehearsal.
 
     Attributes:
-        watch: sees the plant first; it may listen, and must not change anything. It sees another plant where the run
-            is made again.
+        watch: sees the plant first, and another one where the run is made again; it must not change anything.
         reality: where the cell differs from what its folder says.
         snapshots: copies of the cell that the run may begin with; None where it must begin with a cell that is off.
+        steps: what executes the steps of the task.
     """
 
     folder: GeneratedFolder
@@ -58,6 +58,7 @@ class _Run:
     watch: Watch | None
     reality: Reality
     snapshots: SnapshotMemory | None
+    steps: Steps
 
     def result(self) -> RehearsalResult:
         """Run the rehearsal to its named end.
@@ -145,7 +146,7 @@ class _Run:
                 injection.schedule(ports, start_ns)
         disturbed = partial(any_started, injections)
         deadline_ns = start_ns + round(rehearsal.timeout_s * 1e9)
-        task = Task(rehearsal, TaskContext(plant, deadline_ns, self.seed, disturbed, may_oversleep))
+        task = Task(rehearsal, TaskContext(plant, deadline_ns, self.seed, disturbed, may_oversleep), self.steps)
         plant.simulation.run_process(task.run())
         absent = tuple(injection.describe_absence() for injection in injections if injection.start_ns is None)
         return RehearsalResult(
@@ -313,19 +314,21 @@ class MockCell:
         watch: Watch | None = None,
         reality: Reality | None = None,
         from_off: bool = True,
+        steps: Steps = EXECUTED,
     ) -> RehearsalResult:
         """Run a rehearsal that need not stand in the folder; ``watch`` sees the plant before anything runs.
 
         Args:
             from_off: bring the cell up where ``watch`` is given, so that it sees that too, and run once; else a copy
                 may do, and a run that is made again, whose plant ``watch`` sees last.
+            steps: what executes the steps of the task.
 
         Raises:
             MockError: it names what the contract does not have.
         """
         known = self._realities.get(entry.name, AS_STATED) if reality is None else reality
         snapshots = None if from_off and watch is not None else self._snapshots
-        return _Run(self._folder, self._memory, entry, seed, watch, known, snapshots).result()
+        return _Run(self._folder, self._memory, entry, seed, watch, known, snapshots, steps).result()
 
 
 def load(folder: Path, *, edited: bool = False, stage: str = "", physics: bool = False) -> MockCell:

@@ -157,6 +157,39 @@ class Bridge:
         """
         self._opened({"ask": "subscribe", "channel": channel, "node": node, "topic": topic, "kind": kind}, qos)
 
+    def open_action(self, channel: int, node: str, action: str, kind: str) -> None:
+        """Offer an action of a node; goals and requests to cancel are taken under the number of the channel.
+
+        Raises:
+            MockError: its type is not installed.
+        """
+        asked = {"ask": "act", "channel": channel, "node": node, "action": action, "kind": kind}
+        answer = self._ask(asked, may_fail=True)
+        if "error" in answer:
+            raise MockError("", f"`{action}` of type `{kind}` cannot be offered: {answer['error']}")
+
+    def answer(self, number: int, value: object) -> None:
+        """Answer what was asked under a number: whether a goal or a cancel is accepted, or a response."""
+        self._ask({"ask": "answer", "number": number, "value": value})
+
+    def end_goal(self, end: int, status: int, result: Mapping[str, object]) -> None:
+        """End an accepted goal, by a state of action_msgs/msg/GoalStatus and the fields of its result."""
+        self.answer(end, {"status": status, "result": result})
+
+    def feed_back(self, end: int, kind: str, values: Mapping[str, object]) -> None:
+        """Publish feedback of a goal of an action of a type."""
+        self._ask({"ask": "feedback", "end": end, "kind": kind, "values": values})
+
+    def settle(self, node: str, within_s: float) -> str:
+        """Wait until a node has handled what was published so far; return why it has not, or nothing."""
+        asked = {"ask": "settle", "node": node, "within_s": within_s}
+        return str(self._ask(asked, 2.0 * within_s + _ANSWER_S, may_fail=True).get("error", ""))
+
+    def trigger(self, service: str, within_s: float) -> str:
+        """Call a std_srvs/srv/Trigger; return why it was not answered, or nothing."""
+        asked = {"ask": "trigger", "service": service, "within_s": within_s}
+        return str(self._ask(asked, within_s + _ANSWER_S, may_fail=True).get("error", ""))
+
     def start(self, command: Sequence[str]) -> None:
         """Start a command in the ROS environment; it ends with the bridge.
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from functools import partial
 
 from cellc.contract.contract import Contract
 from cellc.contract.entities import Qos
 from cellc.mock.clocks import Clock
+from cellc.mock.engine.simulation import Simulation
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.topics import CLOCK_TOPIC
@@ -17,6 +19,8 @@ MOCK = "/cellc_mock"
 _OF_BAGS = "/cellc/"
 """Topics below it exist in bags alone: a real cell does not have them."""
 _LEFT_OUT = -1
+_SOON_NS = 2_000_000
+"""A message of the present cycle is published immediately: it was not delayed."""
 
 
 def full_names(contract: Contract) -> frozenset[str]:
@@ -29,13 +33,16 @@ def full_names(contract: Contract) -> frozenset[str]:
 class Graph:
     """Publishes what the played nodes do; what nodes under test publish is left to them."""
 
-    def __init__(self, bridge: Bridge, contract: Contract, tested: Collection[str], clock: Clock) -> None:
+    def __init__(
+        self, bridge: Bridge, contract: Contract, tested: Collection[str], clock: Clock, simulation: Simulation
+    ) -> None:
         """Bind the graph.
 
         Args:
             tested: full names of the nodes that are not played.
             clock: that they read, with its error; `/clock` has it.
         """
+        self._simulation = simulation
         self._time = clock
         self._bridge = bridge
         self._contract = contract
@@ -58,16 +65,29 @@ class Graph:
         return self._channels[topic]
 
     def write(self, channel: int, data: bytes, publish_ns: int, log_ns: int | None = None) -> None:
-        """Publish a serialized message now, where somebody hears it or may hear it later."""
+        """Publish a serialized message, where somebody hears it or may hear it later.
+
+        Args:
+            log_ns: when it arrives, where it was delayed on its way.
+        """
         if channel == self._clock:
             self.tick(publish_ns)
         elif channel in self._heard or channel in self._latched:
-            self._bridge.publish(channel, data)
+            if log_ns is not None and log_ns > self._simulation.now_ns + _SOON_NS:
+                self._simulation.at_background(log_ns, partial(self._bridge.publish, channel, data))
+            else:
+                self._bridge.publish(channel, data)
 
     def subscribe(self, topic: str, kind: str, qos: Qos) -> int:
         """Return the channel of what arrives on a topic."""
         channel = self._channels[f"{topic} in"] = len(self._channels)
         self._bridge.open_subscription(channel, MOCK, topic, kind, qos)
+        return channel
+
+    def act(self, node: str, action: str, kind: str) -> int:
+        """Return the channel of goals that arrive for an action, which a node offers from now on."""
+        channel = self._channels[action] = len(self._channels)
+        self._bridge.open_action(channel, node, action, kind)
         return channel
 
     def look(self) -> None:

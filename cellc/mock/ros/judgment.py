@@ -18,6 +18,16 @@ class Violation(Term):
     SECOND_PUBLISHER = "second_publisher"
     MALFORMED = "malformed_message"
     ENDED = "node_ended"
+    BLOCKED = "blocked"
+    INVALID_GOAL = "invalid_goal"
+    GOAL_OUTSIDE_LIMITS = "goal_outside_limits"
+    GOAL_ELSEWHERE = "goal_elsewhere"
+    UNEXPECTED_GOAL = "unexpected_goal"
+    COMMANDED_ON_STALE_STATE = "commanded_on_stale_state"
+    COMMANDED_WHILE_STOPPED = "commanded_while_stopped"
+    COMMANDED_AFTER_CANCEL = "commanded_after_cancel"
+    CANCEL_IGNORED = "cancel_ignored"
+    NOT_STOPPED = "not_stopped"
 
 
 @dataclass(slots=True)

@@ -18,10 +18,11 @@ from cellc.mock.evidence.topics import transforms_topic
 from cellc.mock.nodes.observations import pose_interface
 from cellc.mock.nodes.perception import DEFAULT_RATE_HZ, Image, ObjectPose, Perception
 from cellc.mock.plant import Plant
+from cellc.mock.ros.arrivals import Arrivals
 from cellc.mock.ros.asked import Timing
-from cellc.mock.ros.bridge import Bridge, Received
+from cellc.mock.ros.bridge import Received
 from cellc.mock.ros.graph import Graph
-from cellc.mock.ros.incoming import MalformedMessageError, StampedPose, pose_stamped, transforms
+from cellc.mock.ros.incoming import StampedPose, pose_stamped, transforms
 from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.tf.sources import DeferredPose
 
@@ -70,7 +71,7 @@ class PerceptionUnderTest:
         node: str,
         plant: Plant,
         graph: Graph,
-        bridge: Bridge,
+        arrivals: Arrivals,
         bag: RunBag,
         photographer: Photographer,
         judgment: Judgment,
@@ -78,7 +79,7 @@ class PerceptionUnderTest:
     ) -> None:
         """Take the place of a node of the contract in a plant in which nothing has run yet."""
         self.answers = 0
-        self._node, self._plant, self._graph, self._bridge = node, plant, graph, bridge
+        self._node, self._plant, self._graph, self._arrivals = node, plant, graph, arrivals
         self._bag, self._photographer, self._judgment, self._timing = bag, photographer, judgment, timing
         self._sent: OrderedDict[int, Shot] = OrderedDict()
         """Images by their stamps."""
@@ -97,28 +98,14 @@ class PerceptionUnderTest:
         self._max_age_ns = None if interface.max_age_s is None else round(interface.max_age_s * 1e9)
         self._channels = {self._poses_of(each): each for each in self._observed if each.topic}
         self._tf = graph.subscribe("/tf", messages.TF_MESSAGE, transforms_topic(plant.contract).qos)
+        arrivals.go_to(node, self.take)
         self._observed[0].perception.leave_to(self._see, takes_time=timing.pace is None)
         for each in self._observed[1:]:
             each.perception.leave_to(lambda _: None, takes_time=timing.pace is None)
 
-    @property
-    def needs(self) -> tuple[tuple[str, bool], ...]:
-        """The topics that the node must be on before a run, each with whether it publishes it."""
-        return ((self._image_topic, False), *((each.topic, True) for each in self._observed if each.topic))
-
-    def hear(self, within_s: float = 0.0) -> Received | None:
-        """Take what has arrived, and return it; None where nothing arrives in time."""
-        received = self._bridge.take(within_s)
-        if received is not None:
-            try:
-                self._take(received)
-            except MalformedMessageError as error:
-                self._judgment.note(Violation.MALFORMED, self._node, f"`{self._node}` sent {error}")
-        return received
-
     def end(self) -> None:
         """Hear what is still on its way, and show the last image once more when it is too old to be used."""
-        while self.hear(_GRACE_S) is not None:
+        while self._arrivals.hear(_GRACE_S) is not None:
             pass
         if not self._sent or self._max_age_ns is None:
             return
@@ -131,7 +118,7 @@ class PerceptionUnderTest:
         self._too_old = True
         for topic in filter(self._graph.is_heard, self._topics):
             self._bag.image(topic, self._photographer.message(topic, shot), late_ns)
-        while self.hear(_PROBE_S) is not None:
+        while self._arrivals.hear(_PROBE_S) is not None:
             pass
 
     def _frames(self) -> list[Observed]:
@@ -184,14 +171,19 @@ class PerceptionUnderTest:
         """Let the host's time pass until an image is answered, if it must be, or may be."""
         must = fresh and self._silent < _SILENT and (self._prompt or late)
         until_s = monotonic() + (self._timing.patience_s if must else _GRACE_S)
-        while (left_s := until_s - monotonic()) > 0.0 and self.hear(left_s) is not None:
+        while (left_s := until_s - monotonic()) > 0.0 and self._arrivals.hear(left_s) is not None:
             if self.answers and self._newest_ns is not None and self._newest_ns >= stamp_ns:
                 self._prompt, self._silent = True, 0
                 return
         self._prompt = self._prompt and not fresh
         self._silent += must
 
-    def _take(self, received: Received) -> None:
+    def take(self, received: Received) -> bool:
+        """Take a message, where it is one of this node.
+
+        Raises:
+            MalformedMessageError: it cannot be read.
+        """
         if received.channel == self._tf:
             for each in transforms(received.data):
                 self._transform(each)
@@ -201,6 +193,9 @@ class PerceptionUnderTest:
             if self._sound(observed.topic, observed, stamped):
                 self._note_stamp(observed.topic, stamped.stamp_ns)
                 self._answer(observed, stamped)
+        else:
+            return False
+        return True
 
     def _answer(self, observed: Observed, stamped: StampedPose) -> None:
         self.answers += 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shlex
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from time import monotonic, sleep
@@ -14,20 +14,25 @@ from cellc.contract.contract import Contract
 from cellc.contract.faults import FaultKind
 from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
+from cellc.mock.bus.qos import task_node
 from cellc.mock.cell import MockCell, Watch
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.errors import MockError
+from cellc.mock.evidence.bag.messages import TF_MESSAGE
 from cellc.mock.evidence.images.photographer import Photographer
 from cellc.mock.evidence.listener import RunListener
 from cellc.mock.evidence.run_bag import RunBag
 from cellc.mock.evidence.run_trace import RunTrace
 from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult
+from cellc.mock.ros.arrivals import Arrivals
 from cellc.mock.ros.asked import AmongNodes
 from cellc.mock.ros.bridge import Bridge, GraphEnd
 from cellc.mock.ros.graph import Graph, refuse_others
 from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.ros.perception import PerceptionUnderTest
+from cellc.mock.ros.task import TaskUnderTest, can_be_left_out, not_followed
+from cellc.mock.task.task import EXECUTED
 
 _DISCOVERY_S = 1.0
 """Of the host: how long who else is there is looked for, before anything is published."""
@@ -60,8 +65,7 @@ def tested_nodes(contract: Contract, without: Sequence[str]) -> dict[str, str]:
     """
     ends = [end for each in contract.interfaces.values() for end in (*each.sources, *each.sinks)]
     known = {end.node: end.full_name for end in ends}
-    observers = {frame.authority for frame in contract.frames.values() if frame.simulated_parent is not None}
-    able = sorted(observers & set(known))
+    able = sorted((_observers(contract) | _tasks(contract)) & set(known))
     for name in without:
         if name not in able:
             what = "is played by the mock alone" if name in known else "is no node of the contract"
@@ -70,16 +74,47 @@ def tested_nodes(contract: Contract, without: Sequence[str]) -> dict[str, str]:
     return {name: known[name] for name in without}
 
 
+def _needs(contract: Contract, node: str) -> Iterator[tuple[str, bool]]:
+    """Yield the topics that a node must be on before a run, each with whether it publishes it.
+
+    Transforms are not among them: a listener of tf2 may have a node of its own.
+    """
+    for name, interface in contract.interfaces.items():
+        if interface.kind == "topic" and interface.type != TF_MESSAGE:
+            if any(end.node == node for end in interface.sinks):
+                yield name, False
+            if any(end.node == node for end in interface.sources):
+                yield name, True
+
+
+def _observers(contract: Contract) -> set[str]:
+    return {frame.authority for frame in contract.frames.values() if frame.simulated_parent is not None}
+
+
+def _tasks(contract: Contract) -> set[str]:
+    """Return the task, where the mock serves all that it asks for."""
+    task = task_node(contract)
+    return {task} if can_be_left_out(contract, task) else set()
+
+
+_NOT_ON_THE_GRAPH = (FaultKind.MISMATCH_QOS, FaultKind.UNREACHABLE, FaultKind.DOUBLE_FRAME)
+"""Faults of the played task alone: what it requests, where it has its goals, and what reaches its listener."""
+
+
 def concerns(contract: Contract, without: Collection[str], fault: FaultEntry) -> bool:
-    """Tell whether nodes under test can see a fault: in their images, topics, transforms and clocks, or of a part."""
+    """Tell whether nodes under test can see a fault.
+
+    An observer sees those in its images, topics, transforms and clocks, or of a part; a task all that are on the graph.
+    """
     cameras = {device: facts.camera.topic for device, facts in contract.devices.items() if facts.camera is not None}
     interface = contract.interfaces.get(cameras.get(fault.target, fault.target))
     ends = () if interface is None else (*interface.sources, *interface.sinks)
-    return (
-        any(end.node in without for end in ends)
-        or fault.target in contract.frames
-        or fault.kind is FaultKind.JUMP_CLOCK
-    )
+    task = task_node(contract)
+    if task in without and fault.kind not in _NOT_ON_THE_GRAPH:
+        return True
+    observers = set(without) - {task}
+    seen = fault.target in contract.frames or fault.kind is FaultKind.JUMP_CLOCK
+    return any(end.node in observers for end in ends) or (bool(observers) and seen)
 
 
 def rehearse_among(
@@ -95,14 +130,18 @@ def rehearse_among(
             or the nodes do not appear.
     """
     tested, environment = tested_nodes(cell.contract, asked.without), _environment(asked)
+    if task_node(cell.contract) in tested and (step := not_followed(entry.steps)):
+        raise MockError(
+            "", f"step `{step}` of `{entry.name}` cannot be followed from outside: only the mock's task has it"
+        )
     with Bridge(asked.interpreter, environment) as bridge:
         _require_distro(bridge, cell.contract)
         sleep(_DISCOVERY_S)
         refuse_others(bridge, cell.contract, tested.values())
         around = _Around(cell, bridge, tested, asked)
         if asked.launch:
-            bridge.start(_words(asked.launch))
-        result = cell.rehearse(entry, seed=seed, watch=partial(_both, watch, around.begin))
+            bridge.start(_words(asked.launch.replace("{rehearsal}", entry.name)))
+        result = cell.rehearse(entry, seed=seed, watch=partial(_both, watch, around.begin), steps=around.steps)
         around.end()
     return Judged(replace(result, violations=around.judgment.lines()), tuple(around.notes))
 
@@ -174,6 +213,14 @@ class _Around:
         self.judgment = Judgment()
         self.notes: list[str] = []
         self._cell, self._bridge, self._tested, self._asked = cell, bridge, tested, asked
+        self._arrivals = Arrivals(bridge, self.judgment)
+        self._plant: Plant | None = None
+        self._graph: Graph | None = None
+        self._task: TaskUnderTest | None = None
+        name = task_node(cell.contract)
+        if name in tested:
+            self._task = TaskUnderTest(name, tested[name], bridge, self._arrivals, self.judgment, asked.timing)
+        self.steps = EXECUTED if self._task is None else self._task.steps
         self._listener: RunListener | None = None
         self._pacer: _Pacer | None = None
         self._nodes: list[PerceptionUnderTest] = []
@@ -185,35 +232,45 @@ class _Around:
             MockError: a node does not appear, or is not on the topics that the contract has it on.
         """
         plant.simulation.run_process(_idle(_IDLE_NS))
+        self._plant = plant
         clock = plant.clocks.of(next(iter(self._tested)))
-        graph = Graph(self._bridge, plant.contract, self._tested.values(), clock)
+        graph = Graph(self._bridge, plant.contract, self._tested.values(), clock, plant.simulation)
         plant.simulation.heard_outside = True
+        self._graph = graph
         bag = RunBag(graph, plant)
         bag.begin(self._cell.folder.urdf)
         photographer = Photographer(plant, self._cell.folder.description, self._cell.folder.mesh_roots)
         bag.images(photographer.topics())
         self._listener = RunListener(plant, bag, RunTrace(plant))
         self._nodes = [
-            PerceptionUnderTest(name, plant, graph, self._bridge, bag, photographer, self.judgment, self._asked.timing)
+            PerceptionUnderTest(
+                name, plant, graph, self._arrivals, bag, photographer, self.judgment, self._asked.timing
+            )
             for name in self._tested
+            if name in _observers(plant.contract)
         ]
+        if self._task is not None:
+            self._task.begin(plant, graph)
         graph.tick(plant.now_ns)
-        for (name, full), node in zip(self._tested.items(), self._nodes, strict=True):
+        for name, full in self._tested.items():
             self._await_node(full)
             self._bring_up(plant, full)
-            for topic, publishes in node.needs:
+            for topic, publishes in _needs(plant.contract, name):
                 self._await_end(plant.contract, name, topic, publishes=publishes)
+        graph.look()
         if self._asked.timing.pace is not None:
             self._keep_pace(plant, _Pacer(self._asked.timing.pace))
 
     def end(self) -> None:
         """Publish what is left, and note who has ended and how the host kept up."""
+        if self._task is not None and self._plant is not None and self._graph is not None:
+            self._task.end(self._plant, self._graph)
         if self._listener is not None:
             self._listener.end()
         for node in self._nodes:
             node.end()
         code = self._bridge.exit_code()
-        if code is not None:
+        if code is not None and (code or self._task is None):  # a task that is done may end
             text = f"`{self._asked.launch}` ended with exit code {code} before the rehearsal did"
             self.judgment.note(Violation.ENDED, self._asked.launch, text)
         if self._pacer is not None and self._pacer.latest_s > _LATE_S:
@@ -270,8 +327,6 @@ class _Around:
 
         def tick(_: int) -> None:
             pacer.keep(plant.now_ns)
-            for node in self._nodes:
-                while node.hear() is not None:
-                    pass
+            self._arrivals.hear_all()
 
         plant.simulation.every(plant.now_ns, _TICK_HZ, tick)

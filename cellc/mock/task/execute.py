@@ -158,7 +158,7 @@ def execute_together(
         for controller, goal in goals.items():
             context.deactivated_ns.pop(controller, None)
             goal_id = yield from _send(context, attempt, controller, goal)
-            sent.append(SentGoal(controller, goal_id, _joints(context.plant, controller), context.now_ns))
+            sent.append(SentGoal(controller, goal_id, joints_of(context.plant, controller), context.now_ns))
             context.node.actions.note_started(controller)
         context.node.milestones.announce("accepted")
         yield from _results(context, kind, sent, timeout_s)
@@ -171,7 +171,7 @@ def execute_together(
         raise
     finally:
         for item in sent:
-            _note_result(context, attempt, item)
+            note_result(context, attempt, item)
             context.node.requests.withdraw_cancel(kind)
             context.node.actions.note_ended(item.controller)
     attempt.controller_name = " and ".join(goals)
@@ -226,12 +226,12 @@ def _results(context: TaskContext, kind: str, sent: Sequence[SentGoal], timeout_
         given_up_ns = min((lost_ns + RESULT_GRACE_NS for lost_ns in lost), default=until_ns)
         if context.now_ns >= given_up_ns:
             raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{names} was deactivated while its goal was executing")
-        look_ns = min(_look_for_motion(context, goal) for goal in waiting)
+        look_ns = min(look_for_motion(context, goal) for goal in waiting)
         signals = (context.node.requests.changed, context.node.actions.changed)
         yield from context.pause(min(until_ns, given_up_ns, look_ns), *signals)
 
 
-def _look_for_motion(context: TaskContext, goal: SentGoal) -> int:
+def look_for_motion(context: TaskContext, goal: SentGoal) -> int:
     """Announce the first motion of a goal where somebody waits for it; return when to look again."""
     if not context.node.milestones.is_expected("moving"):
         return context.deadline_ns
@@ -240,7 +240,7 @@ def _look_for_motion(context: TaskContext, goal: SentGoal) -> int:
     return context.now_ns + context.control.server_of(goal.controller).period_ns
 
 
-def _note_result(context: TaskContext, attempt: Attempt, goal: SentGoal) -> None:
+def note_result(context: TaskContext, attempt: Attempt, goal: SentGoal) -> None:
     driven_ns = _driven_ns(context.plant, goal.joints, goal.sent_ns)
     if driven_ns is not None:
         attempt.mark(PacketStep.DRIVEN, driven_ns)
@@ -270,7 +270,7 @@ def _driven_ns(plant: Plant, joints: tuple[str, ...], since_ns: int) -> int | No
     return min(durations) if durations else None
 
 
-def _joints(plant: Plant, controller: str) -> tuple[str, ...]:
+def joints_of(plant: Plant, controller: str) -> tuple[str, ...]:
     if controller in plant.contract.adapters:
         return plant.contract.adapters[controller].joints
     for manager in plant.contract.managers.values():

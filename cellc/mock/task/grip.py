@@ -12,6 +12,7 @@ from cellc.mock.engine.process import Waiting
 from cellc.mock.task.bounds import grip_timeout_s
 from cellc.mock.task.context import Attempt, AttemptError, CurrentState, TaskContext
 from cellc.mock.task.execute import execute, require_success
+from cellc.mock.task.fingers import body_of, release, take, tip_link
 from cellc.mock.task.move import state_since
 
 ARRIVAL_SHARE = 0.05
@@ -31,12 +32,12 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str, part
     if facts is None or facts.controller is None:
         raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller drives gripper {device}")
     closes, parts = command == "close", context.plant.parts
-    between = parts.between(device, tip_link(context, device), context.now_ns) if closes else None
+    between = parts.between(device, tip_link(context.plant, device), context.now_ns) if closes else None
     if between is not None:
         parts.stop_fingers(device, between)
     if not closes:
         context.bands.pop(device, None)
-        parts.measure(device, _body(context, device), context.now_ns)
+        parts.measure(device, body_of(context.plant, device), context.now_ns)
     target = facts.closed if closes else facts.open
     goal = _goal(context, facts, target)
     timeout_s = grip_timeout_s(context.contract, facts.controller)
@@ -45,18 +46,19 @@ def grip(context: TaskContext, attempt: Attempt, device: str, command: str, part
     state = yield from state_since(context, ended.decided_ns)
     context.plant.loads.hold(device, holds=closes)
     if between is not None:
-        take(context, device, between)
+        take(context.plant, device, between)
+        context.acting_on = None
     grasp, band = parts.grasp(part), parts.band(part, device)
     if closes and band is not None:
-        _require_part(state, facts, band)
+        require_part(state, facts, band)
         context.bands[device] = band
     elif not closes or grasp is None or grasp.width_m is None:
-        _require_arrival(state, facts, target)
+        require_arrival(state, facts, target)
     if not closes:
-        release(context, device)
+        release(context.plant, device)
 
 
-def _require_part(state: CurrentState, facts: ContractGripper, band: ContractBand) -> None:
+def require_part(state: CurrentState, facts: ContractGripper, band: ContractBand) -> None:
     """Raise AttemptError where closed fingers are elsewhere than with a right part between them."""
     position = state.positions.get(band.joint, math.nan)
     if band.lower <= position <= band.upper:
@@ -70,7 +72,7 @@ def _require_part(state: CurrentState, facts: ContractGripper, band: ContractBan
     raise AttemptError(AttemptOutcome.GRIP_FAILURE, f"{reason}: {found}")
 
 
-def _require_arrival(state: CurrentState, facts: ContractGripper, expected: float) -> None:
+def require_arrival(state: CurrentState, facts: ContractGripper, expected: float) -> None:
     """Raise AttemptError where the fingers are elsewhere: a controller may call any stall a success."""
     allowed = ARRIVAL_SHARE * abs(facts.closed - facts.open)
     position = state.positions.get(facts.joint, math.nan)
@@ -86,62 +88,3 @@ def _goal(context: TaskContext, facts: ContractGripper, position: float) -> Grip
         if controller is not None and controller.behavior is Behavior.POSITION_GRIPPER:
             return GripperGoal(position=(position,), effort=(facts.max_effort,))
     return GripperGoal(position=(position,), joint_names=(facts.joint,))
-
-
-def tip_link(context: TaskContext, device: str) -> str | None:
-    """Return the tip frame of the group whose chain goes through the gripper."""
-    contract = context.contract
-    root = _body(context, device)
-    for group in contract.groups.values():
-        frame = group.tip_frame
-        for _ in range(len(contract.frames) + 1):
-            if frame == root:
-                return group.tip_frame
-            if frame not in contract.frames:
-                break
-            frame = contract.frames[frame].parent
-    return None
-
-
-def _body(context: TaskContext, device: str) -> str:
-    """Return the link that carries what is held: the one in which fingers move, which in an arm is not its base."""
-    facts = context.contract.devices[device]
-    fingers = None if facts.gripper is None else context.plant.world.carrier_of(facts.gripper.joint)
-    return fingers or facts.root_link
-
-
-def take(context: TaskContext, device: str, name: str) -> None:
-    """Let a device hold an object from now on."""
-    plant = context.plant
-    link = _body(context, device)
-    pose_in_link = plant.world.move(name, link, plant.now_ns)
-    plant.planner.attach(_shape(context, name), link, pose_in_link, plant.world.joint_positions(plant.now_ns))
-    plant.parts.take(device, name, plant.now_ns, pose_in_link.position)
-    context.acting_on = None
-
-
-def _shape(context: TaskContext, name: str) -> str:
-    """Return what planning calls a part: one that lies at a fixed frame is not the link that the frame is."""
-    frame = context.contract.frames.get(name)
-    return name if frame is None or frame.kind == "dynamic" else f"part at {name}"
-
-
-def release(context: TaskContext, device: str) -> None:
-    """Let go of what a device holds: it stays where it is, if something is below it.
-
-    Raises:
-        AttemptError: grip_failure, where it falls, or has slipped and is not where it should be.
-    """
-    plant = context.plant
-    name = plant.parts.let_go(device)
-    if name is None:
-        return
-    plant.world.move(name, context.contract.root_frame, plant.now_ns)
-    plant.planner.detach(_shape(context, name))
-    grasp, slipped_m = plant.parts.grasp(name), plant.parts.slipped_m.get(name, 0.0)
-    if not plant.parts.lies(name, tip_link(context, device), plant.now_ns):
-        plant.parts.fall(name, plant.now_ns)
-        raise AttemptError(AttemptOutcome.GRIP_FAILURE, f"dropped: {name} was released where no goal puts it")
-    if grasp is not None and abs(slipped_m) > (grasp.tolerance_m or 0.0):
-        text = f"slipped: {name} lies {abs(slipped_m) * 1e3:.3g} mm from where {device} gripped it"
-        raise AttemptError(AttemptOutcome.GRIP_FAILURE, text)

@@ -202,10 +202,10 @@ def _move_to_goal(context: TaskContext, attempt: Attempt, name: str) -> Waiting[
         stamp_ns = context.observed[located.observed_frame]
         check_observation(context, located.observed_frame, stamp_ns, allowance_s=PLANNING_LATENCY_S)
     yield from _drive(context, attempt, {group: motion}, located.observed_frame)
-    _note_arrival(context, name, attempt.tf_lookup_age)
+    note_arrival(context, name, attempt.tf_lookup_age)
 
 
-def _note_arrival(context: TaskContext, name: str, transform_age_s: float | None) -> None:
+def note_arrival(context: TaskContext, name: str, transform_age_s: float | None) -> None:
     """Note how far the tip really is from where the goal really is, which no node of the cell knows."""
     plant, goal = context.plant, context.contract.goals[name]
     place = _really(plant, goal.frame)
@@ -277,7 +277,7 @@ def _drive(
         if controller is None:
             raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller moves group {group}")
         context.retreats.pop(group, None)
-        goals[controller] = _trajectory_goal(motion.trajectory)
+        goals[controller] = trajectory_goal(motion.trajectory)
         timeout_s = max(timeout_s, _timeout_s(context, controller, motion.trajectory.duration_ns * 1e-9))
     context.acting_on = observed_frame
     for ended in (yield from execute_together(context, attempt, "move", goals, timeout_s)):
@@ -298,7 +298,7 @@ def _require_arrival(state: CurrentState, trajectory: TimedTrajectory) -> None:
             raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, text)
 
 
-def _trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:
+def trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:
     """Return the goal without its first point, which is where the robot is already."""
     points = trajectory.points[1:] or trajectory.points
     return TrajectoryGoal(

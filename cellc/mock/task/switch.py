@@ -8,7 +8,7 @@ from cellc.contract.devices import ContractSwitched
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.engine.process import Waiting
 from cellc.mock.task.context import AttemptError, TaskContext
-from cellc.mock.task.grip import release, take, tip_link
+from cellc.mock.task.fingers import release, take, tip_link
 
 _LOOK_NS = 10_000_000
 """The client looks at the inputs a hundred times a second."""
@@ -27,7 +27,7 @@ def switch(context: TaskContext, device: str, state: str) -> Waiting[None]:
     arrives_ns = plant.switches.set(device, state, plant.now_ns)
     if held and state != facts.holds:
         plant.loads.hold(device, holds=False)
-        release(context, device)
+        release(plant, device)
     elif state == facts.holds:
         plant.simulation.at(arrives_ns, partial(_close, context, device, state))
     yield from ()  # the step does not wait
@@ -38,9 +38,10 @@ def _close(context: TaskContext, device: str, state: str) -> None:
     if context.plant.switches.state(device, context.now_ns) != state:
         return
     context.plant.loads.hold(device, holds=True)
-    between = context.plant.parts.between(device, tip_link(context, device), context.now_ns)
+    between = context.plant.parts.between(device, tip_link(context.plant, device), context.now_ns)
     if between is not None:
-        take(context, device, between)
+        take(context.plant, device, between)
+        context.acting_on = None
 
 
 def sense(context: TaskContext, device: str, state: str) -> Waiting[None]:

@@ -117,7 +117,10 @@ def _activate(plant: Plant) -> Waiting[tuple[str, ...]]:
     return problems
 
 
-EXECUTED: Mapping[StepKind, Callable[[TaskContext, Attempt, StepEntry], Waiting[None]]] = {
+Steps = Mapping[StepKind, Callable[[TaskContext, Attempt, StepEntry], Waiting[None]]]
+"""What executes, or follows, each kind of step."""
+
+EXECUTED: Steps = {
     StepKind.MOVE: lambda context, attempt, step: move(
         context, attempt, step.target, together=step.command == "together"
     ),
@@ -142,8 +145,9 @@ class Task:
         outcome: of the failure that ended the rehearsal, or succeeded: a stop that was acknowledged is in the records.
     """
 
-    def __init__(self, rehearsal: RehearsalEntry, context: TaskContext) -> None:
+    def __init__(self, rehearsal: RehearsalEntry, context: TaskContext, steps: Steps = EXECUTED) -> None:
         """Bind the task; ``context.deadline_ns`` is the bound of the whole rehearsal."""
+        self._steps = steps
         contract = context.contract
         self.records: list[AttemptRecord] = []
         self.outcome = AttemptOutcome.SUCCEEDED
@@ -185,7 +189,7 @@ class Task:
             return
         if step.kind is not StepKind.ACKNOWLEDGE:
             self._context.check_cell()
-        yield from EXECUTED[step.kind](self._context, attempt, step)
+        yield from self._steps[step.kind](self._context, attempt, step)
 
     def _is_acknowledged_after(self, number: int) -> bool:
         later = self._rehearsal.steps[number:]

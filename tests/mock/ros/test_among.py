@@ -149,8 +149,8 @@ def test_a_command_that_ends_is_told(cell: MockCell, monkeypatch: pytest.MonkeyP
 @pytest.mark.parametrize(
     ("name", "text"),
     [
-        ("nobody", "`nobody` is no node of the contract; nodes that can be left out: `perception`"),
-        ("move_group", "`move_group` is played by the mock alone; nodes that can be left out: `perception`"),
+        ("nobody", "`nobody` is no node of the contract; nodes that can be left out: `perception`, `task`"),
+        ("move_group", "`move_group` is played by the mock alone; nodes that can be left out: `perception`, `task`"),
     ],
 )
 def test_only_nodes_that_can_be_left_out_are(cell: MockCell, name: str, text: str) -> None:

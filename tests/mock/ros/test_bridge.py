@@ -36,6 +36,8 @@ while True:
         print("the middleware is gone", file=sys.stderr)
         os._exit(3)
     answers = {{"environment": {{"distro": "jazzy"}}, "ended": {{"code": None}}, "heard": {{"error": "it is late"}}}}
+    answers["act"] = {{"error": "no moveit_msgs"}}
+    answers["settle"] = {{"error": f"{{asked.get('node')}} did not answer"}}
     if asked["ask"] == "start":
         answers["start"] = {{"group": subprocess.Popen(asked["command"], start_new_session=True).pid}}
     answer = json.dumps(answers.get(asked["ask"], {{}})).encode()
@@ -74,6 +76,17 @@ def test_messages_come_back_in_order_between_answers(interpreter: str) -> None:
         taken = [bridge.take(1.0) for _ in range(3)]
         assert [(each.channel, each.data) for each in taken if each] == [(0, b""), (1, b"x"), (2, b"xx")]
         assert bridge.take() is None
+
+
+def test_an_action_that_cannot_be_offered_and_a_node_that_is_busy_are_told(interpreter: str) -> None:
+    with Bridge(interpreter, os.environ) as bridge:
+        with pytest.raises(
+            MockError, match="`/move_action` of type `moveit_msgs/action/MoveGroup` cannot be offered: no"
+        ):
+            bridge.open_action(3, "/move_group", "/move_action", "moveit_msgs/action/MoveGroup")
+        assert bridge.settle("/task", 0.1) == "/task did not answer"
+        assert bridge.trigger("/task/cancel", 0.1) == ""
+        bridge.end_goal(7, 4, {"error_code": {"val": 1}})
 
 
 def test_an_end_and_an_error_of_the_other_side_are_told(interpreter: str) -> None:

@@ -5,15 +5,19 @@ length of the rest as uint32, its kind as uint8, and the rest. JSON (kind 0) ask
 number of a channel as uint16, and the message as it is serialized. It ends when the other end of the socket does, and
 ends what it started.
 
-Types are imported by their names from the ROS installation; messages are not read here (rclpy publishes and subscribes
-serialized ones: https://docs.ros.org/en/jazzy/p/rclpy/rclpy.node.html).
+Types are imported by their names from the ROS installation; messages of topics are not read here (rclpy publishes and
+subscribes serialized ones: https://docs.ros.org/en/jazzy/p/rclpy/rclpy.node.html). Goals, results and requests are sent
+as JSON, field by field: their definitions differ between distributions. What asks for an answer has a number, under
+which `answer` gives it.
 """
 
 from __future__ import annotations
 
 import importlib
+import itertools
 import json
 import os
+import re
 import signal
 import socket
 import struct
@@ -21,20 +25,28 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Generator
 from contextlib import suppress
 from typing import Any
 
 import rclpy
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.task import Future
 
 JSON, MESSAGE = 0, 1
 HEAD = struct.Struct("<IB")
 CHANNEL = struct.Struct("<H")
 END_S = 3.0
+RESULT_S = 900
+"""How long a result can be asked for: the default of rcl_action before Kilted."""
+ENDS = {4: "succeed", 5: "canceled", 6: "abort"}
+"""By the states of action_msgs/msg/GoalStatus."""
 
 
 def imported(kind: str) -> Any:
@@ -65,6 +77,41 @@ def full_name(name: str, namespace: str) -> str:
     return f"{namespace.rstrip('/')}/{name}"
 
 
+def plain(value: Any) -> Any:
+    """Return a message as JSON has it: a mapping of its fields."""
+    if hasattr(value, "get_fields_and_field_types"):
+        return {name: plain(getattr(value, name)) for name in value.get_fields_and_field_types()}
+    if isinstance(value, (bytes, bytearray)):
+        return list(value)
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return [plain(each) for each in value] if isinstance(value, (list, tuple)) else value
+
+
+def filled(message: Any, values: dict[str, Any]) -> Any:
+    """Return a message with values in its fields; a field that this distribution does not have is left out."""
+    kinds = message.get_fields_and_field_types()
+    for name, value in values.items():
+        if name not in kinds:
+            continue
+        if isinstance(value, dict):
+            filled(getattr(message, name), value)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            package, element = re.findall(r"(\w+)/(\w+)", kinds[name])[0]
+            made = imported(f"{package}/msg/{element}")
+            setattr(message, name, [filled(made(), each) for each in value])
+        else:
+            setattr(message, name, value)
+    return message
+
+
+class Turn:
+    """Lets other callbacks run once."""
+
+    def __await__(self) -> Generator[None, None, None]:
+        yield
+
+
 class Bridge:
     """The nodes that cellc plays, in one process."""
 
@@ -78,6 +125,11 @@ class Bridge:
         self._nodes: dict[str, Node] = {}
         self._publishers: dict[int, Any] = {}
         self._started: subprocess.Popen[bytes] | None = None
+        self._numbers = itertools.count(1)
+        self._awaited: dict[int, Future] = {}
+        self._requests: dict[int, int] = {}
+        self._handles: dict[int, Any] = {}
+        self._clients: dict[str, Any] = {}
         self._looking = self._node("/cellc_mock")
         threading.Thread(target=self._spin, daemon=True).start()
 
@@ -190,6 +242,100 @@ class Bridge:
         self._node(node).create_subscription(
             imported(kind), topic, lambda data: self._send(MESSAGE, head + bytes(data)), profile(qos), raw=True
         )
+        return {}
+
+    def _tell(self, channel: int, said: dict[str, Any]) -> None:
+        self._send(MESSAGE, CHANNEL.pack(channel) + json.dumps(said).encode())
+
+    def _await(self) -> tuple[int, Future]:
+        number = next(self._numbers)
+        self._awaited[number] = Future(executor=self._executor)
+        return number, self._awaited[number]
+
+    async def _inquire(self, channel: int, said: dict[str, Any]) -> Any:
+        """Send what asks for an answer, and return the answer; other callbacks run meanwhile."""
+        number, answer = self._await()
+        self._tell(channel, {**said, "number": number})
+        return await answer
+
+    def on_answer(self, number: int, value: Any) -> dict[str, Any]:
+        """Take an answer."""
+        self._executor.create_task(self._awaited.pop(number).set_result, value)
+        return {}
+
+    def on_act(self, channel: int, node: str, action: str, kind: str) -> dict[str, Any]:
+        """Offer an action of a node; each goal is asked for, and ends as it is answered under the number of its end."""
+        made = imported(kind)
+
+        async def decide(request: Any) -> GoalResponse:
+            end, _ = self._await()
+            if await self._inquire(channel, {"goal": plain(request), "end": end}):
+                self._requests[id(request)] = end
+                return GoalResponse.ACCEPT
+            self._awaited.pop(end)
+            return GoalResponse.REJECT
+
+        async def execute(handle: Any) -> Any:
+            end = self._requests.pop(id(handle.request))
+            self._handles[end] = handle
+            ended = await self._awaited[end]
+            while ended["status"] == 5 and handle.status == 2:  # the request to cancel is still being answered
+                await Turn()
+            getattr(handle, ENDS[ended["status"]])()
+            del self._handles[end]
+            return filled(made.Result(), ended["result"])
+
+        async def cancel(handle: Any) -> CancelResponse:
+            end = next((end for end, each in self._handles.items() if each is handle), 0)
+            accepted = await self._inquire(channel, {"cancel": end})
+            return CancelResponse.ACCEPT if accepted else CancelResponse.REJECT
+
+        ActionServer(
+            self._node(node),
+            made,
+            action,
+            execute_callback=execute,
+            goal_callback=decide,
+            cancel_callback=cancel,
+            callback_group=ReentrantCallbackGroup(),
+            result_timeout=RESULT_S,
+        )
+        return {}
+
+    def on_feedback(self, end: int, kind: str, values: dict[str, Any]) -> dict[str, Any]:
+        """Publish feedback of a goal that executes."""
+        if end in self._handles:
+            self._handles[end].publish_feedback(filled(imported(kind).Feedback(), values))
+        return {}
+
+    def on_settle(self, node: str, within_s: float) -> dict[str, Any]:
+        """Wait until a node has handled what was published: it answers requests after the messages before them.
+
+        It is asked twice: what it sent before its second answer has arrived here.
+        """
+        for _ in range(2):
+            answer = self._call(f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters", within_s)
+            if "error" in answer:
+                return answer
+        return {}
+
+    def on_trigger(self, service: str, within_s: float) -> dict[str, Any]:
+        """Call a service that has no arguments."""
+        return self._call(service, "std_srvs/srv/Trigger", within_s)
+
+    def _call(self, service: str, kind: str, within_s: float) -> dict[str, Any]:
+        made = imported(kind)
+        if service not in self._clients:
+            self._clients[service] = self._looking.create_client(made, service)
+        client, until = self._clients[service], time.monotonic() + within_s
+        if not client.service_is_ready() and not client.wait_for_service(timeout_sec=within_s):
+            return {"error": f"{service} does not exist"}
+        answered = threading.Event()
+        future = client.call_async(made.Request())
+        future.add_done_callback(lambda _: answered.set())
+        if not answered.wait(max(0.0, until - time.monotonic())):
+            client.remove_pending_request(future)
+            return {"error": f"{service} did not answer within {within_s:g} s"}
         return {}
 
     def on_start(self, command: list[str]) -> dict[str, Any]:
