@@ -16,17 +16,20 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from cellc.contract.compute.cluster import cluster
 from cellc.contract.compute.processes import processes
-from cellc.contract.compute.work import ExecutorFactory
+from cellc.contract.compute.work import Executor, ExecutorFactory, Sent
 from cellc.mock import MockCell, load
 from cellc.mock.cell import cell_of
-from cellc.mock.sweep.sweep import SweepRun, sweep
+from cellc.mock.sweep.runs import GoalRoom, RunStore, SweepRun
+from cellc.mock.sweep.summary import sweep_lines
+from cellc.mock.sweep.sweep import sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 LOOPBACK = "127.0.0.1"
@@ -61,7 +64,7 @@ def measured(cell: MockCell, rehearsal: str, runs: int, factory: ExecutorFactory
         written += len(json.dumps(asdict(run), separators=(",", ":"))) + 1
 
     begun_s = time.perf_counter()
-    sweep(cell, cell.entry(rehearsal), seed=1, most=runs, factory=factory, known={}, keep=keep)
+    sweep(cell, cell.entry(rehearsal), seed=1, most=runs, factory=factory, ends=RunStore(), keep=keep)
     first = runs // 5
     rate_hz = (runs - 1 - first) / (ended_s[-1] - ended_s[first])
     return Measured(rate_hz, time.perf_counter() - begun_s, written / runs)
@@ -97,6 +100,47 @@ def dask(workers: int) -> Iterator[str]:
                 process.wait()
 
 
+@contextmanager
+def invented(_: Sent, __: int) -> Iterator[Executor]:
+    """Give a crew that makes up the ends of runs at once: what is left is what the client of a sweep takes."""
+
+    def submit(numbers: Sequence[int]) -> Future[list[SweepRun]]:
+        ended = Future[list[SweepRun]]()
+        ended.set_result([made_up(number) for number in numbers])
+        return ended
+
+    yield Executor(submit, max_in_flight=8, packet=64)
+
+
+GOALS = ("pick", "place")
+
+
+def made_up(number: int) -> SweepRun:
+    """Return an end of a run at two goals, one in a hundred of which missed."""
+    off_m = (number * 2654435761 % (1 << 32)) / 2**32
+    room = GoalRoom(off_m * 1e-3, 0.1 + off_m, 0.3, None, 0.02)
+    passed = off_m < 0.99
+    ending = "succeeded" if passed else "missed place"
+    return SweepRun(number, ending, passed, dict.fromkeys(GOALS, room), 0.01, f"{number:016x}")
+
+
+def client(folder: Path, rehearsal: str, runs: int) -> None:
+    """Print what the client of a sweep takes, and what its summary does; start it in a process of its own."""
+    cell = endless(folder)
+    begun_s, begun_mb = processor_s(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    swept = sweep(
+        cell, cell.entry(rehearsal), seed=1, most=runs, factory=invented, ends=RunStore(), keep=lambda _: None
+    )
+    gathered_s, gathered_mb = processor_s(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    lines = list(sweep_lines(swept, cell.contract, str))
+    told_s, told_mb = processor_s(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"{runs:,} invented runs of two goals: {len(lines)} lines of summary")
+    print(
+        f"gathered in {gathered_s - begun_s:.0f} s of processor time, {begun_mb:.0f} MB before, {gathered_mb:.0f} after"
+    )
+    print(f"summary in {told_s - gathered_s:.0f} s, at most {told_mb:.0f} MB")
+
+
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -105,8 +149,12 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=400)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--dask", action="store_true", help="workers of a Dask cluster too")
+    parser.add_argument("--invented", type=int, metavar="RUNS", help="measure the client alone, with made-up runs")
     options = parser.parse_args()
     os.chdir(ROOT)
+    if options.invented:
+        client(Path(options.folder), options.rehearsal, options.invented)
+        return
     cell, few = endless(Path(options.folder)), max(10, options.runs // 10)
     before_s = processor_s()
     measured(cell, options.rehearsal, few, processes(options.jobs))

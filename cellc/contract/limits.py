@@ -128,7 +128,7 @@ class Limits:
     mock_stop_cycles: int = _fixed(20_000, "cycles", "update cycles that a stop of a trajectory takes")
     message_bytes: int = _fixed(16 * MIB, "bytes", "one message of an editor to the language server")
     open_documents: int = _fixed(1000, "documents", "documents that an editor has open with the language server")
-    sweep_runs: int = _fixed(1_000_000, "runs", "runs of a sweep, each of which is kept with about 1 kB")
+    sweep_runs: int = _fixed(10_000_000, "runs", "runs of a sweep, each of which is kept with about 100 bytes")
 
 
 class BudgetError(CellcError):

@@ -15,7 +15,6 @@ from collections import Counter, deque
 from collections.abc import Callable, Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
 from contextlib import AbstractContextManager
-from itertools import islice
 from typing import Any, Generic, TypeVar
 
 from cellc.contract.errors import CellcError
@@ -93,17 +92,17 @@ def stream(
     Raises:
         ComputeError: no worker can do a unit, or none is within reach. What a unit raises is raised too.
     """
-    sent, deaths, owed = Sent.of(work), Counter[int](), deque(range(len(units)))
+    sent, deaths, owed = Sent.of(work), Counter[int](), _Owed(len(units))
     while owed:
-        alone = [number for number in owed if deaths[number] == MOST_DEATHS - 1]
-        batches = [deque([number]) for number in alone] or [owed]
+        alone = [number for number in owed.returned if deaths[number] == MOST_DEATHS - 1]
+        batches = [_Owed.only(number) for number in alone] or [owed]
         for batch in batches:
             if alone:
-                owed.remove(batch[0])
+                owed.returned.remove(batch.returned[0])
             with factory(sent, len(batch)) as executor:
                 lost: tuple[int, ...] = yield from _deal(units, batch, executor)
             deaths.update(lost)
-            owed.extendleft(reversed(lost))
+            owed.returned.extendleft(reversed(lost))
             failed = next((number for number in lost if deaths[number] == MOST_DEATHS), None)
             if failed is not None:
                 raise ComputeError(
@@ -111,18 +110,40 @@ def stream(
                 )
 
 
+class _Owed:
+    """Units to do: those that were lost first, and then the rest, of which only the next number is kept."""
+
+    def __init__(self, number: int) -> None:
+        self.returned = deque[int]()
+        self._rest = range(number)
+
+    @classmethod
+    def only(cls, number: int) -> _Owed:
+        owed = cls(0)
+        owed.returned.append(number)
+        return owed
+
+    def __len__(self) -> int:
+        return len(self.returned) + len(self._rest)
+
+    def take(self, most: int) -> tuple[int, ...]:
+        """Return the next units, at most so many."""
+        lost = tuple(self.returned.popleft() for _ in range(min(most, len(self.returned))))
+        fresh = self._rest[: most - len(lost)]
+        self._rest = self._rest[len(fresh) :]
+        return (*lost, *fresh)
+
+
 def _deal(
-    units: Sequence[Unit], owed: deque[int], executor: Executor
+    units: Sequence[Unit], owed: _Owed, executor: Executor
 ) -> Generator[tuple[int, Answer], None, tuple[int, ...]]:
     """Yield answers until all are there or the workers are lost; return what they had in hand then."""
     busy: dict[Future[Any], tuple[int, ...]] = {}
     try:
         while busy or owed:
             while owed and len(busy) < executor.max_in_flight:
-                packet = tuple(islice(owed, executor.packet))
+                packet = owed.take(executor.packet)
                 busy[executor.submit([units[number] for number in packet])] = packet
-                for _ in packet:
-                    owed.popleft()
             ended, _ = wait(busy, executor.check_period_s, FIRST_COMPLETED)
             executor.check_health()
             for future in ended:

@@ -25,7 +25,8 @@ from cellc.mock.plant import Plant
 from cellc.mock.report_page.page import ReportContent, to_report
 from cellc.mock.report_page.run_section import RunEvidence
 from cellc.mock.result import RehearsalResult, to_json_lines
-from cellc.mock.sweep.sweep import Sweep, SweepRun
+from cellc.mock.sweep.runs import SweepRun
+from cellc.mock.sweep.sweep import Sweep
 from cellc.mock.task.bounds import joint_state_age_s
 
 REPORT = "report.html"

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from cellc.mock.campaign.campaign import Campaign
     from cellc.mock.command.evidence import EvidenceCollector
     from cellc.mock.command.live import LiveView
-    from cellc.mock.sweep.sweep import Sweep, SweepRun
+    from cellc.mock.sweep.runs import SweepRun
+    from cellc.mock.sweep.sweep import Sweep
 
 
 @dataclass(frozen=True, slots=True)

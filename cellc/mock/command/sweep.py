@@ -25,12 +25,12 @@ from cellc.mock.gates.sign import sign_gates
 from cellc.mock.sweep.figures import interval
 from cellc.mock.sweep.journal import Journal
 from cellc.mock.sweep.names import SWEPT
+from cellc.mock.sweep.runs import RunStore, SweepRun, SweepRuns
 from cellc.mock.sweep.summary import run_lines, sweep_json, sweep_lines
 from cellc.mock.sweep.sweep import (
     MOST_DIGITS,
     USUAL_CONFIDENCE,
     Sweep,
-    SweepRun,
     execute,
     name_of,
     reality,
@@ -133,9 +133,9 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) ->
             said = f"{done} of at most {options.runs}"
             update(pace(said, options.runs, done, failed, perf_counter() - start))
 
-        known = {} if journal is None else journal.runs
+        ends = RunStore() if journal is None else journal.runs
         try:
-            result = sweep(cell, entry, seed=options.seed, most=options.runs, factory=factory, known=known, keep=keep)
+            result = sweep(cell, entry, seed=options.seed, most=options.runs, factory=factory, ends=ends, keep=keep)
         except ComputeError as problem:
             raise MockError("", str(problem)) from None
     remark(f"{done} runs in {perf_counter() - start:.1f} s, {who}")
@@ -156,7 +156,7 @@ def replay_swept(options: ReplayOptions) -> int:
     _keep_evidence(cell, [(entry, run) for run in runs], options)
     if options.as_json:
         rate = interval(sum(run.passed for run in runs), len(runs), USUAL_CONFIDENCE)
-        alone = Sweep(entry.name, options.seed, uncertainty, len(runs), tuple(runs), rate, None, None)
+        alone = Sweep(entry.name, options.seed, uncertainty, len(runs), SweepRuns.listed(runs), rate, None, None)
         show_document(sweep_json(cell.contract, (alone,), cell.notes))
     else:
         lines = (line for run in runs for line in run_lines(run, uncertainty, options.seed))

@@ -19,7 +19,7 @@ from cellc.mock.report_page.axes import TimeAxis, ticks
 from cellc.mock.report_page.html import Child, at, breakable, cards, hint, seconds, tag
 from cellc.mock.report_page.plots import plots
 from cellc.mock.result import RehearsalResult
-from cellc.mock.sweep.sweep import SweepRun
+from cellc.mock.sweep.runs import SweepRun
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,15 @@ from cellc.contract.contract import Contract
 from cellc.mock.report_page.axes import Scale, line
 from cellc.mock.report_page.html import Child, cards, hint, section, svg, tag
 from cellc.mock.sweep.margins import Margin, margins
-from cellc.mock.sweep.summary import count_lines, drawn_table, explained_table, margin_table, verdict_line
+from cellc.mock.sweep.summary import (
+    count_lines,
+    drawn_table,
+    explained_table,
+    explanations,
+    margin_table,
+    unexplained,
+    verdict_line,
+)
 from cellc.mock.sweep.sweep import Sweep
 
 _WIDTH, _HEIGHT = 200.0, 22.0
@@ -19,7 +27,8 @@ _BARS = 50
 
 def sweep_section(sweep: Sweep, contract: Contract) -> Element:
     """Return the section of one sweep."""
-    tables = [cards(head, rest) for head, *rest in filter(None, (drawn_table(sweep), explained_table(sweep)))]
+    found = explanations(sweep)
+    tables = [cards(head, rest) for head, *rest in filter(None, (drawn_table(sweep), explained_table(found)))]
     if ranked := tuple(margins(sweep, contract)):
         names, *rows = margin_table(ranked)
         drawn: list[tuple[Child, ...]] = [(*row, histogram(margin)) for row, margin in zip(rows, ranked, strict=True)]
@@ -30,7 +39,7 @@ def sweep_section(sweep: Sweep, contract: Contract) -> Element:
         "the description has that. How a part slips or turns between the fingers is not simulated. The section of a "
         "run that missed its goal shows what the robot believed: that it succeeded."
     )
-    lines = [tag("p", text) for text in count_lines(sweep)]
+    lines = [tag("p", text) for text in (*count_lines(sweep), *unexplained(sweep, found))]
     return section(f"Sweep of {sweep.rehearsal}", *lines, *tables, hint(legend))
 
 
@@ -42,7 +51,8 @@ def sweep_verdict(sweep: Sweep) -> Element:
 
 def histogram(margin: Margin) -> Element:
     """Return how many runs were how near to the bound: the best on the left, the bound on the right."""
-    shown = (*margin.values, *(() if margin.bound is None else (margin.bound,)), *(() if margin.falling else (0.0,)))
+    ends = (float(margin.values[0]), float(margin.values[-1]))
+    shown = (*ends, *(() if margin.bound is None else (margin.bound,)), *(() if margin.falling else (0.0,)))
     start, end = (max(shown), min(shown)) if margin.falling else (min(shown), max(shown))
     x = Scale(start, end if end != start else start + 1.0, 0.0, _WIDTH)
     drawing = svg(_WIDTH, _HEIGHT, f"{margin.name}, from the best run to the worst", *_drawn(margin, x))
@@ -51,7 +61,7 @@ def histogram(margin: Margin) -> Element:
 
 def _drawn(margin: Margin, x: Scale) -> Iterator[Element]:
     width = _WIDTH / _BARS
-    counted = Counter(min(_BARS - 1, int(x.place(value) / width)) for value in margin.values)
+    counted = Counter(min(_BARS - 1, int(x.place(float(value)) / width)) for value in margin.values)
     most = max(counted.values())
     bound_at = _WIDTH if margin.bound is None else x.place(margin.bound)
     yield line("axis", 0.0, _HEIGHT, _WIDTH, _HEIGHT)

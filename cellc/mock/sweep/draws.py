@@ -21,6 +21,11 @@ from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.contract.uncertainty import UncertainQuantity
 from cellc.mock.reality import Displacement, Reality
 
+Bits = NDArray[np.uint64]
+_ROUNDS = 10
+_MULTIPLIERS = (np.uint64(0xD2E7470EE14C6C93), np.uint64(0xCA5A826395121157))
+_WEYL = (np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBB67AE8584CAA73B))
+_TOGETHER = 1 << 14
 _NORMAL = NormalDist()
 _NOISE = "noise of samples"
 LINKS = ("calibration", "repeatability", "place")
@@ -41,7 +46,7 @@ class _Bits:
 
 
 @lru_cache(maxsize=4096)
-def _counter(name: str) -> NDArray[np.uint64]:
+def _counter(name: str) -> Bits:
     """Return a number of a name, in the lower three quarters of a counter."""
     return np.frombuffer(hashlib.sha256(name.encode()).digest()[:24] + bytes(8), dtype="<u8").astype(np.uint64)
 
@@ -50,6 +55,43 @@ def draw(quantities: Sequence[UncertainQuantity], seed: int, run: int) -> dict[s
     """Return the values of a run by the names of the quantities, SI, about zero."""
     bits = _Bits(seed, run)
     return {quantity.name: _spread(quantity, (bits.of(quantity.name) >> 11) + 0.5) for quantity in quantities}
+
+
+def draw_all(quantities: Sequence[UncertainQuantity], seed: int, numbers: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return what ``draw`` does for each of many runs, to the last bit: quantities in rows, runs in columns."""
+    values = np.empty((len(quantities), len(numbers)))
+    for start in range(0, len(numbers), _TOGETHER):
+        runs = numbers[start : start + _TOGETHER].astype(np.uint64)
+        for row, quantity in zip(values, quantities, strict=True):
+            bits = (_philox(_counter(quantity.name), seed, runs) >> np.uint64(11)).tolist()
+            row[start : start + len(runs)] = [_spread(quantity, number + 0.5) for number in bits]
+    return values
+
+
+def _philox(counter: Bits, seed: int, runs: Bits) -> Bits:
+    """Return the first 64 bits behind a counter for each key (seed, run), by the definition of Philox4x64-10."""
+    first, second, third, fourth = (np.full(len(runs), word) for word in counter)
+    first += np.uint64(1)  # a generator steps before it gives
+    low, high = np.full(len(runs), seed, np.uint64), runs.copy()
+    for _ in range(_ROUNDS):
+        (over, first_product), (above, third_product) = (
+            _product(_MULTIPLIERS[0], first),
+            _product(_MULTIPLIERS[1], third),
+        )
+        first, second, third, fourth = above ^ second ^ low, third_product, over ^ fourth ^ high, first_product
+        low += _WEYL[0]
+        high += _WEYL[1]
+    return first
+
+
+def _product(factor: np.uint64, values: Bits) -> tuple[Bits, Bits]:
+    """Return the upper and the lower 64 bits of the products."""
+    half, mask = np.uint64(32), np.uint64(0xFFFFFFFF)
+    low, high = factor & mask, factor >> half
+    lower, upper = values & mask, values >> half
+    crossed = lower * high + (lower * low >> half)
+    crosswise = upper * low + (crossed & mask)
+    return upper * high + (crossed >> half) + (crosswise >> half), values * factor
 
 
 def _spread(one: UncertainQuantity, of_2_to_53: float) -> float:

@@ -18,7 +18,8 @@ from cellc.contract.limits import limits
 from cellc.contract.store.regular_file import open_regular
 from cellc.contract.store.swap import open_to_continue
 from cellc.mock.errors import MockError
-from cellc.mock.sweep.sweep import MOST_DIGITS, GoalRoom, SweepRun
+from cellc.mock.sweep.runs import GoalRoom, RunStore, SweepRun
+from cellc.mock.sweep.sweep import MOST_DIGITS
 
 _FORMAT = "cellc sweep 3"
 _OF_ANY_VERSION = "cellc sweep "
@@ -65,7 +66,7 @@ class Journal:
         Raises:
             MockError: the file cannot be read, is of another sweep or of something else, or a line of it is no run.
         """
-        self.runs: dict[int, SweepRun] = {}
+        self.runs = RunStore()
         self._path = path
         self._head = {
             "journal": _FORMAT,
@@ -134,7 +135,9 @@ class Journal:
             unknown = next((name for name in run.goals if name not in self._goals), None)
             if unknown is not None:
                 raise self._refused(f"line {number} is not a run of this cell: there is no goal `{unknown}`")
-            if self.runs.setdefault(run.number, run) != run:
+            if run.number not in self.runs:
+                self.runs.add(run)
+            elif self.runs[run.number] != run:
                 raise self._refused(f"line {number} contradicts another line of run {run.number}")
 
     def __enter__(self) -> Journal:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from cellc.contract.contract import Contract
 from cellc.contract.frozen import dataclass
 from cellc.mock.nodes.observations import oldest_observation_s, pose_interface
-from cellc.mock.sweep.sweep import GoalRoom, Sweep
+from cellc.mock.sweep.runs import Figures
+from cellc.mock.sweep.sweep import Sweep
 from cellc.mock.task.bounds import joint_state_age_s
 from cellc.mock.task.move import dynamic_ancestor
 from cellc.robot.planning.planner import MIN_SINGULAR_VALUE
@@ -27,13 +28,13 @@ class Margin:
 
     name: str
     unit: str
-    values: tuple[float, ...]
+    values: Figures
     bound: float | None
     falling: bool = False
 
     def quantile(self, share: float) -> float:
         """Return what so large a share of the runs is as good as, or better."""
-        return self.values[max(0, math.ceil(share * len(self.values)) - 1)]
+        return float(self.values[max(0, math.ceil(share * len(self.values)) - 1)])
 
 
 def margins(sweep: Sweep, contract: Contract) -> Iterator[Margin]:
@@ -42,33 +43,26 @@ def margins(sweep: Sweep, contract: Contract) -> Iterator[Margin]:
     The end of an arm's reach, or another place where it loses a direction, is where the least singular value of the
     tip's Jacobian (rows in m and rad) is 0; the planner goes no nearer than its own bound.
     """
-    for goal in sorted({goal for run in sweep.runs for goal in run.goals}):
-        yield from _at(goal, [run.goals[goal] for run in sweep.runs if goal in run.goals], sweep, contract)
-    bound_s = joint_state_age_s(contract)
-    yield from _margin("age of joint states", "s", (run.joint_state_age_s for run in sweep.runs), bound_s)
+    for goal in sweep.runs.goals:
+        yield from _at(goal, sweep, contract)
+    yield from _margin("age of joint states", "s", sweep.runs.joint_state_ages_s, joint_state_age_s(contract))
 
 
-def _at(goal: str, rooms: list[GoalRoom], sweep: Sweep, contract: Contract) -> Iterator[Margin]:
-    used = (None if room.joint_room is None else 1.0 - 2.0 * room.joint_room for room in rooms)
-    yield from _margin(
-        f"distance at {goal}", "m", (room.distance_m for room in rooms), sweep.uncertainty.tolerances.get(goal)
-    )
-    yield from _margin(f"clearance at {goal}", "m", (room.clearance_m for room in rooms), 0.0, falling=True)
-    yield from _margin(f"joint range used at {goal}", "1", used, 1.0)
-    yield from _margin(
-        f"least singular value at {goal}", "", (room.singular_value for room in rooms), MIN_SINGULAR_VALUE, falling=True
-    )
-    yield from _margin(
-        f"age of transforms at {goal}", "s", (room.transform_age_s for room in rooms), _transform_age_s(contract, goal)
-    )
+def _at(goal: str, sweep: Sweep, contract: Contract) -> Iterator[Margin]:
+    runs = sweep.runs
+    tolerance_m, age_s = sweep.uncertainty.tolerances.get(goal), _transform_age_s(contract, goal)
+    yield from _margin(f"distance at {goal}", "m", runs.room(goal, "distance_m"), tolerance_m)
+    yield from _margin(f"clearance at {goal}", "m", runs.room(goal, "clearance_m"), 0.0, falling=True)
+    yield from _margin(f"joint range used at {goal}", "1", 1.0 - 2.0 * runs.room(goal, "joint_room"), 1.0)
+    least = runs.room(goal, "singular_value")
+    yield from _margin(f"least singular value at {goal}", "", least, MIN_SINGULAR_VALUE, falling=True)
+    yield from _margin(f"age of transforms at {goal}", "s", runs.room(goal, "transform_age_s"), age_s)
 
 
-def _margin(
-    name: str, unit: str, values: Iterable[float | None], bound: float | None, *, falling: bool = False
-) -> Iterator[Margin]:
-    figures = tuple(sorted((value for value in values if value is not None), reverse=falling))
-    if figures:
-        yield Margin(name, unit, figures, bound, falling)
+def _margin(name: str, unit: str, values: Figures, bound: float | None, *, falling: bool = False) -> Iterator[Margin]:
+    if len(values):
+        values.sort()
+        yield Margin(name, unit, values[::-1] if falling else values, bound, falling)
 
 
 def _transform_age_s(contract: Contract, goal: str) -> float | None:

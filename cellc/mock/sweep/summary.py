@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 
@@ -12,10 +11,11 @@ from cellc.contract.contract import Contract
 from cellc.contract.diagnostics.unsafe_text import json_document
 from cellc.contract.diagnostics.wording import aligned, percent
 from cellc.contract.uncertainty import WHOLE, Uncertainty
-from cellc.mock.sweep.draws import draw
+from cellc.mock.sweep.draws import draw, draw_all
 from cellc.mock.sweep.figures import METHOD_INTERVAL, METHOD_SENSITIVITY, Explanation, explain
 from cellc.mock.sweep.margins import Margin, margins
-from cellc.mock.sweep.sweep import Sweep, SweepRun
+from cellc.mock.sweep.runs import SweepRun
+from cellc.mock.sweep.sweep import Sweep
 
 _SHOWN = 5
 _WORDS = {
@@ -37,15 +37,17 @@ _SHOWN_UNITS: Mapping[str, tuple[str, float]] = {
 def explanations(sweep: Sweep) -> tuple[Explanation, ...]:
     """Return what explains the failures, the most first."""
     quantities = sweep.uncertainty.quantities
-    rows = [draw(quantities, sweep.seed, run.number) for run in sweep.runs]
-    values = {quantity.name: np.array([row[quantity.name] for row in rows]) for quantity in quantities}
-    return explain(quantities, values, np.array([not run.passed for run in sweep.runs], dtype=np.bool_))
+    rows = draw_all(quantities, sweep.seed, sweep.runs.numbers)
+    values = {quantity.name: row for quantity, row in zip(quantities, rows, strict=True)}
+    return explain(quantities, values, ~sweep.runs.passed)
 
 
 def sweep_lines(sweep: Sweep, contract: Contract, replay: Callable[[int], str]) -> Iterator[str]:
     """Yield the summary for people."""
+    found = explanations(sweep)
     yield from count_lines(sweep)
-    for table in (margin_table(tuple(margins(sweep, contract))), drawn_table(sweep), explained_table(sweep)):
+    yield from unexplained(sweep, found)
+    for table in (margin_table(tuple(margins(sweep, contract))), drawn_table(sweep), explained_table(found)):
         yield from aligned(table)
     for run in sweep.failed[:_SHOWN]:
         yield f"FAILED  sweep:{run.number}: {run.outcome}"
@@ -63,9 +65,13 @@ def count_lines(sweep: Sweep) -> Iterator[str]:
         f"success: {percent(succeeded / runs)}, between {percent(rate.low)} and {percent(rate.high)} "
         f"with confidence {rate.confidence:.4g} ({METHOD_INTERVAL})"
     )
-    counted = Counter(run.outcome for run in sweep.runs)
-    yield "outcomes: " + ", ".join(f"{name} {number}" for name, number in counted.most_common())
-    if sweep.failed and not any(explanation.explains for explanation in explanations(sweep)):
+    counted = sweep.runs.outcomes().most_common()
+    yield "outcomes: " + ", ".join(f"{name} {number}" for name, number in counted)
+
+
+def unexplained(sweep: Sweep, found: Sequence[Explanation]) -> Iterator[str]:
+    """Yield why nothing explains the failures, where there are some and nothing does."""
+    if sweep.failed and not any(explanation.explains for explanation in found):
         yield f"{_unexplained(sweep)} ({METHOD_SENSITIVITY})"
 
 
@@ -124,10 +130,10 @@ def drawn_table(sweep: Sweep) -> Table:
     return [("drawn", "distribution", "by"), *rows] if rows else ()
 
 
-def explained_table(sweep: Sweep) -> Table:
+def explained_table(found: Sequence[Explanation]) -> Table:
     """Return what explains the failures, the most first."""
     rows = []
-    for explanation in explanations(sweep) if sweep.failed else ():
+    for explanation in found:
         if explanation.explains:
             half = "not known" if explanation.halved is None else f"{percent(explanation.halved)} fail"
             rows.append((explanation.name, f"{explanation.statistic:.2f}", f"{explanation.critical:.2f}", half))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import closing
 from math import inf
 
@@ -21,42 +21,12 @@ from cellc.mock.result import RunFailure
 from cellc.mock.sweep.draws import LINKS, draw, reality_of
 from cellc.mock.sweep.figures import Interval, confidence_of_look, interval, looks
 from cellc.mock.sweep.names import SWEPT
+from cellc.mock.sweep.runs import GoalRoom, RunStore, SweepRun, SweepRuns
 
 MOST_DIGITS = 18
 """Of the number of a run: with the seed beside it, it is one of the 2^64 keys of the generator."""
 USUAL_CONFIDENCE = 0.95
 """Of the interval where the cell expects nothing of the rehearsal."""
-
-
-@dataclass(frozen=True, slots=True)
-class GoalRoom:
-    """The worst of all arrivals at a goal in one run; see ``Arrival``."""
-
-    distance_m: float
-    singular_value: float
-    joint_room: float | None
-    clearance_m: float | None
-    transform_age_s: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class SweepRun:
-    """How one run ended.
-
-    Attributes:
-        number: from 0; with the seed it gives all draws.
-        outcome: of the rehearsal, or ``missed GOAL`` where that ended as it should and the tip was too far off.
-        goals: where the tip arrived.
-        joint_state_age_s: of the oldest joint state that a motion was planned from; None without one.
-        digest: over attempts and arrivals, so that a replay can be compared bit for bit.
-    """
-
-    number: int
-    outcome: str
-    passed: bool
-    goals: Mapping[str, GoalRoom]
-    joint_state_age_s: float | None
-    digest: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,15 +45,15 @@ class Sweep:
     seed: int
     uncertainty: Uncertainty
     asked: int
-    runs: tuple[SweepRun, ...]
+    runs: SweepRuns
     rate: Interval
     expected: ExpectedSuccess | None
     verdict: bool | None
 
     @property
-    def failed(self) -> tuple[SweepRun, ...]:
+    def failed(self) -> SweepRuns:
         """The runs that did not succeed."""
-        return tuple(run for run in self.runs if not run.passed)
+        return self.runs.failed
 
 
 def name_of(rehearsal: str, run: SweepRun) -> str:
@@ -209,13 +179,13 @@ def sweep(
     seed: int,
     most: int,
     factory: ExecutorFactory | None,
-    known: Mapping[int, SweepRun],
+    ends: RunStore,
     keep: Callable[[SweepRun], None],
 ) -> Sweep:
     """Run until the verdict is certain, or ``most`` runs have ended; always the same, and however often.
 
     Args:
-        known: runs of this sweep that have ended before.
+        ends: runs of this sweep that have ended before; those that end now are added.
         keep: called with each run that ends now.
 
     Raises:
@@ -224,29 +194,25 @@ def sweep(
     """
     uncertainty = uncertainty_of(cell)
     expected = uncertainty.expected.get(entry.name)
-    ends = dict(known)
-    missing = [number for number in range(most) if number not in ends]
-    with closing(_arriving(cell, entry, uncertainty, seed, missing, factory)) as arriving:
+    with closing(_arriving(cell, entry, uncertainty, seed, ends.missing(most), factory)) as arriving:
         for look, wanted in enumerate(looks(most) if expected else (most,), start=1):
             _gather(ends, wanted, arriving, keep)
-            runs = tuple(ends[number] for number in range(wanted))
+            runs = ends.first(wanted)
             level = USUAL_CONFIDENCE if expected is None else confidence_of_look(look, expected.confidence)
-            rate = interval(sum(run.passed for run in runs), wanted, level)
+            rate = interval(int(runs.passed.sum()), wanted, level)
             verdict = None if expected is None else _verdict(rate, expected.success)
             if verdict is not None:
                 break
     return Sweep(entry.name, seed, uncertainty, most, runs, rate, expected, verdict)
 
 
-def _gather(
-    ends: dict[int, SweepRun], wanted: int, arriving: Iterator[SweepRun], keep: Callable[[SweepRun], None]
-) -> None:
+def _gather(ends: RunStore, wanted: int, arriving: Iterator[SweepRun], keep: Callable[[SweepRun], None]) -> None:
     """Take runs as they come until the first so many are there."""
-    missing = {number for number in range(wanted) if number not in ends}
+    missing = len(ends.missing(wanted))
     while missing:
         run = next(arriving)
-        ends[run.number] = run
-        missing.discard(run.number)
+        ends.add(run)
+        missing -= run.number < wanted
         keep(run)
 
 

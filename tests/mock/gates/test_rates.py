@@ -9,7 +9,8 @@ import pytest
 from cellc.mock import MockCell
 from cellc.mock.gates import GateCheck, Verdict, sign_gates
 from cellc.mock.sweep.figures import interval
-from cellc.mock.sweep.sweep import Sweep, SweepRun, uncertainty_of
+from cellc.mock.sweep.runs import SweepRun, SweepRuns
+from cellc.mock.sweep.sweep import Sweep, uncertainty_of
 from tests.cli.run import run
 from tests.mock.gates.conftest import line
 
@@ -20,7 +21,7 @@ def _judged(pick: MockCell, *sweeps: Sweep) -> GateCheck:
 
 
 def _swept(pick: MockCell, verdict: bool | None) -> Sweep:
-    runs = tuple(SweepRun(number, "succeeded", number > 0, {}, None, "") for number in range(800))
+    runs = SweepRuns.listed(SweepRun(number, "succeeded", number > 0, {}, None, "") for number in range(800))
     drawn = uncertainty_of(pick)
     expected = drawn.expected["pick_and_place"]
     return Sweep("pick_and_place", 7, drawn, 1000, runs, interval(799, 800, 0.95), expected, verdict)

@@ -73,7 +73,7 @@ def test_several_folders_are_swept_into_one_table(nest_folder: Path) -> None:
         (["replay", "sweep:1", "--records", "x"], "--records cannot be combined with a run of a sweep"),
         (["sweep"], "the folder has no `config/uncertainty.json`; write `uncertainty: {}` in the spec"),
         (["replay", "sweep:x"], "the folder has no `config/uncertainty.json`"),
-        (["sweep", "--runs", "1000001"], "at most 1000000"),
+        (["sweep", "--runs", "10000001"], "at most 10000000"),
         (["sweep", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
         (["replay", "sweep:1", "--seed", str(1 << 64)], "that of a sweep must be below 2^64"),
         (["sweep", "--jobs", "2", "--cluster", "tcp://127.0.0.1:1"], "--jobs cannot be combined with --cluster"),

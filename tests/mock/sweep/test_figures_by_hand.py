@@ -57,7 +57,7 @@ def test_a_look_spends_its_part_of_what_may_be_wrong() -> None:
 
 @pytest.mark.parametrize(("share", "expected"), [(0.0, 1.0), (0.25, 1.0), (0.26, 2.0), (0.95, 4.0), (1.0, 4.0)])
 def test_a_share_of_the_runs_is_as_good_as(share: float, expected: float) -> None:
-    assert Margin("m", "m", (1.0, 2.0, 3.0, 4.0), None).quantile(share) == expected  # the ceil(4 * share)th
+    assert Margin("m", "m", np.array((1.0, 2.0, 3.0, 4.0)), None).quantile(share) == expected  # the ceil(4 * share)th
 
 
 def test_distance_of_failed_runs_and_what_chance_exceeds() -> None:

@@ -16,7 +16,7 @@ from cellc.contract.compute.versions import versions
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.sweep import journal as of_runs
 from cellc.mock.sweep.journal import Journal
-from cellc.mock.sweep.sweep import GoalRoom, SweepRun
+from cellc.mock.sweep.runs import GoalRoom, SweepRun
 from tests.cells import ROOT
 from tests.cli.run import run
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,12 +16,13 @@ from cellc.contract.uncertainty import UncertainQuantity
 from cellc.mock import MockCell, MockError, load
 from cellc.mock.plant import Plant
 from cellc.mock.report_page.sweep_section import histogram, sweep_section
-from cellc.mock.sweep.draws import draw
+from cellc.mock.sweep.draws import draw, draw_all
 from cellc.mock.sweep.figures import confidence_of_look, explain, interval
 from cellc.mock.sweep.journal import Journal
 from cellc.mock.sweep.margins import Margin, margins
-from cellc.mock.sweep.summary import count_lines
-from cellc.mock.sweep.sweep import Sweep, SweepRun, execute, sweep, uncertainty_of
+from cellc.mock.sweep.runs import RunStore, SweepRun, SweepRuns
+from cellc.mock.sweep.summary import explanations, unexplained
+from cellc.mock.sweep.sweep import Sweep, execute, sweep, uncertainty_of
 from tests.cells import generated
 from tests.mock.sweep.conftest import RESIDUAL_M, TOLERANCE_M
 from tests.planning.arm import dh_singular_values
@@ -35,7 +37,7 @@ def missed_by_hand() -> float:
     return math.erfc(far / math.sqrt(2.0)) + math.sqrt(2.0 / math.pi) * far * math.exp(-(far**2) / 2.0)
 
 
-def swept(cell: MockCell, most: int, *, jobs: int = 1, known: dict[int, SweepRun] | None = None) -> Sweep:
+def swept(cell: MockCell, most: int, *, jobs: int = 1, ends: RunStore | None = None) -> Sweep:
     factory = processes(jobs) if jobs > 1 else None
     kept = dict[int, SweepRun]()
     entry = cell.entry("put")
@@ -45,7 +47,7 @@ def swept(cell: MockCell, most: int, *, jobs: int = 1, known: dict[int, SweepRun
         seed=0,
         most=most,
         factory=factory,
-        known=known or {},
+        ends=RunStore() if ends is None else ends,
         keep=lambda run: kept.update({run.number: run}),
     )
 
@@ -87,7 +89,7 @@ def test_margins_go_from_the_best_run_to_the_worst_up_to_their_bounds(nest: Mock
     found = {margin.name: margin for margin in margins(twelve, nest.contract)}
     distances = sorted(run.goals["put"].distance_m for run in twelve.runs)
     off, near = found["distance at put"], found["least singular value at put"]
-    assert (off.values, off.bound) == (tuple(distances), TOLERANCE_M)
+    assert (off.values.tolist(), off.bound) == (distances, TOLERANCE_M)
     # Of 12 runs, 1 is the best 5 %, 6 are half of them, and 95 % are all of them.
     assert [off.quantile(share) for share in (0.05, 0.5, 0.95, 1.0)] == [distances[place] for place in (0, 5, 11, 11)]
     assert near.values[-1] == min(run.goals["put"].singular_value for run in twelve.runs)
@@ -100,6 +102,10 @@ def test_margins_go_from_the_best_run_to_the_worst_up_to_their_bounds(nest: Mock
     }
 
 
+def _margin(name: str, values: tuple[float, ...], bound: float, *, falling: bool = False) -> Margin:
+    return Margin(name, "m", np.array(values), bound, falling)
+
+
 def test_a_drawing_holds_the_bound_and_every_run(nest: MockCell, twelve: Sweep) -> None:
     def places(margin: Margin) -> tuple[list[float], float, list[str]]:
         drawn = list(histogram(margin).iter())
@@ -108,18 +114,22 @@ def test_a_drawing_holds_the_bound_and_every_run(nest: MockCell, twelve: Sweep) 
         return [float(bar.attrib["x"]) for bar in bars], bound, [bar.attrib["class"] for bar in bars]
 
     # 200 wide: 6 of 10 is at 120 of them, 10 at the end, in the last of 50 bars.
-    assert places(Margin("far", "m", (6.0, 10.0), 10.0)) == ([120.0, 196.0], 199.0, ["runs", "runs"])
-    assert places(Margin("far", "m", (4.0, 10.0), 5.0)) == ([80.0, 196.0], 100.0, ["runs", "runs beyond"])
-    assert places(Margin("near", "m", (10.0, 6.0), 0.0, falling=True)) == ([0.0, 80.0], 199.0, ["runs", "runs"])
-    assert places(Margin("near", "m", (-5.0, -10.0), 0.0, falling=True)) == ([100.0, 196.0], 0.0, 2 * ["runs beyond"])
-    nowhere = replace(twelve, runs=tuple(replace(run, goals={}, joint_state_age_s=None) for run in twelve.runs))
+    assert places(_margin("far", (6.0, 10.0), 10.0)) == ([120.0, 196.0], 199.0, ["runs", "runs"])
+    assert places(_margin("far", (4.0, 10.0), 5.0)) == ([80.0, 196.0], 100.0, ["runs", "runs beyond"])
+    assert places(_margin("near", (10.0, 6.0), 0.0, falling=True)) == ([0.0, 80.0], 199.0, ["runs", "runs"])
+    assert places(_margin("near", (-5.0, -10.0), 0.0, falling=True)) == ([100.0, 196.0], 0.0, 2 * ["runs beyond"])
+    nowhere = replace(
+        twelve, runs=SweepRuns.listed(replace(run, goals={}, joint_state_age_s=None) for run in twelve.runs)
+    )
     assert "best to worst" not in {element.text for element in sweep_section(nowhere, nest.contract).iter()}
 
 
 def test_a_margin_of_what_is_observed_ends_where_an_observation_is_too_old() -> None:
     pick = load(generated("ur5e_pick"))
     stated = pick.contract.interfaces["/object_pose"].max_age_s
-    swept_twice = sweep(pick, pick.entry("pick_and_place"), seed=0, most=2, factory=None, known={}, keep=lambda _: None)
+    swept_twice = sweep(
+        pick, pick.entry("pick_and_place"), seed=0, most=2, factory=None, ends=RunStore(), keep=lambda _: None
+    )
     found = {margin.name: margin.bound for margin in margins(swept_twice, pick.contract)}
     assert stated is not None
     assert (found["age of transforms at pick"], found["age of transforms at place"]) == (stated, None)
@@ -210,6 +220,19 @@ def test_draws_have_their_distribution() -> None:
     )
 
 
+@pytest.mark.parametrize("seed", [0, 1, 12345678901234567, 2**64 - 1])
+def test_many_runs_draw_together_what_each_draws_alone(seed: int, nest: MockCell) -> None:
+    # numpy's own generator is the judge of the arithmetic on arrays.
+    quantities, numbers = (
+        uncertainty_of(nest).quantities,
+        np.array([0, 1, 77, 10**6, *range(20000, 40000, 1999), 2**62]),
+    )
+    alone = [list(draw(quantities, seed, number).values()) for number in numbers.tolist()]
+    assert draw_all(quantities, seed, numbers).T.tolist() == alone
+    many = np.arange(40000)
+    assert draw_all(quantities, seed, many)[:, -3:].T.tolist() == draw_all(quantities, seed, many[-3:]).T.tolist()
+
+
 def test_a_sweep_goes_on_where_its_journal_ends_and_ends_as_it_would_have(
     nest: MockCell, twelve: Sweep, tmp_path: Path
 ) -> None:
@@ -222,7 +245,7 @@ def test_a_sweep_goes_on_where_its_journal_ends_and_ends_as_it_would_have(
     again = Journal(file, nest.contract, "put", 0)
     assert sorted(again.runs.values(), key=lambda run: run.number) == list(twelve.runs[2:10])
     with again:
-        assert swept(nest, 12, known=again.runs) == twelve
+        assert swept(nest, 12, ends=again.runs) == twelve
         again.keep(twelve.runs[11])
     assert set(Journal(file, nest.contract, "put", 0).runs) == {*range(2, 10), 11}
     with pytest.raises(MockError, match="belongs to another sweep"):
@@ -230,23 +253,27 @@ def test_a_sweep_goes_on_where_its_journal_ends_and_ends_as_it_would_have(
 
 
 def test_a_verdict_comes_as_soon_as_it_is_certain_and_later_runs_change_nothing(nest: MockCell, twelve: Sweep) -> None:
-    def ended(number: int, passed: bool) -> SweepRun:
-        return replace(twelve.runs[0], number=number, passed=passed)
+    def ended(passed: Iterable[bool]) -> RunStore:
+        store = RunStore()
+        for number, well in enumerate(passed):
+            store.add(replace(twelve.runs[0], number=number, passed=well))
+        return store
 
-    good = swept(nest, 1000, known={number: ended(number, True) for number in range(1000)})
+    good = swept(nest, 1000, ends=ended(1000 * [True]))
     assert (len(good.runs), good.verdict) == (100, True)  # 0.0125 ** (1 / 100) is 0.957
-    bad = swept(nest, 1000, known={number: ended(number, number % 2 == 0) for number in range(1000)})
+    bad = swept(nest, 1000, ends=ended(500 * [True, False]))
     assert (len(bad.runs), bad.verdict) == (100, False)
-    even = swept(nest, 300, known={number: ended(number, number % 100 >= 15) for number in range(300)})
+    even = swept(nest, 300, ends=ended(3 * (15 * [False] + 85 * [True])))
     assert (len(even.runs), even.verdict) == (300, None)
 
 
 def test_more_runs_are_advised_only_where_they_would_be_made_and_would_tell(nest: MockCell, twelve: Sweep) -> None:
     def told(*, asked: int = 12, passed: tuple[int, ...] = (), drawn: bool = True) -> str:
-        runs = tuple(replace(run, passed=run.number in passed) for run in twelve.runs)
+        runs = SweepRuns.listed(replace(run, passed=run.number in passed) for run in twelve.runs)
         quantities = twelve.uncertainty.quantities if drawn else ()
         uncertainty = twelve.uncertainty.model_copy(update={"quantities": quantities})
-        *_, last = count_lines(replace(twelve, runs=runs, asked=asked, uncertainty=uncertainty))
+        swept_so = replace(twelve, runs=runs, asked=asked, uncertainty=uncertainty)
+        (last,) = unexplained(swept_so, explanations(swept_so))
         return last.removesuffix(" (Monte Carlo filtering, Kolmogorov-Smirnov)")
 
     nothing = "no drawn quantity explains the failures; "
