@@ -260,7 +260,7 @@ def _alike(changes: Sequence[ReviewChange]) -> dict[str, list[ReviewChange]]:
 def _said(change: ReviewChange) -> str:
     if change.quantity.startswith(NAME_OF):
         return f"may break {change.why}" if change.breaking else "no consumer outside the cell knows it"
-    breaks = ", may break consumers" if change.breaking else ""
+    breaks = " (may break consumers outside the cell)" if change.breaking else ""
     if change.quantity == "frame removed":
         return f"{change.area}  {change.quantity} (its parent was {change.before}){breaks}"
     values = change.delta if change.delta and len(values_of(change)) > _LONG else values_of(change)

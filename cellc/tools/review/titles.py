@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias
 
@@ -12,6 +13,8 @@ from cellc.contract.vocabulary import Grade
 _MOST = 6
 """Values of one cause that a heading names."""
 _PAIR = 2
+
+_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.])")
 
 Quote: TypeAlias = Callable[[str], str]
 """How a value is written in the heading."""
@@ -44,13 +47,20 @@ def leading_first(cause: ReviewCause, changes: Sequence[ReviewChange]) -> Review
     """Return a cause with the values first that dangerous changes have, in the order of those."""
     if len(cause.values) < _PAIR or cause.line == WHOLE_SPEC:
         return cause
-    worst = [(change.before, change.after) for change in changes if change.grade is Grade.DANGEROUS]
+    worst = [_plain(change.before, change.after) for change in changes if change.grade is Grade.DANGEROUS]
 
     def place(value: ReviewValue) -> int:
-        pair = (value.before, value.after)
+        pair = _plain(value.before, value.after)
         return worst.index(pair) if pair in worst else len(worst)
 
     return cause.model_copy(update={"values": tuple(sorted(cause.values, key=place))})
+
+
+def _plain(*values: str | None) -> tuple[str | None, ...]:
+    """Return values with their numbers in one spelling: `2.0 kg` is `2 kg`."""
+    return tuple(
+        None if value is None else _NUMBER.sub(lambda number: f"{float(number[0]):.12g}", value) for value in values
+    )
 
 
 def shortest_of(cause: ReviewCause, width: int, deltas: Deltas) -> str:
