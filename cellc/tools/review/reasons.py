@@ -47,6 +47,7 @@ _REASONS: Mapping[str, str] = {
     "contract safety on_reconnect": "an old goal may resume by itself",
     "contract attempt_fields": "an attempt can no longer be explained from its record",
     "spec safety stop ...": "the stop may fail together with what it must stop, or nothing proves it",
+    "spec safety recovery states": "motion may resume from such a state without a recovery",
     "spec safety recovery owner": "somebody else is responsible for what lets motion resume",
     "spec safety recovery observer": "somebody else sees why motion stopped",
     "spec safety recovery ...": "motion may resume without a person who sees why it stopped",

@@ -113,6 +113,7 @@ _ALL: Sequence[Row] = (
             ("evidence", "evidence of the stop"),
         )
     ),
+    Row("spec safety recovery states", Graded(_A.SAFETY, "states that need recovery", Rule.LOST, ordered=False)),
     Row("spec safety recovery owner", Graded(_A.SAFETY, "recovery owner", Rule.DANGEROUS)),
     Row("spec safety recovery observer", Graded(_A.SAFETY, "recovery observer", Rule.DANGEROUS)),
     *_DECLARED,
