@@ -22,7 +22,7 @@ def _seen(cell: MockCell) -> Plant:
     result = cell.rehearse(cell.entry("both_reach"), watch=plants.append)
     assert result.passed
     both = [attempt for attempt in result.attempts if attempt.step.startswith("move together")]
-    assert [one.controller_name for one in both] == ["left_trajectory and right_trajectory"] * 4
+    assert [one.controller_name for one in both] == ["left_trajectory and right_trajectory"] * 6
     return plants[0]
 
 

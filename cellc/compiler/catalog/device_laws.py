@@ -6,6 +6,7 @@ from pydantic import Strict, model_validator
 
 from cellc.compiler.catalog.catalog_model import CatalogModel, Text, Token
 from cellc.compiler.catalog.device_interfaces import InterfaceName
+from cellc.compiler.spec.quantity import JointDampings, JointInertias, JointTorques
 from cellc.contract.vocabulary import Gravity, Held, Loop
 
 LoopName = Annotated[Loop, Strict(False)]
@@ -52,4 +53,30 @@ class LawFacts(CatalogModel):
             raise ValueError("`gains: plugin` must name `stiffness`, and as many of `damping` or none")
         if self.loop is Loop.UNKNOWN and self.because is None:
             raise ValueError("`because` must say why the loop is unknown")
+        return self
+
+
+class DriveFacts(CatalogModel):
+    """What motors and gears add to the joints that they turn, a figure for each joint in the order of the description.
+
+    Fingers and joints that follow others are left out. It counts in runs with masses alone, and a figure of the
+    description counts first.
+
+    Attributes:
+        armature: Inertia of rotor and gear about the joint.
+        damping: Viscous friction.
+        friction: Dry friction, against which a joint begins to turn.
+        source: Document, model or identification with its version.
+    """
+
+    armature: JointInertias | None = None
+    damping: JointDampings | None = None
+    friction: JointTorques | None = None
+    source: Text
+
+    @model_validator(mode="after")
+    def _fits(self) -> "DriveFacts":
+        sizes = {len(figures.si) for figures in (self.armature, self.damping, self.friction) if figures is not None}
+        if len(sizes) != 1:
+            raise ValueError("`drives` must state a figure, and as many of each kind as of the others")
         return self

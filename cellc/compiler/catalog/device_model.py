@@ -31,7 +31,7 @@ from cellc.compiler.catalog.device_bring_up import (
 from cellc.compiler.catalog.device_controller import DeviceController
 from cellc.compiler.catalog.device_graph import ActionFacts, CameraFacts, NodeFacts, ServiceFacts, TopicFacts
 from cellc.compiler.catalog.device_interfaces import ControlFacts, DriverFacts, SpeedScalingFacts
-from cellc.compiler.catalog.device_laws import LawFacts
+from cellc.compiler.catalog.device_laws import DriveFacts, LawFacts
 from cellc.compiler.catalog.limit_facts import LimitFacts
 from cellc.compiler.catalog.robot_facts import MountFacts, PlugFacts, RobotControllerFacts
 from cellc.compiler.catalog.version_rows import VersionRow
@@ -241,6 +241,7 @@ class DeviceModel(CatalogModel):
         jog: How people move a joint by hand; every arm of the catalog states it.
         limits: Limits that the description lacks or has wrong, and payload, reach and repeatability.
         laws: How the joints of the real device follow what they are commanded, by the command interface.
+        drives: What motors and gears add to the joints that they turn.
         packages: Packages and libraries whose versions the spec pins.
         control: The ``<ros2_control>`` tag: plugins, joints, sensors and gpios.
         driver: Node that moves the device on the real target without ros2_control.
@@ -286,6 +287,7 @@ class DeviceModel(CatalogModel):
     jog: JogFacts | None = None
     limits: LimitFacts = Field(default_factory=LimitFacts)
     laws: tuple[LawFacts, ...] = ()
+    drives: DriveFacts | None = None
     packages: PackageFacts
     control: ControlFacts | None = None
     driver: DriverFacts | None = None

@@ -105,6 +105,15 @@ class CommandLaw:
     because: str
 
 
+@dataclass(frozen=True, slots=True)
+class Drives:
+    """What drives add to the joints that they turn, in the order of the description: kg m^2, N m s/rad and N m."""
+
+    armature: tuple[float, ...] = ()
+    damping: tuple[float, ...] = ()
+    friction: tuple[float, ...] = ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommandModes:
     """Command modes of the real device: interfaces of its joints, and full names of gpios.
@@ -247,6 +256,7 @@ class DeviceControl(Part):
         starts: full name of a node of the driver → what the start of its process does.
         speed_scaling: full name of the state interface that reports how far trajectories are slowed down.
         laws: how the joints of the real one follow commands, by the command interface.
+        drives: what its drives add to its joints; None where no source says.
         update_rates_hz: those that the device accepts; any where empty.
         controller_kinds: kinds of controllers that only this device has → the distributions that have them.
     """
@@ -259,6 +269,7 @@ class DeviceControl(Part):
     starts: Annotated[Mapping[str, Effect], ELSEWHERE] = field(default_factory=dict)
     speed_scaling: Annotated[str | None, ELSEWHERE] = None
     laws: tuple[CommandLaw, ...] = ()
+    drives: Drives | None = None
     update_rates_hz: Annotated[tuple[float, ...], ELSEWHERE] = ()
     controller_kinds: Annotated[Mapping[str, tuple[Distro, ...]], ELSEWHERE] = field(default_factory=dict)
 

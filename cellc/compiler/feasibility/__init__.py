@@ -14,6 +14,7 @@ from cellc.compiler.feasibility.answers import (
     HoldingAnswer,
     MotionAnswer,
     PoseAnswer,
+    TipAnswer,
     ViewAnswer,
 )
 from cellc.compiler.feasibility.feasibility import disabled_links, meeting_links, motion_answer
@@ -32,6 +33,7 @@ __all__ = [
     "MeshFault",
     "MotionAnswer",
     "PoseAnswer",
+    "TipAnswer",
     "ViewAnswer",
     "disabled_links",
     "meeting_links",

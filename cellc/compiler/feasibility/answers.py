@@ -130,6 +130,7 @@ class TipAnswer:
 
     Attributes:
         contacts: what touches there, and would not where it is commanded.
+        towards: pose or goal on the way to which it is, from the posture; empty in the posture itself.
     """
 
     group: str
@@ -138,6 +139,7 @@ class TipAnswer:
     distance_m: float
     below_m: float
     contacts: tuple[BodyContact, ...] = ()
+    towards: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,6 +163,7 @@ class MotionAnswer:
         on_paths: the same on the paths of rehearsals.
         outside: the same where it is outside its limits by more than motions may begin.
         tips: of groups with such joints, in each pose and goal with each load that rehearsals have there.
+        tips_on_paths: the same on the paths of rehearsals, at the first place of each path where something touches.
         areas: volumes that arms share, with what is in them.
     """
 
@@ -177,3 +180,4 @@ class MotionAnswer:
     on_paths: tuple[DroopAnswer, ...] = ()
     outside: tuple[DroopAnswer, ...] = ()
     tips: tuple[TipAnswer, ...] = ()
+    tips_on_paths: tuple[TipAnswer, ...] = ()

@@ -146,6 +146,7 @@ def _answer(question: MotionQuestion, mesh_roots: Sequence[Path], budget: Budget
         outside=weights.outside,
         on_paths=weights.on_paths,
         tips=weights.tips,
+        tips_on_paths=weights.tips_on_paths,
     )
 
 

@@ -189,6 +189,7 @@ def together(graph: CellGraph, answers: Sequence[MotionAnswer], standing: Disabl
         on_paths=tuple(chain.from_iterable(answer.on_paths for answer in answers)),
         outside=tuple(chain.from_iterable(answer.outside for answer in answers)),
         tips=tuple(chain.from_iterable(answer.tips for answer in answers)),
+        tips_on_paths=tuple(chain.from_iterable(answer.tips_on_paths for answer in answers)),
     )
 
 

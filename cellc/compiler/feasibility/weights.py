@@ -21,17 +21,17 @@ _ALIKE = 1e-9
 """Rad or m: by less, no place is worse than another, whatever the last bits of both are."""
 
 Positions = Mapping[str, float]
-_Place = tuple[str, str, tuple[str, ...]]
 
 
 @dataclass(frozen=True, slots=True)
 class _At:
-    """Where the joints are: a posture, or a place on the way from it; with the devices that hold a part."""
+    """Where the joints are: a posture, or a place on the way of a group from it; with the devices that hold a part."""
 
     posture: str
     towards: str
     holding: tuple[str, ...]
     positions: Positions
+    group: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +43,7 @@ class Weighed:
     on_paths: tuple[DroopAnswer, ...]
     outside: tuple[DroopAnswer, ...]
     tips: tuple[TipAnswer, ...]
+    tips_on_paths: tuple[TipAnswer, ...]
 
 
 def weighed(
@@ -73,7 +74,8 @@ def weighed(
         droops=_worst(one for one, _ in at_rest),
         on_paths=_worst(one for one, _ in _at_rest(question, paths, robot)),
         outside=_worst(_outside(question, (*at_rest, *_at_rest(question, (start,), robot)))),
-        tips=tuple(_tips(question, visits, planners, scene)) if question.laws else (),
+        tips=tuple(_tips(question, visits, scene)),
+        tips_on_paths=tuple(_first_contacts(_tips(question, paths, scene))),
     )
 
 
@@ -91,7 +93,7 @@ def _paths(
         for group in question.groups:
             for configuration in _path(group, planners[group.name], start, end):
                 placed = dict(zip(group.joints, configuration, strict=True))
-                yield _At(before, posture, holding, {**start, **placed})
+                yield _At(before, posture, holding, {**start, **placed}, group.name)
 
 
 def _path(group: GroupQuestion, planner: Planner, start: Positions, end: Positions) -> Iterator[tuple[float, ...]]:
@@ -162,23 +164,33 @@ def _outside(question: MotionQuestion, at_rest: Iterable[tuple[DroopAnswer, floa
             yield one
 
 
-def _tips(
-    question: MotionQuestion, visits: Iterable[_At], planners: Mapping[str, Planner], scene: CollisionScene
-) -> Iterator[TipAnswer]:
-    robot = scene.model
-    seen: set[_Place] = set()
-    for at in visits:
-        if (at.posture, at.towards, at.holding) in seen:
+def _tips(question: MotionQuestion, places: Iterable[_At], scene: CollisionScene) -> Iterator[TipAnswer]:
+    """Yield where the tips of groups with springs come to rest, in each different place."""
+    held = {joint for law in question.laws for joint in law.law.joints}
+    groups = [group for group in question.groups if not held.isdisjoint(group.joints)]
+    seen = set[tuple[object, ...]]()
+    for at in places if groups else ():
+        place = at.posture, at.towards, at.holding, *at.positions.values()
+        if place in seen:
             continue
-        seen.add((at.posture, at.towards, at.holding))
+        seen.add(place)
         rest = dict(at.positions)
-        for springs, _, settled in _settled(question, at, robot):
+        for springs, _, settled in _settled(question, at, scene.model):
             rest |= zip(springs.joints, settled.tolist(), strict=True)
-        meets = {True: _contacts(scene, rest), False: _contacts(scene, at.positions)}
-        more = tuple(contact for contact in meets[True] if contact not in meets[False])
-        for group in question.groups:
-            if any(joint in law.law.joints for law in question.laws for joint in group.joints):
-                yield _tip(group, at, rest, robot, more)
+        meets = _contacts(scene, rest)
+        planned = _contacts(scene, at.positions) if meets else ()
+        more = tuple(contact for contact in meets if contact not in planned)
+        yield from (_tip(group, at, rest, scene.model, more) for group in groups if at.group in ("", group.name))
+
+
+def _first_contacts(tips: Iterable[TipAnswer]) -> Iterator[TipAnswer]:
+    """Yield the first place with contacts of each path and group."""
+    seen: set[tuple[str, str, str, bool]] = set()
+    for tip in tips:
+        path = tip.group, tip.posture, tip.towards, tip.holding
+        if tip.contacts and path not in seen:
+            seen.add(path)
+            yield tip
 
 
 def _tip(
@@ -191,7 +203,8 @@ def _tip(
     )
     distance_m = math.dist(wanted.position, real.position)
     below_m = wanted.position[2] - real.position[2]
-    return TipAnswer(group.name, at.posture, bool(at.holding), round(distance_m, 9), round(below_m, 9), contacts)
+    figures = round(distance_m, 9), round(below_m, 9)
+    return TipAnswer(group.name, at.posture, bool(at.holding), *figures, contacts, at.towards)
 
 
 def _contacts(scene: CollisionScene, positions: Positions) -> tuple[BodyContact, ...]:

@@ -42,7 +42,7 @@ from cellc.compiler.link.hardware import device_driver, offered_interfaces, run_
 from cellc.compiler.link.names import Placeholders
 from cellc.compiler.link.ports import listened
 from cellc.compiler.link.quantities import joint_figure, si
-from cellc.compiler.link.robot import command_laws, conditions, set_by
+from cellc.compiler.link.robot import command_laws, conditions, drives, set_by
 from cellc.compiler.link.site import bind_clock
 from cellc.compiler.source.document import SourceDocument
 from cellc.compiler.spec.devices import EVERY_JOINT, DeviceSpec
@@ -69,6 +69,7 @@ def device_control(
         starts=started_nodes(nodes, known, distro),
         speed_scaling=None if facts.speed_scaling is None else known.fill(facts.speed_scaling.state_interface),
         laws=command_laws(facts),
+        drives=drives(facts),
         update_rates_hz=() if facts.control is None else tuple(rate.si for rate in facts.control.update_rates),
         controller_kinds={kind: tuple(controller.plugins) for kind, controller in facts.controllers.items()},
     )

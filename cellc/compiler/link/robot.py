@@ -11,7 +11,7 @@ from cellc.compiler.catalog.device_laws import LawFacts
 from cellc.compiler.catalog.device_model import DeviceModel
 from cellc.compiler.catalog.robot_facts import StartMode
 from cellc.compiler.cell.device import Device
-from cellc.compiler.cell.hardware import CommandLaw
+from cellc.compiler.cell.hardware import CommandLaw, Drives
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.cell.robot import (
     CartesianImpedance,
@@ -61,6 +61,14 @@ def program_parameters(facts: DeviceModel, written: DeviceSpec) -> Mapping[str, 
 def command_laws(facts: DeviceModel) -> tuple[CommandLaw, ...]:
     """Return how the joints of the real device follow commands."""
     return tuple(map(_command_law, facts.laws))
+
+
+def drives(facts: DeviceModel) -> Drives | None:
+    """Return what the drives of the real device add to its joints."""
+    known = facts.drives
+    if known is None:
+        return None
+    return Drives(*(() if stated is None else stated.si for stated in (known.armature, known.damping, known.friction)))
 
 
 def _command_law(facts: LawFacts) -> CommandLaw:

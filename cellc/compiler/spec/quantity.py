@@ -287,6 +287,9 @@ Forces = Annotated[QuantityVector, QuantityType((FORCE,), "30 30 30 N", size=3, 
 Moments = Annotated[QuantityVector, QuantityType((TORQUE,), "25 25 25 N m", size=3, least=0.0)]
 JointTorques = Annotated[QuantityVector, QuantityType((TORQUE,), "25 25 22 20 19 17 14 N m", size=0, least=0.0)]
 Inertia = Annotated[QuantityVector, QuantityType((INERTIA,), "0.0011 0.0011 0.0009 0 0 0 kg m^2", size=6)]
+JointInertias = Annotated[
+    QuantityVector, QuantityType((INERTIA,), "0.2 0.2 0.2 0.2 0.07 0.07 0.07 kg m^2", size=0, least=0.0)
+]
 Stiffnesses = Annotated[QuantityVector, QuantityType((STIFFNESS,), "3000 3000 3000 N/m", size=3, least=0.0)]
 AngularStiffnesses = Annotated[
     QuantityVector, QuantityType((ANGULAR_STIFFNESS,), "300 300 300 N m/rad", size=3, least=0.0)

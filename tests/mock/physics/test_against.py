@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
+from pathlib import Path
 
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.cell import load
+from cellc.mock import MockCell
+from cellc.mock.cell import cell_of, load, read_to_run
 from cellc.mock.command.against import Comparison, compared
+from cellc.robot.physics.scene import Scene
 from tests.cells import generated
 from tests.cli.run import run
 
@@ -26,9 +30,16 @@ def test_runs_that_end_alike_are_told_with_the_steps_that_take_longer() -> None:
     assert 0.01 < found.away.by < 0.04
 
 
+def _without_friction(folder: Path) -> MockCell:
+    """Return a cell whose drives turn without friction, so that its springs swing."""
+    text, count = re.subn(' frictionloss="[^"]*"', "", (folder / "sim/scene.xml").read_text(encoding="utf-8"))
+    assert count == 7
+    return cell_of(replace(read_to_run(folder, physics=True), scene=Scene(text, {})))
+
+
 def test_runs_that_part_are_told_with_the_step_and_the_reason() -> None:
     folder = generated("fr3_hand")
-    found = compared(load(folder), load(folder, physics=True), "canceled", 0)
+    found = compared(load(folder), _without_friction(folder), "canceled", 0)
     assert not found.alike
     assert found.parting() == "step 3 `move pick`: canceled without mass, timeout with it"
 
@@ -47,9 +58,8 @@ def test_a_step_that_only_one_run_begins_is_told() -> None:
 
 def test_the_command_prints_one_row_for_each_rehearsal_and_ends_with_what_has_mass() -> None:
     told = run("mock", generated("fr3_hand").as_posix(), "--physics", "--against")
-    assert told.code == 1
+    assert told.code == 0
     assert "alike    tray_to_press: succeeded, 13.95 s without mass, " in told.out
-    assert "DIFFERS  canceled: canceled without mass, timeout with it" in told.out
     program = run("mock", generated("minimal").as_posix(), "--physics", "--against", "--json")
     (row,) = json.loads(program.out)["rehearsals"]
     assert (program.code, row["name"], row["alike"], row["passed"]) == (0, "ready", True, True)

@@ -115,6 +115,7 @@ def _of_joint(given: Given, body: Body) -> dict[str, str]:
         armature = given.loops.finger_armature(body.device, body.joint.name)
         found |= {} if damping is None else {"damping": shortest(damping)}
         found |= {} if armature is None else {"armature": shortest(armature)}
+        found |= given.loops.driven(body.device, body.joint.name)
         if given.loops.compensated(body.device) and body.limits is not None and body.limits.effort:
             found["actuatorgravcomp"] = "true"
     return found

@@ -25,6 +25,8 @@ LOOP_RAD_S = 100.0
 """Of a position loop without public figures."""
 _FULL_FORCE = 0.1
 """Share of the way of jaws before their command at which they press with all their force."""
+_STUCK = {"solreffriction": "0.004 1", "solimpfriction": "0.9999 0.9999 0.001"}
+"""Friction of MuJoCo lets a joint that it holds creep: with its usual figures by millirads in a second."""
 _LIGHTEST = 1e-6
 """kg or kg m^2 that a joint carries at least."""
 
@@ -72,6 +74,16 @@ class Loops:
     def compensated(self, device: Device | None) -> float:
         """Return the share of the weight of a device's links that a robot's own controller takes, that it tells of."""
         return 0.0 if device is None else self._compensation.get(device.name, 0.0)
+
+    def driven(self, device: Device, joint: str) -> dict[str, str]:
+        """Return what the drive of a joint adds to it, as attributes of MJCF."""
+        drives, names = device.control.drives, [each.name for each in driven_joints(device)]
+        if drives is None or joint not in names:
+            return {}
+        number = names.index(joint)
+        figures = {"armature": drives.armature, "damping": drives.damping, "frictionloss": drives.friction}
+        found = {key: shortest(of[number]) for key, of in figures.items() if number < len(of)}
+        return found | (_STUCK if "frictionloss" in found else {})
 
     def finger_damping(self, device: Device, joint: str) -> float | None:
         """Return what lets a gripper run at its own speed under all its force, N m s/rad; None of other joints."""
@@ -133,6 +145,12 @@ class Loops:
             of_tools = 0.0 if payload is None or tool_kg <= 0.0 else round(payload.mass_kg / tool_kg, 6)
         yield device.name, 1.0
         yield from ((name, of_tools) for name in _tools(self._cell, device) if name not in self.laws)
+
+
+def driven_joints(device: Device) -> tuple[DeviceJoint, ...]:
+    """Return the joints of a device that motors of its own turn, apart from its fingers."""
+    finger = "" if device.gripper is None else device.gripper.joint
+    return tuple(joint for joint in device.actuated_joints if joint.mimics is None and joint.name != finger)
 
 
 def _tools(cell: Cell, device: Device) -> Iterator[str]:

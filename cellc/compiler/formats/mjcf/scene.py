@@ -14,7 +14,7 @@ from cellc.compiler.cell.device import Device
 from cellc.compiler.formats.mjcf.bodies import Given, fingers, inside, names
 from cellc.compiler.formats.mjcf.elements import Meshes, numbers
 from cellc.compiler.formats.mjcf.keyframes import keys
-from cellc.compiler.formats.mjcf.loops import LOOP_RAD_S, Actuator, Loops, unknown_laws
+from cellc.compiler.formats.mjcf.loops import LOOP_RAD_S, Actuator, Loops, driven_joints, unknown_laws
 from cellc.compiler.formats.mjcf.parts import defaults_of
 from cellc.compiler.formats.mjcf.tree import Body, body_tree, sensed_link
 from cellc.compiler.formats.numbers import shortest
@@ -56,7 +56,7 @@ def scene(graph: CellGraph, pairs: Sequence[tuple[str, str]], unusable: Mapping[
 def _sections(cell: Cell, world: Body, given: Given, pairs: Sequence[tuple[str, str]]) -> Iterator[Element]:
     actuators = [actuator for device in cell.devices for actuator in given.loops.actuators(device)]
     known = frozenset(names(world))
-    yield from map(comment, _defaults(world, given, actuators))
+    yield from map(comment, _defaults(cell.devices, world, given, actuators))
     yield element("compiler", _RULES)
     yield element("option", _STEP)
     yield from _filled("visual", _buffer(cell.devices))
@@ -76,9 +76,12 @@ def _filled(tag: str, children: Iterable[Element]) -> Iterator[Element]:
         yield section
 
 
-def _defaults(world: Body, given: Given, actuators: Sequence[Actuator]) -> Iterator[str]:
+def _defaults(devices: Sequence[Device], world: Body, given: Given, actuators: Sequence[Actuator]) -> Iterator[str]:
     """Yield a line for each kind of figure that is not stated."""
-    yield "not stated: friction of contacts, so that of MuJoCo, 1; armature of joints, so 0, but for fingers"
+    yield "not stated: friction of contacts, so that of MuJoCo, 1"
+    bare = dict.fromkeys(device.name for device in devices if device.control.drives is None and driven_joints(device))
+    if bare:
+        yield f"not stated: armature and friction of drives, so 0: {', '.join(bare)}"
     loops = [actuator.joint.name for actuator in actuators if actuator.assumed and not actuator.grips]
     if loops:
         yield f"not stated: stiffness of position loops, so {shortest(LOOP_RAD_S)} rad/s: {', '.join(loops)}"

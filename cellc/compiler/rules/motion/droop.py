@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.device import Device
-from cellc.compiler.feasibility import BodyContact, DroopAnswer, motion_answer
+from cellc.compiler.feasibility import BodyContact, DroopAnswer, TipAnswer, motion_answer
 from cellc.compiler.graph.control_laws import control_laws
 from cellc.compiler.rules.geometry import KNOWN_GOALS, in_the_chain, named
 from cellc.compiler.rules.kit import CellGraph, Findings, Related, Severity, YamlPath, enters, found, rule
@@ -65,7 +65,7 @@ def droop_beyond_tolerance(graph: CellGraph) -> Findings:
         yield found(graph, bound.path, f"{message} got {written}", related=related)
 
 
-def _where(one: DroopAnswer) -> str:
+def _where(one: DroopAnswer | TipAnswer) -> str:
     loaded = " with a part" if one.holding else ""
     place = f"at the start and `{one.towards}`" if not one.posture else f"`{one.posture}` and `{one.towards}`"
     return f"between {place}{loaded}" if one.towards else f"in `{one.posture}`{loaded}"
@@ -109,17 +109,17 @@ def tip_droop_beyond_tolerance(graph: CellGraph) -> Findings:
     Severity.ERROR, assumes=(*_WEIGHED, "pose-in-self-collision", "pose-in-collision-with-scene", "goal-in-collision")
 )
 def droop_into_contact(graph: CellGraph) -> Findings:
-    """Yield poses and goals in which something touches because joints are not where they are commanded."""
+    """Yield poses, goals and ways between them where something touches because joints are not where they are led."""
+    answer = motion_answer(graph)
     paths = {pose.name: pose.path for pose in graph.cell.poses}
     paths |= {goal.name: (*goal.path, "frame") for goal in graph.cell.goals}
     seen: set[tuple[BodyContact, ...]] = set()
-    for tip in motion_answer(graph).tips:
+    for tip in (*answer.tips, *answer.tips_on_paths):
         if tip.contacts and tip.contacts not in seen:
             seen.add(tip.contacts)
-            loaded = " with a part" if tip.holding else ""
-            message = f"in `{tip.posture}`{loaded} the arm droops until {named(tip.contacts)},"
+            message = f"{_where(tip)} the arm droops until {named(tip.contacts)},"
             message += f" with its tip {tip.distance_m * 1e3:.3g} mm off its command"
-            yield found(graph, paths[tip.posture], message, related=_stiffnesses(graph))
+            yield found(graph, paths[tip.towards or tip.posture], message, related=_stiffnesses(graph))
 
 
 @rule(Severity.BLOCKER)
