@@ -10,7 +10,7 @@ MuJoCo tells what the robot gives to its tool, so that the weight of a tool poin
 other one.
 
 Left out: looks beyond the color of a shape, decomposed meshes (MuJoCo takes the convex hull), integrals of controllers,
-friction of drives, and a cell whose bodies carry each other deeper than parsers read.
+and a cell whose bodies carry each other deeper than parsers read.
 """
 
 from __future__ import annotations

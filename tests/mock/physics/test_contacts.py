@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,7 +14,7 @@ from cellc.mock.cell import cell_of, load, read_to_run
 from cellc.mock.physics.dynamics import Seen, pressed
 from cellc.mock.result import RehearsalResult
 from cellc.robot.physics.scene import Scene, Touch
-from tests.cells import build_into, built, diagnose, generated, spec_text, written
+from tests.cells import built, diagnose, generated, spec_text, written
 
 _WORLD = "  <worldbody>\n"
 _POST = '    <body name="post" pos="0.45 -0.02 1.05"><geom type="box" size="0.02 0.02 0.25"/></body>\n'
@@ -38,21 +40,25 @@ def test_a_post_that_no_plan_knows_ends_the_motion_that_meets_it() -> None:
     assert any(line.startswith(f"contact: {found[1]} and post press") for line in result.findings)
 
 
-@pytest.mark.parametrize("removed", [(), ("{move: fold, together: true}, ", "{move: fold, together: true},\n")])
-def test_the_check_tells_of_the_contact_that_masses_show(removed: tuple[str, ...], tmp_path: Path) -> None:
+@pytest.mark.parametrize("fold", [True, False])
+def test_the_check_tells_of_the_contact_that_masses_show(fold: bool, tmp_path: Path) -> None:
     """Arms of `openarm_bimanual` hang through by 30 mrad: from `hang` right to `reach` hands pass the bench with less.
 
     The check has pinocchio's weights at rest, and the run MuJoCo's dynamics. Joints arrive within their tolerances.
     """
-    text = spec_text("openarm_bimanual")
-    for step in removed:
-        assert text.count(step) == 1
-        text = text.replace(step, "")
-    spec = written(tmp_path, text)
-    told = [found for found in diagnose(spec) if found.code == "droop-into-contact"]
-    result = load(build_into(tmp_path / "package", spec), physics=True).run("both_reach")
-    assert bool(told) == bool(removed) == (result.outcome != "succeeded")
-    if removed:
+    text, folder = spec_text("openarm_bimanual"), shutil.copytree(generated("openarm_bimanual"), tmp_path / "package")
+    rehearsals = json.loads((folder / "rehearsals.json").read_text(encoding="utf-8"))
+    (steps,) = (each["steps"] for each in rehearsals["rehearsals"] if each["name"] == "both_reach")
+    if not fold:
+        for spaces in (" ", "\n"):
+            assert text.count(f"{{move: fold, together: true}},{spaces}") == 1
+            text = text.replace(f"{{move: fold, together: true}},{spaces}", spaces)
+        steps[:] = [step for step in steps if step["target"] != "fold"]
+    (folder / "rehearsals.json").write_text(json.dumps(rehearsals), encoding="utf-8")
+    told = [found for found in diagnose(written(tmp_path, text)) if found.code == "droop-into-contact"]
+    result = load(folder, physics=True, edited=True).run("both_reach")
+    assert (result.outcome == "succeeded", bool(told)) == (fold, not fold), result.reason
+    if not fold:
         assert "between `hang` and `reach` the arm droops until `bench` and `openarm_" in told[0].message
         assert result.reason.startswith("step 2 `move: together reach`: contact: bench and openarm_")
 

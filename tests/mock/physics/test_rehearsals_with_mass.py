@@ -16,6 +16,7 @@ from cellc.mock.plant import Plant
 from tests.cells import EVERY_CELL, generated
 from tests.cli.run import run
 
+
 @cache
 def _cell(name: str) -> MockCell:
     return load(generated(name), physics=True)
