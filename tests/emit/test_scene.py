@@ -162,17 +162,22 @@ def test_keyframes_put_the_tips_where_the_plan_has_them(cell: str) -> None:
 
 
 @every_cell
-def test_cell_stands_still_where_it_begins_and_nothing_touches(cell: str) -> None:
+def test_cell_stands_still_where_it_begins_and_nothing_touches_but_parts_at_rest(cell: str) -> None:
     model = loaded(text_of(cell))
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)
-    assert data.ncon == 0
+    free = {int(model.jnt_bodyid[index]) for index in range(model.njnt) if model.jnt_type[index] == FREE}
+    touching = [{int(model.geom_bodyid[geom]) for geom in contact.geom} for contact in data.contact]
+    assert all(free & pair for pair in touching)
+    lies = {body: data.xpos[body].copy() for body in free}
     begun = {model.joint(index).name: model.key_qpos[0][model.jnt_qposadr[index]] for index in range(model.njnt)}
     for _ in range(1500):
         mujoco.mj_step(model, data)
     assert data.warning.number.sum() == 0
     assert float(np.abs(data.qvel).max()) < 1e-4
+    for body, at in lies.items():
+        assert data.xpos[body] == pytest.approx(at, abs=1e-6)  # it neither falls onto what it rests on nor out of it
     moved = [index for index in range(model.njnt) if model.jnt_type[index] != FREE]
     for index in moved:
         joint = model.joint(index)
@@ -187,7 +192,9 @@ def test_a_free_part_rests_on_its_table() -> None:
         mujoco.mj_step(model, data)
     x, y, z = data.body("object").xpos
     assert (x, y) == pytest.approx((0.45, -0.15), abs=1e-4)  # fixture A, and 250 mm from it
-    assert z == pytest.approx(0.8 + 0.077 / 2.0, abs=5e-4)  # on the table, half as high as it is wide
+    assert z == pytest.approx(
+        0.85, abs=1e-6
+    )  # where it began: its frame is 50 mm above the table, and it is 100 mm high
     touching = {model.body(model.geom_bodyid[geom]).name for contact in data.contact for geom in contact.geom}
     assert touching == {"object", "table"}
     force = np.zeros(6)
@@ -328,8 +335,18 @@ def test_part_without_a_mass_weighs_as_water_and_the_file_says_so(tmp_path: Path
         "width: 77 mm, tolerance: 2 mm, mass: 0.2 kg", "width: 77 mm, tolerance: 2 mm"
     )
     written_scene = emitted(tmp_path, text)[SCENE]
-    assert loaded(written_scene).body("object").mass[0] == pytest.approx(1000.0 * 0.077**3, rel=1e-9)
-    assert "not stated: its size, as a cube of 0.077 m, its mass, as of water, its friction, 0.5" in written_scene
+    assert loaded(written_scene).body("object").mass[0] == pytest.approx(1000.0 * 0.077**2 * 0.1, rel=1e-9)
+    assert (
+        "not stated: its size, so that it rests on what is below it, its mass, as of water, its friction"
+        in written_scene
+    )
+
+
+def test_part_with_nothing_below_it_is_a_cube(tmp_path: Path) -> None:
+    text = spec_text("ur5e_pick").replace(
+        "table: {parent: world, xyz: 350 0 780 mm", "table: {parent: world, xyz: 350 0 580 mm"
+    )
+    assert "not stated: its size, as a cube of 0.077 m, its friction, 0.5" in emitted(tmp_path, text)[SCENE]
 
 
 def test_part_is_the_box_that_is_stated_and_its_friction_counts_wherever_it_touches(tmp_path: Path) -> None:

@@ -77,9 +77,8 @@ def device_control(
 
 def device_software(facts: DeviceModel, written: DeviceSpec) -> Software:
     """Return what the version tuple has of a device."""
-    packages = _packages(facts.packages)
     rows = tuple(row.of_model(facts.model) for row in facts.versions)
-    return Software(versions=_versions(written), packages=packages, version_rows=rows)
+    return Software(versions=_versions(written), packages=_packages(facts.packages), version_rows=rows)
 
 
 def _packages(facts: PackageFacts) -> Packages:

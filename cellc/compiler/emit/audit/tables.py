@@ -37,10 +37,12 @@ from cellc.compiler.deploy.processes import past_controllers
 from cellc.compiler.formats.escape import code
 from cellc.compiler.formats.markdown_table import table
 from cellc.compiler.formats.mjcf.parts import assumed, edges_m, mass_kg
+from cellc.compiler.formats.mjcf.tree import parts
 from cellc.compiler.formats.numbers import shortest
 from cellc.compiler.formats.parameter_file import node_parameters
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.claims import claimed_by_device
+from cellc.compiler.graph.frame_tree import build_frame_tree
 from cellc.compiler.graph.stated_parameters import unchecked_parameters
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER
 from cellc.contract.vocabulary import InterfaceKind
@@ -124,11 +126,10 @@ def parts_section(cell: Cell) -> str:
 
 
 def _parts(cell: Cell) -> Iterator[tuple[str, ...]]:
-    for frame in cell.frames:
-        if (grasp := frame.grasp) is not None:
-            edges = " by ".join(f"{edge:.4g}" for edge in edges_m(grasp))
-            figures = f"{edges} m", f"{mass_kg(grasp):.4g} kg", f"{grasp.grips_with:g}"
-            yield code(frame.name), *figures, ", ".join(assumed(grasp)) or "nothing"
+    for name, part in parts(cell, build_frame_tree(cell)).items():
+        edges = " by ".join(f"{edge:.4g}" for edge in edges_m(part))
+        figures = f"{edges} m", f"{mass_kg(part):.4g} kg", f"{part.grasp.grips_with:g}"
+        yield code(name), *figures, ", ".join(assumed(part)) or "nothing"
 
 
 def signals_section(cell: Cell) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.etree.ElementTree import Element
 
-from cellc.compiler.cell.frame import FRICTION, Grasp
+from cellc.compiler.cell.frame import FRICTION
 from cellc.compiler.formats.mjcf.elements import numbers
 from cellc.compiler.formats.mjcf.tree import Part
 from cellc.compiler.formats.numbers import rounded, shortest
@@ -23,7 +23,7 @@ _HARD = {"solref": "0.004 1", "solimp": "0.99 0.99 0.001"}
 
 def part_elements(part: Part) -> tuple[Element, ...]:
     """Return what is in the body of a part: a box about its frame, whose friction counts wherever it touches."""
-    edges, mass = edges_m(part.grasp), mass_kg(part.grasp)
+    edges, mass = edges_m(part), mass_kg(part)
     x, y, z = (edge**2 for edge in edges)
     moments = (rounded(mass * squares / 12.0) for squares in (y + z, x + z, x + y))
     friction = f"{shortest(part.grasp.grips_with)} {_TURNING}"
@@ -35,31 +35,34 @@ def part_elements(part: Part) -> tuple[Element, ...]:
     )
 
 
-def edges_m(grasp: Grasp) -> Vector3:
-    """Return the edges of the box: those that are stated, else of a cube as wide as fingers meet it."""
-    edge = grasp.width_m or EDGE_M
-    return grasp.size_m or (edge, edge, edge)
+def edges_m(part: Part) -> Vector3:
+    """Return the edges of the box: those that are stated, else as wide as fingers meet it, and high enough to rest."""
+    edge = part.grasp.width_m or EDGE_M
+    return part.grasp.size_m or (edge, edge, edge if part.above_m is None else rounded(2.0 * part.above_m))
 
 
-def mass_kg(grasp: Grasp) -> float:
+def mass_kg(part: Part) -> float:
     """Return the mass that is stated, or that of as much water."""
-    x, y, z = edges_m(grasp)
-    return grasp.mass_kg or rounded(DENSITY_KG_M3 * x * y * z)
+    x, y, z = edges_m(part)
+    return part.grasp.mass_kg or rounded(DENSITY_KG_M3 * x * y * z)
 
 
 def defaults_of(part: Part) -> str:
     """Return what a part is taken as, and what of it is not stated, as a line of the file."""
-    x, y, z = (shortest(edge) for edge in edges_m(part.grasp))
-    not_stated = ", ".join(assumed(part.grasp))
+    x, y, z = (shortest(edge) for edge in edges_m(part))
+    not_stated = ", ".join(assumed(part))
     return f"frames, grasp: {part.name} is a box of {x} by {y} by {z} m about its frame" + (
         f"; not stated: {not_stated}" if not_stated else ""
     )
 
 
-def assumed(grasp: Grasp) -> Iterator[str]:
+def assumed(part: Part) -> Iterator[str]:
     """Yield what of a part is not stated, with what is taken in its place."""
-    if grasp.size_m is None:
+    grasp = part.grasp
+    if grasp.size_m is None and part.above_m is None:
         yield f"its size, as a cube of {shortest(grasp.width_m or EDGE_M)} m"
+    elif grasp.size_m is None:
+        yield "its size, so that it rests on what is below it"
     if not grasp.mass_kg:
         yield "its mass, as of water"
     if grasp.friction is None:

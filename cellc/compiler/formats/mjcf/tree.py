@@ -12,23 +12,32 @@ from collections.abc import Iterator, Mapping
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device, DeviceJoint
-from cellc.compiler.cell.frame import WORLD, Frame, FrameKind, Grasp, Solid
+from cellc.compiler.cell.frame import WORLD, FrameKind, Grasp, Solid
+from cellc.compiler.formats.numbers import rounded
 from cellc.compiler.graph.frame_tree import FrameTree
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, identity
-from cellc.robot.description.model import Joint, Link
+from cellc.robot.description.model import Box, Joint, Link
 
+_LEANS = 1e-6
+_NEAR_M = 0.25
+"""m: what is farther below a part does not carry it."""
 _DEEPEST = 100
 """Bodies within each other: parsers of XML, and writers of it, end at some depth."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Part:
-    """What a gripper takes: a free body, named like the frame that follows it, or after the one that it lies at."""
+    """What a gripper takes: a free body, named like the frame that follows it, or after the one that it lies at.
+
+    Args:
+        above_m: how high its frame is above the box of the scene that it rests on; None where none is below it.
+    """
 
     name: str
     grasp: Grasp
     pose: Pose
+    above_m: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,27 +173,52 @@ def sensed_link(cell: Cell, device: Device) -> str:
 
 
 def _frame_edges(cell: Cell, frames: FrameTree) -> Iterator[_Edge]:
-    taken = {frame.name for frame in cell.frames}
+    free = parts(cell, frames)
     for frame in cell.frames:
         if frame.kind is FrameKind.FIXED and frame.transform_to_parent is not None:
             yield _Edge(placed=Placed(name=frame.name, pose=frame.transform_to_parent), parent=frame.parent)
-        yield from _followed(frame, frames, taken)
+        if frame.name in free:
+            part = free[frame.name]
+            yield _Edge(placed=Placed(name=part.name, pose=part.pose), parent=WORLD, begins=True, part=part)
+        elif frame.kind is FrameKind.DYNAMIC and frame.simulated_pose is not None:
+            placed = Placed(name=frame.name, pose=frame.simulated_pose.pose)
+            yield _Edge(placed=placed, parent=frame.simulated_pose.parent)
     for solid in cell.scene:
         placed = Placed(name=solid.name, pose=solid.transform_to_parent, solid=solid)
         yield _Edge(placed=placed, parent=solid.parent)
 
 
-def _followed(frame: Frame, frames: FrameTree, taken: set[str]) -> Iterator[_Edge]:
-    """Yield a part, or the frame that follows something else; nothing where no pose in the world is stated."""
-    pose = frames.in_world(frame.name)
-    is_dynamic = frame.kind is FrameKind.DYNAMIC
-    if frame.grasp is not None and pose is not None:
-        name = frame.name if is_dynamic else _free_name(f"{frame.name}_part", taken)
-        part = Part(name=name, grasp=frame.grasp, pose=pose)
-        yield _Edge(placed=Placed(name=name, pose=pose), parent=WORLD, begins=True, part=part)
-    elif is_dynamic and frame.simulated_pose is not None:
-        placed = Placed(name=frame.name, pose=frame.simulated_pose.pose)
-        yield _Edge(placed=placed, parent=frame.simulated_pose.parent)
+def parts(cell: Cell, frames: FrameTree) -> dict[str, Part]:
+    """Return the parts of a cell by the frame that states each; nothing where no pose in the world is stated."""
+    taken, found = {frame.name for frame in cell.frames}, dict[str, Part]()
+    for frame in cell.frames:
+        pose = frames.in_world(frame.name)
+        if frame.grasp is not None and pose is not None:
+            is_dynamic = frame.kind is FrameKind.DYNAMIC
+            name = frame.name if is_dynamic else _free_name(f"{frame.name}_part", taken)
+            found[frame.name] = Part(name=name, grasp=frame.grasp, pose=pose, above_m=_above_m(cell, frames, pose))
+    return found
+
+
+def _above_m(cell: Cell, frames: FrameTree, pose: Pose) -> float | None:
+    """Return how high an upright frame is above the nearest top of an upright box below it."""
+    here = [depth for solid in cell.scene if (depth := _height_m(solid, frames, pose)) is not None]
+    return min(here, default=None)
+
+
+def _height_m(solid: Solid, frames: FrameTree, pose: Pose) -> float | None:
+    parent = frames.in_world(solid.parent)
+    if parent is None or not isinstance(solid.geometry, Box):
+        return None
+    box = parent @ solid.transform_to_parent @ solid.center
+    (x, y, z), (length, width, height) = box.inverse().apply(pose.position), solid.geometry.size
+    above_m = rounded(z - height / 2.0)
+    below = abs(x) <= length / 2.0 and abs(y) <= width / 2.0 and 0.0 < above_m <= _NEAR_M
+    return above_m if below and _is_upright(box) and _is_upright(pose) else None
+
+
+def _is_upright(pose: Pose) -> bool:
+    return pose.apply((0.0, 0.0, 1.0))[2] - pose.position[2] > 1.0 - _LEANS
 
 
 def _free_name(name: str, taken: set[str]) -> str:

@@ -109,7 +109,7 @@ def tip_droop_beyond_tolerance(graph: CellGraph) -> Findings:
     Severity.ERROR, assumes=(*_WEIGHED, "pose-in-self-collision", "pose-in-collision-with-scene", "goal-in-collision")
 )
 def droop_into_contact(graph: CellGraph) -> Findings:
-    """Yield poses, goals and ways between them where something touches because joints are not where they are led."""
+    """Yield poses, goals and paths between them where something touches because joints are not where they are led."""
     answer = motion_answer(graph)
     paths = {pose.name: pose.path for pose in graph.cell.poses}
     paths |= {goal.name: (*goal.path, "frame") for goal in graph.cell.goals}
