@@ -192,9 +192,7 @@ def test_a_free_part_rests_on_its_table() -> None:
         mujoco.mj_step(model, data)
     x, y, z = data.body("object").xpos
     assert (x, y) == pytest.approx((0.45, -0.15), abs=1e-4)  # fixture A, and 250 mm from it
-    assert z == pytest.approx(
-        0.85, abs=1e-6
-    )  # where it began: its frame is 50 mm above the table, and it is 100 mm high
+    assert z == pytest.approx(0.85, abs=1e-6)  # where it began: its frame is 50 mm above the table
     touching = {model.body(model.geom_bodyid[geom]).name for contact in data.contact for geom in contact.geom}
     assert touching == {"object", "table"}
     force = np.zeros(6)
@@ -335,7 +333,7 @@ def test_part_without_a_mass_weighs_as_water_and_the_file_says_so(tmp_path: Path
         "width: 77 mm, tolerance: 2 mm, mass: 0.2 kg", "width: 77 mm, tolerance: 2 mm"
     )
     written_scene = emitted(tmp_path, text)[SCENE]
-    assert loaded(written_scene).body("object").mass[0] == pytest.approx(1000.0 * 0.077**2 * 0.1, rel=1e-9)
+    assert loaded(written_scene).body("object").mass[0] == pytest.approx(1000.0 * 0.077**2 * 0.0885, rel=1e-9)
     assert (
         "not stated: its size, so that it rests on what is below it, its mass, as of water, its friction"
         in written_scene

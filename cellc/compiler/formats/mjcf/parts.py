@@ -27,18 +27,26 @@ def part_elements(part: Part) -> tuple[Element, ...]:
     x, y, z = (edge**2 for edge in edges)
     moments = (rounded(mass * squares / 12.0) for squares in (y + z, x + z, x + y))
     friction = f"{shortest(part.grasp.grips_with)} {_TURNING}"
+    size = numbers(edge / 2.0 for edge in edges)
     surface = {"condim": "4", "friction": friction, "priority": "1", **_HARD}
     return (
         element("freejoint", {"name": f"{part.name}_free"}),
-        element("inertial", {"pos": "0 0 0", "mass": shortest(mass), "diaginertia": numbers(moments)}),
-        element("geom", {"type": "box", "size": numbers(edge / 2.0 for edge in edges), "rgba": _COLOR, **surface}),
+        element("inertial", {"pos": _center(part), "mass": shortest(mass), "diaginertia": numbers(moments)}),
+        element("geom", {"type": "box", "pos": _center(part), "size": size, "rgba": _COLOR, **surface}),
     )
 
 
 def edges_m(part: Part) -> Vector3:
-    """Return the edges of the box: those that are stated, else as wide as fingers meet it, and high enough to rest."""
+    """Return the edges of the box: those that are stated, else as wide as fingers meet it, down to what it rests on."""
     edge = part.grasp.width_m or EDGE_M
-    return part.grasp.size_m or (edge, edge, edge if part.above_m is None else rounded(2.0 * part.above_m))
+    return part.grasp.size_m or (edge, edge, edge if part.above_m is None else rounded(edge / 2.0 + part.above_m))
+
+
+def _center(part: Part) -> str:
+    """Return where the center of the box is in its frame: below it where the part reaches down to what it rests on."""
+    edge = part.grasp.width_m or EDGE_M
+    reaches_down = part.grasp.size_m is None and part.above_m is not None
+    return numbers((0.0, 0.0, rounded((edge / 2.0 - (part.above_m or 0.0)) / 2.0) if reaches_down else 0.0))
 
 
 def mass_kg(part: Part) -> float:
