@@ -342,7 +342,7 @@ def test_part_without_a_mass_weighs_as_water_and_the_file_says_so(tmp_path: Path
 
 def test_part_with_nothing_below_it_is_a_cube(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick").replace(
-        "table: {parent: world, xyz: 350 0 780 mm", "table: {parent: world, xyz: 350 0 580 mm"
+        "table: {parent: world, xyz: 350 0 780 mm", "table: {parent: world, xyz: 350 0 480 mm"
     )
     assert "not stated: its size, as a cube of 0.077 m, its friction, 0.5" in emitted(tmp_path, text)[SCENE]
 
