@@ -8,6 +8,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.physics.drives import farthest, spent
 from cellc.mock.physics.dynamics import Dynamics, pressed
+from cellc.mock.physics.motions import drooping, motions, passing, stopping, toppled
 from cellc.mock.plant import Plant
 from cellc.mock.task.context import AttemptError, TaskContext
 
@@ -16,15 +17,28 @@ _CONTACT = "contact: "
 
 
 def require_untouched(context: TaskContext, since_ns: int) -> None:
-    """Raise AttemptError where bodies pressed on each other since an instant that are not to touch."""
+    """Raise AttemptError where bodies pressed on each other that are not to touch, or a part that lay was toppled."""
     dynamics = context.control.dynamics
-    if dynamics is not None and (found := tuple(pressed(dynamics.seen, since_ns))):
+    if dynamics is None:
+        return
+    if found := tuple(pressed(dynamics.seen, since_ns)):
         raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, f"{_CONTACT}{'; '.join(map(str, found))}")
+    if fallen := tuple(toppled(dynamics, since_ns, tuple(context.plant.parts.held.values()))):
+        raise AttemptError(AttemptOutcome.TOLERANCE_VIOLATION, "; ".join(fallen))
 
 
-def explained(context: TaskContext, failure: AttemptError, since_ns: int) -> AttemptError:
-    """Return why a step failed, led by what a part is too much of, and followed by figures."""
+def explained(
+    context: TaskContext, failure: AttemptError, since_ns: int, canceled_ns: int | None = None
+) -> AttemptError:
+    """Return why a step failed, led by what a part is too much of, and followed by figures.
+
+    Args:
+        canceled_ns: when its goal was canceled; None where it was not.
+    """
     dynamics = context.control.dynamics
+    if dynamics is not None and failure.outcome is AttemptOutcome.TIMEOUT and canceled_ns is not None:
+        way = stopping(tuple(motions(dynamics, canceled_ns, grippers(context.contract))))
+        return AttemptError(failure.outcome, "; ".join(filter(None, (failure.fault_code, way))))
     if dynamics is None or failure.outcome not in _OF_PARTS:
         return failure
     text = "; ".join((failure.fault_code, *_figures(context, dynamics, failure, since_ns)))
@@ -54,6 +68,8 @@ def _figures(context: TaskContext, dynamics: Dynamics, failure: AttemptError, si
     if not failure.fault_code.startswith(_CONTACT):
         yield from (f"{_CONTACT}{each}" for each in pressed(dynamics.seen, since_ns))
     if failure.outcome is AttemptOutcome.TOLERANCE_VIOLATION:
+        moved = tuple(motions(dynamics, since_ns, grippers(context.contract)))
+        yield from filter(None, (drooping(moved), passing(moved)))
         away = farthest(dynamics, since_ns, grippers(context.contract))
         if away is not None:
             yield str(away)

@@ -173,7 +173,8 @@ class Task:
             yield from self._step(attempt, step, stopped=before is not None)
             require_untouched(self._context, started_ns)
         except AttemptError as raised:
-            failure = explained(self._context, raised, started_ns)
+            canceled_ns = None if attempt.cancel is None else attempt.cancel.requested_ns
+            failure = explained(self._context, raised, started_ns, canceled_ns)
         self._close(attempt, failure)
         return (failure or before) if step.kind is not StepKind.ACKNOWLEDGE else failure
 

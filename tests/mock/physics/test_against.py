@@ -42,6 +42,11 @@ def test_runs_that_part_are_told_with_the_step_and_the_reason() -> None:
     found = compared(load(folder), _without_friction(folder), "canceled", 0)
     assert not found.alike
     assert found.parting() == "step 3 `move pick`: canceled without mass, timeout with it"
+    told = re.search(
+        r"; stopping distance: joint (fr3_joint\d) goes on by (\S+) mrad, and still moves at ", found.having.reason
+    )
+    assert told is not None, found.having.reason
+    assert 1.0 < float(told[2]) < 200.0
 
 
 def test_a_step_that_only_one_run_begins_is_told() -> None:
