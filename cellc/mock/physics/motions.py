@@ -86,7 +86,7 @@ def passing(found: Sequence[Motion]) -> str:
 
 
 def stopping(found: Sequence[Motion]) -> str:
-    """Say which joint went farthest on after a stop was asked for, and how fast it still moves; empty without any."""
+    """Say which joint moved on farthest after a stop was asked for, and how fast it still moves; empty without any."""
     worst = max(found, key=lambda each: (each.speed >= _LEAST, each.way), default=None)
     if worst is None or worst.way < _LEAST:
         return ""
