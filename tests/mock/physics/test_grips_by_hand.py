@@ -43,7 +43,7 @@ def _held(result: RehearsalResult) -> tuple[float, float, float]:
 def _with_mass(kg: float) -> tuple[str, str]:
     moment = f"{kg * 0.077**2 / 6.0:.12f}"
     return (
-        'mass="0.2" diaginertia="0.000197633333 0.000197633333 0.000197633333"',
+        'mass="0.2" diaginertia="0.000229354167 0.000229354167 0.000197633333"',
         f'mass="{kg}" diaginertia="{moment} {moment} {moment}"',
     )
 
