@@ -102,7 +102,7 @@ def dask(workers: int) -> Iterator[str]:
 
 @contextmanager
 def invented(_: Sent, __: int) -> Iterator[Executor]:
-    """Give a crew that makes up the ends of runs at once: what is left is what the client of a sweep takes."""
+    """Give an executor that makes up the ends of runs: what is left is what the client of a sweep takes."""
 
     def submit(numbers: Sequence[int]) -> Future[list[SweepRun]]:
         ended = Future[list[SweepRun]]()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -21,12 +20,13 @@ from cellc.tools.review.grading import ELSEWHERE, grade
 from cellc.tools.review.joint_units import units_of
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
+from cellc.tools.review.order import order_of
 from cellc.tools.review.reasons import as_held
 from cellc.tools.review.repeated import follows, is_covered, is_derived, is_stated, spelled
 from cellc.tools.review.replaced import PAIRS, with_models
 from cellc.tools.review.rooms import box_difference
 from cellc.tools.review.rows import ROWS
-from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, HANDED, LATER, THINGS, Fit, Row, Thing, fits, quantity_of
+from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, HANDED, THINGS, Fit, Row, Thing, fits, quantity_of
 from cellc.tools.review.steps import with_step_names
 from cellc.tools.review.units import shown, unit_in
 
@@ -36,18 +36,6 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
-_ANY = 3
-_WEIGHTS = (
-    (0, re.compile(r"watchdog|timeout|\bstop|\bcap\b|^model$")),
-    (1, re.compile(r"^approver |\breach|^base in|lower position|upper position|collision shapes (?!added)")),
-    (2, re.compile(r"payload|\bload\b|grip force|^effort$")),
-    (4, re.compile(r"\bacceleration|\bjerk|deceleration")),
-    (5, re.compile("tolerance")),
-    (6, re.compile("gain|stiffness|damping")),
-)
-"""What stops is read first; then who answers and how far things get, what they carry, and how fast; then tolerances."""
-_MANIFOLD = 2
-"""Places by which a figure goes ahead that is at least doubled or halved."""
 _COMPARES = "versions"
 """Kind of a request that only reads: a step of it moves nothing."""
 UNCLASSIFIED = "(not classified)"
@@ -81,32 +69,6 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
         area: " and ".join(dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner))
         for area in {*were, *are}
     }
-
-
-def order_of(change: ReviewChange) -> tuple[int, int, bool, float, int, bool, str, tuple[str, ...]]:
-    """Return the place of a change: by grade, by what it means to people, by what safety approves, by size, by area."""
-    areas, grades = tuple(ReviewArea), tuple(Grade)
-    is_later = change.quantity.endswith(LATER)
-    other = 0 if change.area is ReviewArea.SAFETY else _ANY
-    weight = next((place for place, words in _WEIGHTS if words.search(change.quantity)), other)
-    doublings = _doublings(change.delta)
-    return (
-        -grades.index(change.grade),
-        max(weight - _MANIFOLD, 0) if doublings >= 1.0 else weight,
-        change.approval != "safety",
-        -doublings,
-        areas.index(change.area),
-        is_later,
-        change.quantity,
-        change.subjects,
-    )
-
-
-def _doublings(delta: str) -> float:
-    """Return how often a figure was doubled or halved, by its difference in percent; 0 where that is not stated."""
-    share = re.match(r"([-+]\d+(?:\.\d+)?) ?%", delta)
-    factor = 0.0 if share is None else 1.0 + float(share[1]) / 100.0
-    return abs(math.log2(factor)) if factor > 0.0 else 0.0
 
 
 def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:

@@ -11,8 +11,8 @@ from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChang
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.change import PRESENT
-from cellc.tools.review.compare import order_of
 from cellc.tools.review.grading import UNMEASURED
+from cellc.tools.review.order import order_of
 from cellc.tools.review.replaced import LENGTH, MASS
 from cellc.tools.review.titles import Quote, leading_first, shortest_of, title_of
 
