@@ -43,6 +43,20 @@ def test_a_faster_arm_stands_before_a_patch_of_its_library_and_both_say_their_va
     assert not [line for line in _lines(found) if "documents" in line]
 
 
+def test_a_narrow_heading_has_no_figure_of_what_only_follows() -> None:
+    found = review_of("ur5e_pick", ("model: realsense_d435i", "model: realsense_d455"))
+    assert any(change.delta.endswith("%") for change in groups_of(found)[0].changes)  # of a mass, and of the view
+    assert groups_of(found)[0].fitting(60) == "devices.camera.model: realsense_d435i -> realsense_d455"
+    moved = review_of("ur5e_pick", ("velocity: 50 %", "velocity: 60 %"))
+    assert groups_of(moved)[0].fitting(50) == "devices.arm.limits.velocity: 50 % -> 60 % (+20 %)"
+
+
+def test_the_largest_of_what_is_equally_bad_stands_first() -> None:
+    found = review_of("ur5e_pick", ("velocity: 50 %", "velocity: 60 %"), ("max_age: 200 ms", "max_age: 2 s"))
+    dangerous = [group.title.partition(":")[0] for group in groups_of(found) if group.grade == "dangerous"]
+    assert dangerous == ["interfaces./object_pose.max_age", "devices.arm.limits.velocity"]
+
+
 def test_ports_that_were_exchanged_are_told_as_that() -> None:
     found = review_of(
         "openarm_bimanual", ("port: can1", "port: canX"), ("port: can0", "port: can1"), ("port: canX", "port: can0")

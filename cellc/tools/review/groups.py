@@ -28,6 +28,7 @@ _PLACED = (
     "place in the root frame",
 )
 """Quantities that say the most about a cause with many changes, in this order."""
+_FIGURE = re.compile(r"\[?[-+]?[\d.]")
 _PLACES = re.compile(r" \([^():]+:[0-9, ]+\)")
 """Files and lines in a heading."""
 _MODEL = "model"
@@ -80,7 +81,8 @@ class Group:
     def _without_place(self, width: int) -> str:
         cause = self.cause
         assert cause is not None
-        sized = next((change.delta for change in self.changes if change.delta), "")
+        is_figure = _FIGURE.match(cause.before or "") is not None  # else a figure is of something that follows
+        sized = next((change.delta for change in self.changes if change.delta and is_figure), "")
         tail = f" ({sized})" if sized else ""
         parts = cause.line.split(".")
         shown = [".".join(parts), *("..." + ".".join(parts[at:]) for at in range(1, len(parts) - 1))]
