@@ -104,7 +104,7 @@ FURTHER = tuple(cell for cell in EVERY_CELL if cell not in CELLS)
 
 @pytest.mark.parametrize("name", FURTHER)
 def test_a_further_cell_is_short_and_its_rehearsals_pass(name: str) -> None:
-    assert len(spec_text(name).splitlines()) <= 130
+    assert len(spec_text(name).splitlines()) <= 134
     cell = load(ROOT / "generated" / name)
     ended = {rehearsal: cell.run(rehearsal, seed=0) for rehearsal in cell.rehearsals}
     assert not [f"{one}: {result.outcome}" for one, result in ended.items() if not result.passed]

@@ -122,7 +122,7 @@ def test_a_new_measurement_is_one_cause_with_what_it_measured() -> None:
 def test_place_and_turn_without_a_measurement_are_one_cause() -> None:
     edit = ("xyz: 0 0 11 mm, rpy: 0 0 90 deg", "xyz: 0 0 12 mm, rpy: 0 0 91 deg")
     (group,) = groups_of(review_of("ur5e_pick", edit))
-    assert group.title.startswith("devices.gripper.mount (cell.yaml:42): xyz 0 0 11 mm -> 0 0 12 mm, rpy ")
+    assert group.title.startswith("devices.gripper.mount (cell.yaml:42): rpy 0 0 90 deg -> 0 0 91 deg, xyz ")
 
 
 def test_what_an_adapter_is_given_is_told_once() -> None:

@@ -58,7 +58,9 @@ def merged(found: Sequence[tuple[int | None, Change]], before: Facts, after: Fac
     alike: dict[tuple[int | None, Change], list[str]] = {}
     for cause, change in found:
         alike.setdefault((cause, replace(change, subject="")), []).append(change.subject)
-    changes = [_reviewed(change, cause, tuple(subjects), owners) for (cause, change), subjects in alike.items()]
+    changes = [
+        _reviewed(change, cause, tuple(dict.fromkeys(subjects)), owners) for (cause, change), subjects in alike.items()
+    ]
     return tuple(sorted(changes, key=order_of))
 
 

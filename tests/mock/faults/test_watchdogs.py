@@ -77,7 +77,7 @@ WATCHDOGS: list[tuple[str, FaultEntry, str, Remove]] = [
         "arrival of the fingers",
         during(4, FaultKind.STICK, "gripper_robotiq_85_left_knuckle_joint", when="started", after_s=0.0),
         "tolerance_violation",
-        _everywhere("_require_part", _nothing, grip),
+        _everywhere("require_part", _nothing, grip),
     ),
     (
         "result of a controller that is gone",
