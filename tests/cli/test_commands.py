@@ -60,7 +60,7 @@ def test_check_as_json_is_one_object() -> None:
     told = json.loads(run("check", PICK, "--format", "json").out)
     assert told["format"] == 1
     assert told["summary"]["error"] == 0
-    assert {finding["severity"] for finding in told["diagnostics"]} == {"blocker"}
+    assert {finding["severity"] for finding in told["diagnostics"]} == {"audit", "blocker"}
 
 
 @pytest.mark.parametrize("command", ["check", "build", "mock", "show"])

@@ -330,7 +330,7 @@ def test_joint_without_a_mass_gets_one_and_its_own_friction(tmp_path: Path) -> N
 
 def test_part_without_a_mass_weighs_as_water_and_the_file_says_so(tmp_path: Path) -> None:
     text = spec_text("ur5e_pick").replace(
-        "width: 77 mm, tolerance: 2 mm, mass: 0.2 kg, size: 77 77 77 mm, friction: 0.5", "width: 77 mm, tolerance: 2 mm"
+        "width: 77 mm, tolerance: 2 mm, mass: 0.2 kg", "width: 77 mm, tolerance: 2 mm"
     )
     written_scene = emitted(tmp_path, text)[SCENE]
     assert loaded(written_scene).body("object").mass[0] == pytest.approx(1000.0 * 0.077**2 * 0.0885, rel=1e-9)
@@ -348,7 +348,8 @@ def test_part_with_nothing_below_it_is_a_cube(tmp_path: Path) -> None:
 
 
 def test_part_is_the_box_that_is_stated_and_its_friction_counts_wherever_it_touches(tmp_path: Path) -> None:
-    text = spec_text("ur5e_pick").replace("size: 77 77 77 mm, friction: 0.5", "size: 40 77 60 mm, friction: 0.8")
+    stated = "width: 77 mm, tolerance: 2 mm, mass: 0.2 kg"
+    text = spec_text("ur5e_pick").replace(stated, f"{stated}, size: 40 77 60 mm, friction: 0.8")
     written_scene = emitted(tmp_path, text)[SCENE]
     model = loaded(written_scene)
     body = model.body("object")

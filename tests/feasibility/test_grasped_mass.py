@@ -10,7 +10,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.graph.control_laws import control_laws
 from tests.cells import graph_of, spec_text, there, written
 
-_GRASP = "grasp: {width: 70 mm, tolerance: 2 mm, mass: 0.1 kg, size: 70 70 70 mm, friction: 0.5}"
+_GRASP = "grasp: {width: 70 mm, tolerance: 2 mm, mass: 0.1 kg}"
 
 
 def _part_kg(cell: Cell) -> float:
