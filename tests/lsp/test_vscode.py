@@ -63,7 +63,9 @@ def _text(edits: list[dict[str, Any]]) -> str:
 @_with_node
 def test_findings_are_those_of_the_server_with_their_fixes(shown: Any) -> None:
     assert {finding["source"] for finding in shown["first"]} == {"cellc"}
-    assert {finding["severity"] for finding in shown["first"]} == {1, 2}, "warnings of VS Code, where 0 is an error, and for the audit"
+    assert {finding["severity"] for finding in shown["first"]} == {1, 2}, (
+        "warnings of VS Code, where 0 is an error, and for the audit"
+    )
     assert shown["wrong"]["severity"] == 0
     assert "there is no device `amr`" in shown["wrong"]["message"]
     nearest, other = (action for action in shown["actions"] if not action["title"].startswith("Ignore"))
