@@ -1,6 +1,6 @@
 """Numbers in another order are another value: every value of every spec with two numbers of it exchanged.
 
-A session takes one value of nine; with ``--long`` every one is tried.
+A session takes one value of eighteen; with ``--long`` every one is tried.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from tests.review.edits import package_before
 from tests.review.leaves import SpecLeaf, leaves_of, with_text
 from tests.review.test_every_leaf import WITHOUT_EFFECT, names_a_fact
 
-_SHARE = 9
+_SHARE = 18
 _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?![\w.:/]*[.:/]\d)")
 
 

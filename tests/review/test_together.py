@@ -20,7 +20,7 @@ from tests.review.edits import package_before, review_of
 from tests.review.leaves import SpecLeaf, changed, leaves_of, with_texts
 from tests.review.revisions import Edit
 
-_FEW, _MANY = 8, 60
+_FEW, _MANY = 3, 60
 _TOGETHER = 4
 _TELLS_OF_OTHERS = 10
 
