@@ -6,10 +6,11 @@ import math
 from pathlib import Path
 from xml.etree import ElementTree
 
+import pytest
 import yaml
 
 from cellc.compiler.pipeline import check_buildable, compile_cell
-from tests.cells import ROOT, compiled, there
+from tests.cells import compiled, there
 from tests.cli.run import run
 from tests.plant.hall import HALL, hall
 
@@ -117,8 +118,11 @@ def test_a_plant_and_its_cells_are_checked_in_one_call(tmp_path: Path) -> None:
     assert ran.code == 0, ran.out
 
 
-def test_what_a_plant_does_not_do_yet_says_so_and_names_what_does() -> None:
-    spec = (HALL / "plant.yaml").relative_to(ROOT).as_posix()
+def test_what_a_plant_does_not_do_yet_says_so_and_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    spec = (HALL / "plant.yaml").as_posix()
     for command in (
         ("show", spec),
         ("view", spec),
@@ -129,3 +133,4 @@ def test_what_a_plant_does_not_do_yet_says_so_and_names_what_does() -> None:
         ran = run(*command)
         assert ran.code in (1, 2), command
         assert "not supported in a plant yet" in ran.out + ran.err, command
+        assert not list(tmp_path.iterdir()), command

@@ -62,6 +62,10 @@ class Subject:
         return f"{self.stem or self.name}.html"
 
 
+_NO_CELL = ("not-a-cell", "unsupported-in-plant")
+"""Findings of a file that is something else than a cell: there is nothing to draw."""
+
+
 def read_subject(path: Path) -> Subject:
     """Read a generated folder, or check and compile a spec, also the `cell.yaml` of a folder.
 
@@ -104,6 +108,9 @@ def _of_spec(path: Path) -> Subject:
     if path.suffix in DESCRIPTIONS:
         return _of_description(path, judge(path).findings)
     checked = check(path)
+    other = next((found for found in checked.diagnostics if found.code in _NO_CELL), None)
+    if other is not None:
+        raise ViewError(f"{path.as_posix()}: {other.message}; {other.help}" if other.help else other.message)
     emitted = emit_cell(checked)
     findings = checked.findings.with_more(emitted.diagnostics)
     if emitted.value is None or checked.graph is None:
