@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from math import inf
@@ -41,6 +41,7 @@ from cellc.mock.nodes.robot_state_publisher import NODE as ROBOT_STATE_PUBLISHER
 from cellc.mock.nodes.robot_state_publisher import PUBLISH_FREQUENCY_HZ, JointStateFeed, RobotStatePublisher
 from cellc.mock.parts import Parts
 from cellc.mock.physics.dynamics import Dynamics
+from cellc.mock.physics.otherwise import make_real
 from cellc.mock.physics.reading import fingers_by_gripper, planned_contacts
 from cellc.mock.plant import Plant, TaskNode
 from cellc.mock.real_bring_up import played
@@ -190,11 +191,11 @@ def assemble(
     return plant
 
 
-def _lay(plant: Plant, dynamics: Dynamics, names: Iterable[str]) -> None:
+def _lay(plant: Plant, dynamics: Dynamics) -> None:
     """Put parts that have mass where they are stated to be."""
     servers = plant.control.managers.values()
     positions = {joint: at for server in servers for joint, at in server.joint_positions().items()}
-    for name in filter(dynamics.moves, names):
+    for name in filter(dynamics.moves, plant.world.objects()):
         placed = plant.world.placements(name)[-1]
         dynamics.put(name, plant.world.posed(placed.link, positions) @ placed.pose)
 
@@ -207,8 +208,9 @@ def _add_objects(plant: Plant, images: dict[str, Topic[Image]], reality: Reality
             _add_object(plant, executors, name, frame, images, tf, reality.objects.get(name))
         elif frame.kind == "fixed" and frame.grasp is not None:
             plant.world.place(name, name, identity(), 0)
-    if plant.control.dynamics is not None:
-        _lay(plant, plant.control.dynamics, plant.world.objects() if lay_out else tuple(reality.objects))
+    if plant.control.dynamics is not None and lay_out:
+        _lay(plant, plant.control.dynamics)
+        make_real(plant.control.dynamics, plant.contract, reality)
 
 
 def _turned(pose: Pose, turn: Pose) -> Pose:

@@ -85,6 +85,9 @@ class _Run:
         rehearsal = self.rehearsal
         injections = [Injection(entry, build_fault(entry, self.folder.contract)) for entry in rehearsal.faults]
         alike = rehearsal.bring_up == "mock" and all(entry.phase is None for entry in rehearsal.faults)
+        alike = alike and (
+            self.folder.scene is None or self.reality == AS_STATED
+        )  # what has masses lies from the begin
         snapshots = self.snapshots if alike else None
         copied = None if snapshots is None else self._resumed(snapshots)
         if copied is not None:

@@ -89,6 +89,11 @@ class GeneratedFolder:
         return stage if self.scene is None else (*stage, "joints and parts have mass, drives and contacts: `--physics`")
 
     @property
+    def masses(self) -> str:
+        """What computes with masses, by its version; empty where nothing has any."""
+        return "" if self.scene is None else self.scene.computed_by
+
+    @property
     def edited(self) -> bool:
         """Tell whether it is another folder than the one that was generated."""
         return bool(self.notes)

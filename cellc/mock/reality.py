@@ -22,6 +22,14 @@ class Displacement:
 
 
 @dataclass(frozen=True, slots=True)
+class OtherPart:
+    """By how much a part is heavier than the scene has it, and its surface has more friction."""
+
+    more_kg: float = 0.0
+    more_friction: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Reality:
     """What is different in one run.
 
@@ -31,6 +39,8 @@ class Reality:
         offsets_s: clock → how much more it reads.
         part_more_kg: device → by which the part of its tool is heavier.
         compensation: device → share by which it compensates its weight too much.
+        tool_more_kg: device → by which its tool is heavier than its controller knows.
+        parts: frame → how the part there differs from the scene.
         noise: seed of what is drawn again for every sample, by networks and joints; None for that of the run.
     """
 
@@ -39,6 +49,8 @@ class Reality:
     offsets_s: Mapping[str, float] = field(default_factory=dict)
     part_more_kg: Mapping[str, float] = field(default_factory=dict)
     compensation: Mapping[str, float] = field(default_factory=dict)
+    tool_more_kg: Mapping[str, float] = field(default_factory=dict)
+    parts: Mapping[str, OtherPart] = field(default_factory=dict)
     noise: int | None = None
 
 

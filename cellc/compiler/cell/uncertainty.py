@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import field
 
 from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Vector3
@@ -27,6 +28,9 @@ class Uncertainty:
         parts_kg: arm → standard deviation of the mass of the part that it holds.
         compensations: arm → standard deviation of the share of its weight that its controller compensates.
         tolerances_m: goal → farthest that the tip may really be from it.
+        payloads_kg: arm → standard deviation of the mass of its tool.
+        masses_kg: frame → standard deviation of the mass of the part there.
+        frictions: frame → standard deviation of the friction of the part there.
     """
 
     rotations_rad: Mapping[str, float]
@@ -35,3 +39,6 @@ class Uncertainty:
     parts_kg: Mapping[str, float]
     compensations: Mapping[str, float]
     tolerances_m: Mapping[str, float]
+    payloads_kg: Mapping[str, float] = field(default_factory=dict)
+    masses_kg: Mapping[str, float] = field(default_factory=dict)
+    frictions: Mapping[str, float] = field(default_factory=dict)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Literal
+from collections.abc import Iterator, Mapping, Sequence
 
 from cellc.compiler.cell.motion import PlanningGroup
 from cellc.compiler.cell.uncertainty import Region, Uncertainty
@@ -31,11 +30,14 @@ def link_uncertainty(
     uncertainty = spec.uncertainty or UncertaintySpec()
     rotations = {name: si(calibration.rotation) for name, calibration in uncertainty.calibrations.items()}
     bound = Uncertainty(
-        rotations_rad={name: value for name, value in rotations.items() if value},
+        rotations_rad=_stated(rotations),
         regions={name: _region(region) for name, region in spec.regions.items()},
         repeatability_m={name: value.si for name, value in uncertainty.repeatability.items()},
-        parts_kg=_loads(uncertainty, "part"),
-        compensations=_loads(uncertainty, "compensation"),
+        parts_kg=_stated({name: si(load.part) for name, load in uncertainty.loads.items()}),
+        compensations=_stated({name: si(load.compensation) for name, load in uncertainty.loads.items()}),
+        payloads_kg=_stated({name: si(load.payload) for name, load in uncertainty.loads.items()}),
+        masses_kg=_stated({name: si(part.mass) for name, part in uncertainty.parts.items()}),
+        frictions=_stated({name: part.friction for name, part in uncertainty.parts.items()}),
         tolerances_m={name: value.si for name, value in uncertainty.tolerances.items()},
     )
     known = groups is not None and machine.placed
@@ -48,18 +50,19 @@ def _region(written: RegionSpec) -> Region:
     return Region(half_m=(x, y, z), half_yaw_rad=(si(written.yaw) or 0.0) / 2.0)
 
 
-def _loads(uncertainty: UncertaintySpec, key: Literal["part", "compensation"]) -> dict[str, float]:
-    """Return what is stated of loads by one key, SI, without what is zero."""
-    stated = {name: si(load.part if key == "part" else load.compensation) for name, load in uncertainty.loads.items()}
-    return {name: value for name, value in stated.items() if value}
+def _stated(values: Mapping[str, float | None]) -> dict[str, float]:
+    """Return what is stated, without what is zero."""
+    return {name: value for name, value in values.items() if value}
 
 
 def _unknown(spec: CellSpec, written: UncertaintySpec, document: SourceDocument) -> Iterator[Diagnostic]:
     places = [name for name, frame in spec.frames.items() if frame.simulated_pose is not None or not frame.dynamic]
+    parts = tuple(name for name, frame in spec.frames.items() if frame.grasp is not None)
     for names, known, code, kind, path in (
         (written.calibrations, tuple(spec.calibrations), "unknown-calibration", "calibration", "calibrations"),
         (written.repeatability, tuple(spec.devices), "unknown-device", "device", "repeatability"),
         (written.loads, tuple(spec.devices), "unknown-device", "device", "loads"),
+        (written.parts, parts, "unknown-frame", "frame with a grasp", "parts"),
         (written.tolerances, tuple(spec.motion.goals), "unknown-goal", "goal", "tolerances"),
     ):
         for name in names:

@@ -31,8 +31,23 @@ class RegionSpec(StatedModel):
     )
 
 
+class PartUncertaintySpec(StatedModel):
+    """How far a part differs from what is stated of it; drawn with `--physics`, as nothing else has masses."""
+
+    mass: Mass | None = Field(
+        None, description="Standard deviation of its mass; none is drawn if absent.", examples=["10 g"]
+    )
+    friction: float | None = Field(
+        None,
+        description="Standard deviation of the friction of its surface; none is drawn if absent.",
+        examples=[0.05],
+        ge=0.0,
+        le=1.0,
+    )
+
+
 class LoadUncertaintySpec(StatedModel):
-    """How far an arm behind springs holds another load than its control law is given."""
+    """How far an arm holds another load than its controller is given."""
 
     part: Mass | None = Field(
         None, description="Standard deviation of the part's mass; none is drawn if absent.", examples=["20 g"]
@@ -41,6 +56,11 @@ class LoadUncertaintySpec(StatedModel):
         None,
         description="Standard deviation of the share of its own weight that a controller compensates; none if absent.",
         examples=["2 %"],
+    )
+    payload: Mass | None = Field(
+        None,
+        description="Standard deviation of the mass of its tool beyond `payload`; drawn with `--physics`.",
+        examples=["50 g"],
     )
 
 
@@ -59,8 +79,13 @@ class UncertaintySpec(StatedModel):
     )
     loads: dict[Name, LoadUncertaintySpec] = Field(
         default_factory=dict,
-        description="Arms whose real joints follow like springs, with how well their loads are known.",
+        description="Arms with how well their loads are known: `part` and `compensation` of those behind springs.",
         examples=[{"arm": {"part": "20 g", "compensation": "2 %"}}],
+    )
+    parts: dict[Name, PartUncertaintySpec] = Field(
+        default_factory=dict,
+        description="Frames with a grasp, with how well mass and friction of the part are known.",
+        examples=[{"object": {"mass": "10 g", "friction": 0.05}}],
     )
     tolerances: dict[Name, Allowance] = Field(
         default_factory=dict,

@@ -86,6 +86,7 @@ class Assignment:
 
     Attributes:
         unseen: links whose meshes are not here; elsewhere others may be missing. None for workers of this computer.
+        masses: what computes with masses here; empty where nothing has any.
     """
 
     folder: GeneratedFolder
@@ -93,11 +94,12 @@ class Assignment:
     limits: Limits
     packages: tuple[str, ...]
     unseen: tuple[str, ...] | None
+    masses: str = ""
 
     @classmethod
     def of(cls, cell: MockCell, seed: int) -> Assignment:
         """Return the assignment for workers of a cell that was loaded here."""
-        return cls(cell.folder, seed, limits(), package_path(), cell.unseen)
+        return cls(cell.folder, seed, limits(), package_path(), cell.unseen, cell.folder.masses)
 
     def cell(self) -> MockCell:
         """Load the cell in a worker.
@@ -108,6 +110,8 @@ class Assignment:
         use(self.limits)
         use_packages(self.packages)
         cell = cell_of(self.folder)
+        if self.masses != cell.folder.masses:
+            raise MockError("", f"a worker has {cell.folder.masses}, this computer has {self.masses}")
         if self.unseen is not None and (apart := sorted({*cell.unseen} ^ {*self.unseen})):
             raise MockError("", f"a worker has other meshes than this computer, those of `{apart[0]}` first")
         return cell

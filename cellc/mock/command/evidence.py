@@ -158,6 +158,7 @@ def _identity(cell: MockCell, entry: RehearsalEntry, seed: int) -> dict[str, str
         "configuration_id": contract.configuration_id,
         "rehearsal": entry.name,
         "seed": str(seed),
+        **({"masses": masses} if (masses := cell.folder.masses) else {}),
         **{f"version.{part}": version for part, version in sorted(contract.version_tuple.items())},
     }
 

@@ -23,6 +23,7 @@ class FolderOptions:
         evidence: folder that bags, records, figures and a report are written to.
         fan: who executes runs.
         stage: of commissioning that motion is planned in, in percent; the last where it is empty.
+        physics: give joints and parts their masses.
     """
 
     folder: str
@@ -32,6 +33,7 @@ class FolderOptions:
     evidence: str | None = None
     fan: Fan = USUAL
     stage: str = ""
+    physics: bool = False
 
     def extras(self) -> Iterator[Extra]:
         """Yield what it needs beyond what cellc is installed with."""
@@ -39,6 +41,8 @@ class FolderOptions:
             yield EVIDENCE
         if self.fan.cluster is not None:
             yield CLUSTER
+        if self.physics:
+            yield PHYSICS
 
     def replayed_by(self, run: str, rehearsal: str | None = None) -> str:
         """Return the command that makes one run again.
@@ -49,7 +53,8 @@ class FolderOptions:
         words = ["cellc", "replay", self.folder, run]
         words += [] if rehearsal is None else ["--rehearsal", rehearsal]
         words += ["--seed", str(self.seed)] if self.seed else []
-        return shlex.join([*words, *(["--edited"] if self.edited else []), *self.others()])
+        words += [option for option, given in (("--edited", self.edited), ("--physics", self.physics)) if given]
+        return shlex.join([*words, *self.others()])
 
     def others(self) -> tuple[str, ...]:
         """Return the options that a run must have to be made again, beside those that every command has."""
@@ -78,7 +83,6 @@ class RehearsalOptions(FolderOptions):
         records: file that attempt records are written to, as JSON lines.
         live: how they are shown; None for not at all.
         images: draw what cameras see into the bags.
-        physics: give joints and parts their masses.
         among: nodes on a ROS graph that are run for real; None where all are played.
         against: run each rehearsal without masses too, and say where the two part.
     """
@@ -87,7 +91,6 @@ class RehearsalOptions(FolderOptions):
     records: str | None = None
     live: Live | None = None
     images: bool = False
-    physics: bool = False
     among: AmongNodes | None = None
     against: bool = False
 
@@ -96,8 +99,6 @@ class RehearsalOptions(FolderOptions):
         yield from FolderOptions.extras(self)
         if self.live is not None:
             yield LIVE
-        if self.physics:
-            yield PHYSICS
 
 
 @dataclass(frozen=True, slots=True)

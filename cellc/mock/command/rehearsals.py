@@ -95,7 +95,7 @@ def run_rehearsals(options: RehearsalOptions) -> int:
         return compare(options)
     if options.records is not None:
         refuse_foreign(Path(options.records))  # before the minutes that a run may take
-    cell = load_seeded(options, physics=options.physics)
+    cell = load_seeded(options)
     names = tuple(dict.fromkeys(options.rehearsals)) or cell.rehearsals
     if options.among is not None:
         timed, notes = _among(cell, names, options, options.among)
@@ -138,11 +138,11 @@ def _tell(cell: MockCell, timed: Sequence[TimedResult], options: RehearsalOption
         show(*to_lines(timed, notes))
 
 
-def load_seeded(options: FolderOptions, *, physics: bool = False) -> MockCell:
+def load_seeded(options: FolderOptions) -> MockCell:
     """Load a folder; raise MockError where it or the seed cannot be used."""
     if options.seed < 0:
         raise MockError("", f"the seed is {options.seed}; it must be 0 or greater")
-    return load(Path(options.folder), edited=options.edited, stage=options.stage, physics=physics)
+    return load(Path(options.folder), edited=options.edited, stage=options.stage, physics=options.physics)
 
 
 def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> list[TimedResult]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
@@ -54,12 +54,21 @@ def run_sweep(options: SweepOptions) -> int:
     sweeps = [sweep_entry(cell, entry, options) for entry in entries_to_sweep(cell, options)]
     failed = [(cell.entry(each.rehearsal), run) for each in sweeps for run in each.failed[:_EVIDENCE]]
     _keep_evidence(cell, failed, options, sweeps)
+    notes = (*cell.notes, *_left_out(cell))
     if options.as_json:
-        show_document(sweep_json(cell.contract, sweeps, cell.notes))
+        show_document(sweep_json(cell.contract, sweeps, notes))
     else:
         lines = (line for each in sweeps for line in sweep_lines(each, cell.contract, _replay(options, each)))
-        show(*(f"note: {note}" for note in cell.notes), *lines)
+        show(*(f"note: {note}" for note in notes), *lines)
     return 0 if all(each.verdict or each.expected is None for each in sweeps) else 1
+
+
+def _left_out(cell: MockCell) -> Iterator[str]:
+    """Say in one line what is not drawn, where nothing has a mass."""
+    drawn = {quantity.name for quantity in uncertainty_of(cell).quantities}
+    stated = () if cell.folder.uncertainty is None else cell.folder.uncertainty.quantities
+    if names := ", ".join(quantity.name for quantity in stated if quantity.name not in drawn):
+        yield f"drawn with `--physics` alone: {names}"
 
 
 @refusing
@@ -122,7 +131,7 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) ->
     with progress("sweep") as update, ExitStack() as stack:
         journal: Journal | None = None
         if options.journal is not None:
-            journal = stack.enter_context(Journal(Path(options.journal), cell.contract, entry.name, options.seed))
+            journal = stack.enter_context(_journal(options.journal, cell, entry, options.seed))
 
         def keep(run: SweepRun) -> None:
             nonlocal done, failed
@@ -142,6 +151,10 @@ def sweep_entry(cell: MockCell, entry: RehearsalEntry, options: SweepOptions) ->
     return result
 
 
+def _journal(path: str, cell: MockCell, entry: RehearsalEntry, seed: int) -> Journal:
+    return Journal(Path(path), cell.contract, entry.name, seed, cell.folder.masses)
+
+
 @refusing
 def replay_swept(options: ReplayOptions) -> int:
     """Run some runs of a sweep alone; they end as they did in it, to the last bit."""
@@ -150,7 +163,7 @@ def replay_swept(options: ReplayOptions) -> int:
     uncertainty = uncertainty_of(cell)
     entry = _meant(cell, () if options.rehearsal is None else (options.rehearsal,))[0]
     if options.journal is not None:
-        Journal(Path(options.journal), cell.contract, entry.name, options.seed)  # or it refuses
+        _journal(options.journal, cell, entry, options.seed)  # or it refuses
     numbers = [_number(text) for text in dict.fromkeys(options.runs)]
     runs = [execute(cell, entry, uncertainty, options.seed, number) for number in numbers]
     _keep_evidence(cell, [(entry, run) for run in runs], options)

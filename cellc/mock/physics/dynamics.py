@@ -20,7 +20,7 @@ from cellc.contract.transforms import Pose, Vector3
 from cellc.mock.control.interfaces import Array, Times
 from cellc.mock.errors import MockError
 from cellc.mock.physics.reading import SCENE_FILE
-from cellc.robot.physics.scene import Bodies, Scene, SceneError, Touch
+from cellc.robot.physics.scene import Bodies, Scene, SceneError, Touch, Weight
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +107,7 @@ class Dynamics:
         self._block: _Block | None = None
         self._adopted = 0
         self._changes: dict[str, Change] = {}
+        self._weights: dict[str, Weight] = {}
         self._bodies: Bodies | None = Bodies(scene)
         self._state = self._bodies.state()
         self._held: Array | None = self._state
@@ -278,6 +279,12 @@ class Dynamics:
         self._changes[part] = change
         bodies.shape(part, change.wider_m, change.friction)
 
+    def weigh(self, weights: Mapping[str, Weight]) -> None:
+        """Let bodies be heavier or lighter than the scene has them, or be held otherwise by who controls them."""
+        bodies = self._now()
+        self._weights.update(weights)
+        bodies.weigh(self._weights)
+
     def miss(self, part: str, *, missing: bool) -> None:
         """Let a part be seen where it was, and not be there, or be there again."""
         before = self._changes.get(part, Change())
@@ -309,6 +316,8 @@ class Dynamics:
         """Return the bodies as they were adopted last."""
         if self._bodies is None:
             self._bodies = Bodies(self.scene)
+            if self._weights:
+                self._bodies.weigh(self._weights)
             for part, change in self._changes.items():
                 self._bodies.shape(part, change.wider_m, change.friction)
         if self._held is not self._state:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from cellc.contract.transforms import Pose, Vector3, identity
 from cellc.contract.uncertainty import UncertainQuantity
-from cellc.mock.reality import Displacement, Reality
+from cellc.mock.reality import Displacement, OtherPart, Reality
 
 Bits = NDArray[np.uint64]
 _ROUNDS = 10
@@ -125,8 +125,20 @@ def reality_of(quantities: Sequence[UncertainQuantity], values: Mapping[str, flo
         offsets_s={target: axes["offset"] for target, axes in _of("clock", parts)},
         part_more_kg={target: axes["mass"] for target, axes in _of("part", parts)},
         compensation={target: axes["share"] for target, axes in _of("compensation", parts)},
+        tool_more_kg={target: axes["mass"] for target, axes in _of("payload", parts)},
+        parts=_other_parts(dict(_of("mass", parts)), dict(_of("friction", parts))),
         noise=_Bits(seed, run).of(_NOISE) >> 32,
     )
+
+
+def _other_parts(
+    masses: Mapping[str, Mapping[str, float]], frictions: Mapping[str, Mapping[str, float]]
+) -> dict[str, OtherPart]:
+    nothing: Mapping[str, float] = {}
+    return {
+        name: OtherPart(masses.get(name, nothing).get("mass", 0.0), frictions.get(name, nothing).get("friction", 0.0))
+        for name in dict.fromkeys((*masses, *frictions))
+    }
 
 
 def _of(kind: str, parts: Mapping[tuple[str, str], dict[str, float]]) -> list[tuple[str, dict[str, float]]]:

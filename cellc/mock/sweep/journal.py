@@ -60,8 +60,11 @@ class Journal:
         runs: that are there already, by number. A last line that was cut off does not count.
     """
 
-    def __init__(self, path: Path, contract: Contract, rehearsal: str, seed: int) -> None:
+    def __init__(self, path: Path, contract: Contract, rehearsal: str, seed: int, masses: str = "") -> None:
         """Read what is there.
+
+        Args:
+            masses: what computes with them; empty where runs are without.
 
         Raises:
             MockError: the file cannot be read, is of another sweep or of something else, or a line of it is no run.
@@ -74,6 +77,7 @@ class Journal:
             "rehearsal": rehearsal,
             "seed": seed,
             "versions": dict(versions()),
+            **({"masses": masses} if masses else {}),
         }
         self._goals = contract.goals
         self._kept = 0

@@ -11,7 +11,7 @@ from cellc.contract.compute.work import ExecutorFactory, Work, stream
 from cellc.contract.contract import Contract
 from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import RehearsalEntry
-from cellc.contract.uncertainty import UNCERTAINTY_FILE, ExpectedSuccess, Uncertainty
+from cellc.contract.uncertainty import OF_MASSES, UNCERTAINTY_FILE, ExpectedSuccess, Uncertainty
 from cellc.mock.campaign.campaign import Assignment
 from cellc.mock.cell import MockCell
 from cellc.mock.errors import MockError
@@ -75,6 +75,8 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
         "region": ("dynamic frame", [name for name, frame in contract.frames.items() if frame.simulated_parent]),
         "clock": ("clock", list(contract.clocks)),
         **dict.fromkeys(("part", "compensation"), ("device behind springs", _behind_springs(contract))),
+        "payload": ("device", list(contract.devices)),
+        **dict.fromkeys(("mass", "friction"), ("frame of a part", [*_of_parts(contract)])),
     }
     named = [(quantity.target, *known[quantity.kind]) for quantity in uncertainty.quantities]
     named += [(name, "goal", list(contract.goals)) for name in uncertainty.tolerances]
@@ -84,7 +86,14 @@ def uncertainty_of(cell: MockCell) -> Uncertainty:
             raise MockError(UNCERTAINTY_FILE, f"names {kind} `{name}`, which the folder does not have")
     if len({quantity.name for quantity in uncertainty.quantities}) < len(uncertainty.quantities):
         raise MockError(UNCERTAINTY_FILE, "has two quantities with the same name")
-    return uncertainty
+    if cell.folder.scene is not None:
+        return uncertainty
+    drawn = tuple(quantity for quantity in uncertainty.quantities if quantity.kind not in OF_MASSES)
+    return uncertainty.model_copy(update={"quantities": drawn})
+
+
+def _of_parts(contract: Contract) -> Iterator[str]:
+    return (name for name, frame in contract.frames.items() if frame.grasp is not None)
 
 
 def _behind_springs(contract: Contract) -> list[str]:

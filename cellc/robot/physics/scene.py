@@ -8,7 +8,7 @@ https://mujoco.readthedocs.io/en/3.3.0/computation/index.html (The State)
 from __future__ import annotations
 
 import copy
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -51,6 +51,14 @@ class Touch:
         return (self.one == body and self.other in others) or (self.other == body and self.one in others)
 
 
+@dataclass(frozen=True, slots=True)
+class Weight:
+    """How a body differs from the scene: factors of its mass, and of the force with which a controller holds it."""
+
+    mass: float = 1.0
+    held: float = 1.0
+
+
 class Scene:
     """What no run changes of a scene.
 
@@ -64,7 +72,12 @@ class Scene:
         fixed: those that never move.
         step_ns: of one step of the solver.
         size: how many numbers a state has.
+        computed_by: library and version; another one may give other bits.
     """
+
+    def __reduce__(self) -> tuple[type[Scene], tuple[str, Mapping[str, bytes]]]:
+        """Return what another process reads it from again."""
+        return type(self), self._read
 
     def __init__(self, text: str, meshes: Mapping[str, bytes]) -> None:
         """Read a scene; ``meshes`` has the content of each file that it names.
@@ -76,6 +89,8 @@ class Scene:
         with gate(PHYSICS):
             import mujoco
         self.library: Any = mujoco
+        self._read = (text, meshes)
+        self.computed_by = f"mujoco {mujoco.__version__}"
         mujoco.set_mju_user_warning(_silent)
         try:
             with overheard():
@@ -142,6 +157,18 @@ class Scene:
                 offset, factor = (float(value) for value in model.eq_data[index][:2])
                 one, other = (str(model.joint(ids[index]).name) for ids in (model.eq_obj1id, model.eq_obj2id))
                 yield one, other, offset, factor
+
+    def below(self, body: str) -> Iterator[str]:
+        """Yield a body and all that it carries, of a body that is there."""
+        carried = {self.bodies.index(body)} if body in self.bodies else set[int]()
+        for index, parent in enumerate(self.model.body_parentid.tolist()):  # a parent has the smaller number
+            if parent in carried:
+                carried.add(index)
+        yield from (self.bodies[index] for index in sorted(carried))
+
+    def mass_kg(self, bodies: Iterable[str]) -> float:
+        """Return what some bodies weigh together."""
+        return sum(float(self.model.body(body).mass[0]) for body in bodies)
 
     def watched(self, planned: frozenset[frozenset[str]]) -> NDArray[np.bool_]:
         """Return for each two shapes whether a contact of theirs is not planned."""
@@ -226,6 +253,16 @@ class Bodies:
             model.geom_rbound[geom] = float(np.linalg.norm(size))
             slides = self.scene.model.geom_friction[geom][0] if friction is None else friction
             model.geom_friction[geom][0] = max(slides, _SMOOTHEST)
+
+    def weigh(self, weights: Mapping[str, Weight]) -> None:
+        """Give bodies other masses, and another share of their weight that a controller takes, than the scene has."""
+        model, stated = self._own_model(), self.scene.model
+        for name, weight in weights.items():
+            body = self.scene.bodies.index(name)
+            model.body_mass[body] = stated.body_mass[body] * weight.mass
+            model.body_inertia[body] = stated.body_inertia[body] * weight.mass
+            model.body_gravcomp[body] = stated.body_gravcomp[body] * weight.held / weight.mass
+        self._library.mj_setConst(model, self._library.MjData(model))
 
     def run(self, steps: int, aims: Array) -> None:
         """Let time pass while the drives have their set points.

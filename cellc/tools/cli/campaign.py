@@ -8,7 +8,18 @@ from cellc.contract.compute.fan import USUAL
 from cellc.mock.command.options import CampaignOptions
 from cellc.tools.cli.fleet import fan_options
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, RECORDS, SEED, options_as, ros_options
+from cellc.tools.cli.run_options import (
+    EDITED,
+    EVIDENCE,
+    FOLDER,
+    JSON,
+    PAIRS,
+    PHYSICS,
+    RECORDS,
+    SEED,
+    options_as,
+    ros_options,
+)
 
 
 @click.command()
@@ -17,6 +28,7 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, PAIRS, R
 @click.option("--list", "list_only", is_flag=True, help="Print the names of the runs and stop.")
 @RECORDS
 @EVIDENCE
+@PHYSICS
 @JSON
 @SEED
 @EDITED
@@ -34,6 +46,7 @@ def campaign(options: CampaignOptions, list_only: bool) -> None:
     cellc campaign generated/bench                 fault by step, over all cores
     cellc campaign generated/bench --pairs 500     and 500 runs with two faults
     cellc campaign generated/bench --list          names of the runs
+    cellc campaign generated/bench --physics       with masses, drives and contacts
     cellc campaign generated/bench --evidence evidence/1
     cellc campaign generated/bench --ros --without perception --launch COMMAND
     """

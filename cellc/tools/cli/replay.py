@@ -7,7 +7,17 @@ import click
 from cellc.mock.command.options import ReplayOptions
 from cellc.mock.sweep.names import SWEPT
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDER, JSON, RECORDS, SEED, options_as, ros_options
+from cellc.tools.cli.run_options import (
+    EDITED,
+    EVIDENCE,
+    FOLDER,
+    JSON,
+    PHYSICS,
+    RECORDS,
+    SEED,
+    options_as,
+    ros_options,
+)
 from cellc.tools.cli.words import complete_rehearsal, complete_run
 
 
@@ -20,6 +30,7 @@ from cellc.tools.cli.words import complete_rehearsal, complete_run
 )
 @RECORDS
 @EVIDENCE
+@PHYSICS
 @JSON
 @SEED
 @EDITED

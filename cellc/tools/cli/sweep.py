@@ -10,7 +10,17 @@ import click
 from cellc.mock.command.options import SweepOptions
 from cellc.tools.cli.fleet import MATRIX, FleetOptions, fan_options, named_by, read_matrix, refuse_for_many
 from cellc.tools.cli.limit_option import limit_option
-from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JOURNAL, JSON, REHEARSALS, SEED, options_as
+from cellc.tools.cli.run_options import (
+    EDITED,
+    EVIDENCE,
+    FOLDERS,
+    JOURNAL,
+    JSON,
+    PHYSICS,
+    REHEARSALS,
+    SEED,
+    options_as,
+)
 
 
 @click.command()
@@ -19,6 +29,7 @@ from cellc.tools.cli.run_options import EDITED, EVIDENCE, FOLDERS, JOURNAL, JSON
 @REHEARSALS
 @JOURNAL
 @EVIDENCE
+@PHYSICS
 @JSON
 @SEED
 @EDITED
@@ -36,6 +47,7 @@ def sweep(options: SweepOptions, folders: tuple[str, ...], matrix: tuple[str, ..
     \b
     cellc sweep generated/bench --runs 10000 --journal sweep.jsonl
     cellc sweep generated/bench --rehearsal pick
+    cellc sweep generated/bench --physics      masses, friction and payloads are drawn too
     cellc sweep cells --matrix ros=humble,jazzy
     """
     fleet, named = FleetOptions(read_matrix(matrix), options.fan, options.as_json), named_by(folders, matrix)

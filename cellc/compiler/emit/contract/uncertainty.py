@@ -110,18 +110,24 @@ def _loads(stated: Stated) -> Iterator[_Drawn]:
         yield _load("part", f"part of {name}", name, "mass", spread)
     for name, spread in stated.compensations.items():
         yield _load("compensation", f"compensation of {name}", name, "share", spread)
+    for name, spread in stated.payloads_kg.items():
+        yield _load("payload", f"payload of {name}", name, "mass", spread)
+    for name, spread in stated.masses_kg.items():
+        yield _load("mass", f"mass of {name}", name, "mass", spread, "parts")
+    for name, spread in stated.frictions.items():
+        yield _load("friction", f"friction of {name}", name, "friction", spread, "parts")
 
 
-def _load(kind: Kind, name: str, device: str, axis: Axis, spread: float) -> _Drawn:
+def _load(kind: Kind, name: str, target: str, axis: Axis, spread: float, key: str = "loads") -> _Drawn:
     quantity = UncertainQuantity.model_construct(
         name=name,
         kind=kind,
-        target=device,
+        target=target,
         axis=axis,
         unit="kg" if axis == "mass" else "1",
         distribution="normal",
         spread=rounded(spread),
-        source=f"uncertainty.loads.{device}.{kind}",
+        source=f"uncertainty.{key}.{target}.{kind}",
     )
     return _Drawn(quantity, f"load: {name}")
 

@@ -64,10 +64,19 @@ def _parts(graph: CellGraph) -> Iterator[Figure]:
 def _deviations(graph: CellGraph) -> Iterator[Figure]:
     """Yield how much the masses of parts vary, which their payload bounds."""
     uncertainty = graph.cell.uncertainty
-    for name, deviation_kg in () if uncertainty is None else uncertainty.parts_kg.items():
+    if uncertainty is None:
+        return
+    for name, deviation_kg in uncertainty.parts_kg.items():
         payload = graph.cell.device(name).robot.payload
         most = math.inf if payload is None else payload.mass_kg
-        yield Figure(("uncertainty", "loads", name, "part"), deviation_kg, 1e-5 if deviation_kg else 0.0, most)
+        yield Figure(("uncertainty", "loads", name, "part"), deviation_kg, 1e-5, most)
+    for name, deviation_kg in uncertainty.payloads_kg.items():
+        payload = graph.cell.device(name).robot.payload
+        most = math.inf if payload is None else payload.mass_kg
+        yield Figure(("uncertainty", "loads", name, "payload"), deviation_kg, 1e-5, most)
+    parts = {frame.name: frame.grasp.mass_kg for frame in graph.cell.frames if frame.grasp is not None}
+    for name, deviation_kg in uncertainty.masses_kg.items():
+        yield Figure(("uncertainty", "parts", name, "mass"), deviation_kg, 1e-5, parts.get(name) or math.inf)
 
 
 def _centers(graph: CellGraph) -> Iterator[Figure]:
@@ -95,7 +104,13 @@ BOUNDS = (
     Bound(
         ("devices.*.payload.part", "frames.*.grasp.mass"), "the mass of the part", "kg", "what the arm carries", _parts
     ),
-    Bound(("uncertainty.loads.*.part",), "the deviation of the mass", "kg", "below the payload itself", _deviations),
+    Bound(
+        ("uncertainty.loads.*.part", "uncertainty.loads.*.payload", "uncertainty.parts.*.mass"),
+        "the deviation of the mass",
+        "kg",
+        "below the mass itself",
+        _deviations,
+    ),
     Bound(
         ("devices.*.payload.center_of_mass", "devices.*.payload.load.center_of_mass"),
         "the distance of the center from the tool frame",

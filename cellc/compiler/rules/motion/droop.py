@@ -167,6 +167,10 @@ def load_of_nothing(graph: CellGraph) -> Findings:
             else:
                 continue
             yield found(graph, ("uncertainty", "loads", name, key), f"`{name}` must be {why}; nothing is drawn for it")
+    for name in () if stated is None else stated.payloads_kg:
+        if graph.cell.device(name).robot.payload is None:
+            why = "a device with a `payload`, which tells its controller what it carries"
+            yield found(graph, ("uncertainty", "loads", name, "payload"), f"`{name}` must be {why}")
 
 
 def _stiffnesses(graph: CellGraph) -> tuple[Related, ...]:
