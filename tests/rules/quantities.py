@@ -161,6 +161,11 @@ WRONG: tuple[tuple[str, str], ...] = (
         "uncertainty.loads.*.part uncertainty.loads.*.compensation",
     ),
     (
+        "uncertainty: {loads: {arm: {payload: 20 kg}}, parts: {object: {mass: 3 kg, friction: 0.4}}}\n"
+        "frames: {object: {grasp: {width: 77 mm, tolerance: 2 mm, mass: 0.2 kg}}}",
+        "uncertainty.loads.*.payload uncertainty.parts.*.mass uncertainty.parts.*.friction",
+    ),
+    (
         "nodes: {servo: {run: moveit_servo/servo_node, host: control_pc, owner: integration}}\n"
         "motion: {octomap: {source: /cloud, resolution: 25 m, range: 2 mm, rate: 60 Hz, padding: 30 mm}, "
         "servo: {node: servo, controller: arm_trajectory, linear: 50 m/s, rotational: 20 rad/s, joint: 200 rad/s, "

@@ -71,6 +71,14 @@ def _deviations(graph: CellGraph) -> Iterator[Figure]:
         yield Figure(("uncertainty", "loads", name, "compensation"), share, 1e-4 if share else 0.0, 0.5, unit="%")
 
 
+def _frictions(graph: CellGraph) -> Iterator[Figure]:
+    """Yield how much the friction of parts varies, which the friction itself bounds."""
+    stated = {frame.name: frame.grasp.grips_with for frame in graph.cell.frames if frame.grasp is not None}
+    uncertainty = graph.cell.uncertainty
+    for name, friction in () if uncertainty is None else uncertainty.frictions.items():
+        yield Figure(("uncertainty", "parts", name, "friction"), friction, 1e-4, stated.get(name, math.inf) / 2.0)
+
+
 _INJECTED = ("rehearsals.*.inject", "rehearsals.*.inject.*")
 BOUNDS = (
     stated("calibrations.*.samples", _calibrations, "samples", 1, 100_000, "", "what a person or a program takes"),
@@ -107,6 +115,7 @@ BOUNDS = (
         "which is drawn again and again",
         _deviations,
     ),
+    Bound(("uncertainty.parts.*.friction",), "the deviation", "", "below the friction itself", _frictions),
 )
 
 
