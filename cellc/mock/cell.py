@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 from time import process_time
 
-from cellc.contract.attempt import AttemptRecord
 from cellc.contract.contract import Contract
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget, BudgetError, limits, option
@@ -24,6 +23,7 @@ from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
 from cellc.mock.faults.registry import Injection, any_started, build_fault
+from cellc.mock.faults.response import response_s
 from cellc.mock.folder import GeneratedFolder, in_stage, read_folder
 from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory
@@ -85,9 +85,7 @@ class _Run:
         rehearsal = self.rehearsal
         injections = [Injection(entry, build_fault(entry, self.folder.contract)) for entry in rehearsal.faults]
         alike = rehearsal.bring_up == "mock" and all(entry.phase is None for entry in rehearsal.faults)
-        alike = alike and (
-            self.folder.scene is None or self.reality == AS_STATED
-        )  # what has masses lies from the begin
+        alike &= self.folder.scene is None or self.reality == AS_STATED  # what has masses lies where it is drawn
         snapshots = self.snapshots if alike else None
         copied = None if snapshots is None else self._resumed(snapshots)
         if copied is not None:
@@ -157,36 +155,13 @@ class _Run:
             outcome=task.outcome,
             expected=rehearsal.expect,
             sim_time_s=(plant.now_ns - start_ns) / 1e9,
-            response_s=_response_s(injections, task.records),
+            response_s=response_s(injections, task.records),
             within_s=rehearsal.within_s,
             attempts=tuple(task.records),
             bringup=evidence,
             findings=(*_findings(plant), *absent),
             vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is AttemptOutcome.SUCCEEDED),
         )
-
-
-def _response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord]) -> float | None:
-    """Return the time from the last fault taking effect to the bounded end of the attempt that it ended.
-
-    A cancel takes effect when it is requested and ends when the joints stand still. Any other fault takes effect when
-    it begins, or when the attempt begins that meets it, and ends with the attempt.
-    """
-    attempts = records[:-1]
-    if not attempts:
-        return None
-    ended = next((record for record in attempts if record.outcome != AttemptOutcome.SUCCEEDED), attempts[-1])
-    # What began after that end did not cause it.
-    starts = [
-        injection.start_ns
-        for injection in injections
-        if injection.start_ns is not None and injection.start_ns <= ended.ended_ns
-    ]
-    if not starts:
-        return None
-    if ended.outcome == AttemptOutcome.CANCELED and ended.cancel is not None:
-        return ended.cancel.latency_s
-    return (ended.ended_ns - max(*starts, ended.started_ns)) / 1e9
 
 
 def _not_run(rehearsal: RehearsalEntry, error: LimitReachedError) -> RehearsalResult:
