@@ -17,6 +17,7 @@ from cellc.mock.command.ending import refusing
 from cellc.mock.command.options import FolderOptions, Live, RehearsalOptions
 from cellc.mock.command.records import refuse_foreign, write_records
 from cellc.mock.errors import MockError
+from cellc.mock.gates import NOT_MASSIVE, Massive
 from cellc.mock.result import RehearsalResult
 from cellc.mock.ros.asked import AmongNodes
 
@@ -188,6 +189,7 @@ def keep_evidence(
     options: FolderOptions,
     campaign: Campaign | None = None,
     sweeps: Sequence[Sweep] = (),
+    massive: Massive = NOT_MASSIVE,
 ) -> None:
     """Run rehearsals and write what they leave, with a report over all, where evidence is asked for.
 
@@ -202,7 +204,7 @@ def keep_evidence(
     with begin_evidence(cell, Path(options.evidence), tuple(runs), options.seed) as collector:
         for name, swept in runs.items():
             collector.run(name, swept)
-        collector.settle(campaign, sweeps)
+        collector.settle(campaign, sweeps, massive)
 
 
 def begin_evidence(

@@ -20,7 +20,7 @@ from cellc.mock.command.options import FolderOptions, GatesOptions, ReplayOption
 from cellc.mock.command.rehearsals import keep_evidence, load_seeded
 from cellc.mock.errors import MockError
 from cellc.mock.gates.gate import Verdict, gate_lines, gates_as_data
-from cellc.mock.gates.runs import judged_campaign, judged_rehearsals
+from cellc.mock.gates.runs import judged_campaign, judged_rehearsals, rehearsed_with_masses
 from cellc.mock.gates.sign import sign_gates
 from cellc.mock.sweep.figures import interval
 from cellc.mock.sweep.journal import Journal
@@ -83,9 +83,10 @@ def run_gates(options: GatesOptions) -> int:
     results = [cell.run(name, seed=options.seed) for name in in_turn(cell, cell.rehearsals)]
     campaign = conduct_all(cell, options)
     sweeps = () if wanted is None else tuple(sweep_entry(cell, entry, wanted) for entry in entries)
-    keep_evidence(cell, dict.fromkeys(cell.rehearsals), options, campaign, sweeps)
+    massive = rehearsed_with_masses(cell, Path(options.folder), options.seed)
+    keep_evidence(cell, dict.fromkeys(cell.rehearsals), options, campaign, sweeps, massive)
     runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
-    gates = sign_gates(cell.folder, runs, options.seed, sweeps)
+    gates = sign_gates(cell.folder, runs, options.seed, sweeps, massive)
     if options.as_json:
         judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
         show_document(json_document(judged))

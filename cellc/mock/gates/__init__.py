@@ -4,15 +4,25 @@ What the mock cannot show stays UNKNOWN; no line says anything about hardware.
 """
 
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
-from cellc.mock.gates.runs import JudgedRun, judged_campaign, judged_rehearsals
+from cellc.mock.gates.runs import (
+    NOT_MASSIVE,
+    JudgedRun,
+    Massive,
+    judged_campaign,
+    judged_rehearsals,
+    rehearsed_with_masses,
+)
 from cellc.mock.gates.sign import sign_gates
 
 __all__ = [
     "GateCheck",
     "GateResult",
+    "NOT_MASSIVE",
     "JudgedRun",
+    "Massive",
     "Verdict",
     "judged_campaign",
     "judged_rehearsals",
+    "rehearsed_with_masses",
     "sign_gates",
 ]

@@ -107,6 +107,7 @@ def _no_real_interface(evidence: GateEvidence) -> GateCheck:
 def mock_run_checks(evidence: GateEvidence) -> Iterator[GateCheck]:
     """Yield the lines of G2."""
     yield _rehearsals(evidence)
+    yield _with_masses(evidence)
     yield from _rates(evidence)
     yield _bringup(evidence)
     yield unknown("The launch file starts the nodes", "`ros2 launch` on a host with ROS 2")
@@ -147,6 +148,14 @@ def _rehearsals(evidence: GateEvidence) -> GateCheck:
     if missing or not seen:
         return unknown(text, f"a run of {', '.join(missing) or 'a rehearsal'}")
     return passed(text, [f"{name}: {run.result.outcome}" for name, run in seen.items()])
+
+
+def _with_masses(evidence: GateEvidence) -> GateCheck:
+    text, massive = "Every rehearsal ends as declared with masses, drives and contacts too", evidence.massive
+    bad = [f"{each.name}: {each.outcome}, {each.reason}" for each in massive.results if not each.passed]
+    good = [f"{each.name}: {each.outcome}" for each in massive.results]
+    good = [f"{massive.computed_by}, {good[0]}", *good[1:]] if good else []
+    return judged(text, good, bad, massive.needed or "a rehearsal")
 
 
 def _bringup(evidence: GateEvidence) -> GateCheck:

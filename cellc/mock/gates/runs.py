@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 
 from cellc.contract.attempt import AttemptRecord, PacketStep
 from cellc.contract.contract import Contract
+from cellc.contract.extras import MissingExtraError
 from cellc.contract.fault_declaration import Interaction
 from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock.campaign.campaign import Campaign
 from cellc.mock.campaign.limits import LimitsReport
+from cellc.mock.cell import MockCell, in_turn
+from cellc.mock.errors import MockError
 from cellc.mock.folder import GeneratedFolder
+from cellc.mock.physics.reading import with_scene
 from cellc.mock.result import RehearsalResult
 from cellc.mock.sweep.sweep import Sweep
 
@@ -48,12 +53,42 @@ class JudgedRun:
 
 
 @dataclass(frozen=True, slots=True)
+class Massive:
+    """Rehearsals of the folder whose joints and parts have masses.
+
+    Attributes:
+        needed: what would show them; empty where they were run.
+        computed_by: library and version.
+    """
+
+    results: tuple[RehearsalResult, ...]
+    needed: str
+    computed_by: str = ""
+
+
+NOT_MASSIVE = Massive((), "`cellc gates` where MuJoCo is installed (extra `physics`): it was not run with masses")
+
+
+def rehearsed_with_masses(cell: MockCell, folder: Path, seed: int) -> Massive:
+    """Run the rehearsals of a folder with masses; none where MuJoCo is not installed, or cannot read the scene."""
+    try:
+        read = with_scene(cell.folder, folder)
+    except MissingExtraError:
+        return NOT_MASSIVE
+    except MockError as error:
+        return Massive((), str(error))
+    having = cell.with_realities(read, {})
+    return Massive(tuple(having.run(name, seed=seed) for name in in_turn(having, having.rehearsals)), "", read.masses)
+
+
+@dataclass(frozen=True, slots=True)
 class GateEvidence:
     """Everything that gates are judged by."""
 
     folder: GeneratedFolder
     runs: tuple[JudgedRun, ...]
     sweeps: tuple[Sweep, ...] = ()
+    massive: Massive = NOT_MASSIVE
 
     @property
     def contract(self) -> Contract:

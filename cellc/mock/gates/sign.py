@@ -10,7 +10,7 @@ from cellc.mock.gates.command_path import command_path_checks, mock_run_checks
 from cellc.mock.gates.gate import GateCheck, GateResult
 from cellc.mock.gates.interaction import interaction_checks
 from cellc.mock.gates.model import model_checks
-from cellc.mock.gates.runs import GateEvidence, JudgedRun
+from cellc.mock.gates.runs import NOT_MASSIVE, GateEvidence, JudgedRun, Massive
 from cellc.mock.sweep.sweep import Sweep
 
 # Name, title and state of the robot.
@@ -23,7 +23,11 @@ _GATES: tuple[tuple[GateCode, str, str, Callable[[GateEvidence], Iterator[GateCh
 
 
 def sign_gates(
-    folder: GeneratedFolder, runs: Sequence[JudgedRun], seed: int, sweeps: Sequence[Sweep] = ()
+    folder: GeneratedFolder,
+    runs: Sequence[JudgedRun],
+    seed: int,
+    sweeps: Sequence[Sweep] = (),
+    massive: Massive = NOT_MASSIVE,
 ) -> tuple[GateResult, ...]:
     """Judge every line of the gates that can be judged without hardware.
 
@@ -32,8 +36,9 @@ def sign_gates(
         runs: its runs; of two with one name the last counts.
         seed: of the runs.
         sweeps: how often rehearsals succeeded where not everything is known exactly.
+        massive: its rehearsals with masses.
     """
-    evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()), tuple(sweeps))
+    evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()), tuple(sweeps), massive)
     known = folder.contract.configuration_id
     return tuple(
         GateResult(gate, title, state, known, seed, tuple(_distinct(checks(evidence))), signed=not folder.edited)
