@@ -20,7 +20,7 @@ from cellc.mock.evidence.listener import RunListener
 from cellc.mock.evidence.run_bag import RunBag
 from cellc.mock.evidence.run_trace import RunTrace, TraceResult
 from cellc.mock.folder import path_tolerances
-from cellc.mock.gates import NOT_MASSIVE, Massive, judged_campaign, judged_rehearsals, sign_gates
+from cellc.mock.gates import NO_PHYSICS, PhysicsRuns, judged_campaign, judged_rehearsals, sign_gates
 from cellc.mock.plant import Plant
 from cellc.mock.report_page.page import ReportContent, to_report
 from cellc.mock.report_page.run_section import RunEvidence
@@ -81,14 +81,14 @@ class EvidenceCollector:
         return result
 
     def settle(
-        self, campaign: Campaign | None = None, sweeps: Sequence[Sweep] = (), massive: Massive = NOT_MASSIVE
+        self, campaign: Campaign | None = None, sweeps: Sequence[Sweep] = (), physics: PhysicsRuns = NO_PHYSICS
     ) -> None:
         """Write the report and put everything in its place.
 
         Args:
             campaign: what a campaign found, which the report shows and the gates are judged by too.
             sweeps: what sweeps found, which the report shows and the gates are judged by too.
-            massive: rehearsals with masses, which the gates are judged by too.
+            physics: rehearsals with masses, which the gates are judged by too.
 
         Raises:
             MockError: the folder cannot take it.
@@ -96,10 +96,10 @@ class EvidenceCollector:
         contract = self._cell.contract
         runs = judged_rehearsals(self._cell.entries, [run.result for run in self._runs])
         if masses := self._cell.folder.masses:
-            massive = Massive(tuple(run.result for run in self._runs), "", masses)
+            physics = PhysicsRuns(tuple(run.result for run in self._runs), "", masses)
         if campaign is not None:
             runs = (*runs, *judged_campaign(campaign))
-        gates = sign_gates(self._cell.folder, runs, self._seed, sweeps, massive)
+        gates = sign_gates(self._cell.folder, runs, self._seed, sweeps, physics)
         content = ReportContent(
             contract, self._cell.notes, self._seed, tuple(self._runs), gates, campaign, tuple(sweeps)
         )

@@ -17,7 +17,7 @@ from cellc.mock.command.ending import refusing
 from cellc.mock.command.options import FolderOptions, Live, RehearsalOptions
 from cellc.mock.command.records import refuse_foreign, write_records
 from cellc.mock.errors import MockError
-from cellc.mock.gates import NOT_MASSIVE, Massive
+from cellc.mock.gates import NO_PHYSICS, PhysicsRuns
 from cellc.mock.result import RehearsalResult
 from cellc.mock.ros.asked import AmongNodes
 
@@ -189,7 +189,7 @@ def keep_evidence(
     options: FolderOptions,
     campaign: Campaign | None = None,
     sweeps: Sequence[Sweep] = (),
-    massive: Massive = NOT_MASSIVE,
+    physics: PhysicsRuns = NO_PHYSICS,
 ) -> None:
     """Run rehearsals and write what they leave, with a report over all, where evidence is asked for.
 
@@ -204,7 +204,7 @@ def keep_evidence(
     with begin_evidence(cell, Path(options.evidence), tuple(runs), options.seed) as collector:
         for name, swept in runs.items():
             collector.run(name, swept)
-        collector.settle(campaign, sweeps, massive)
+        collector.settle(campaign, sweeps, physics)
 
 
 def begin_evidence(

@@ -83,10 +83,10 @@ def run_gates(options: GatesOptions) -> int:
     results = [cell.run(name, seed=options.seed) for name in in_turn(cell, cell.rehearsals)]
     campaign = conduct_all(cell, options)
     sweeps = () if wanted is None else tuple(sweep_entry(cell, entry, wanted) for entry in entries)
-    massive = rehearsed_with_masses(cell, Path(options.folder), options.seed)
-    keep_evidence(cell, dict.fromkeys(cell.rehearsals), options, campaign, sweeps, massive)
+    physics = rehearsed_with_masses(cell, Path(options.folder), options.seed)
+    keep_evidence(cell, dict.fromkeys(cell.rehearsals), options, campaign, sweeps, physics)
     runs = (*judged_rehearsals(cell.entries, results), *judged_campaign(campaign))
-    gates = sign_gates(cell.folder, runs, options.seed, sweeps, massive)
+    gates = sign_gates(cell.folder, runs, options.seed, sweeps, physics)
     if options.as_json:
         judged = {"gates": gates_as_data(gates), "notes": list(cell.notes)}
         show_document(json_document(judged))

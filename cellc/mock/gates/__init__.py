@@ -5,9 +5,9 @@ What the mock cannot show stays UNKNOWN; no line says anything about hardware.
 
 from cellc.mock.gates.gate import GateCheck, GateResult, Verdict
 from cellc.mock.gates.runs import (
-    NOT_MASSIVE,
+    NO_PHYSICS,
     JudgedRun,
-    Massive,
+    PhysicsRuns,
     judged_campaign,
     judged_rehearsals,
     rehearsed_with_masses,
@@ -15,11 +15,11 @@ from cellc.mock.gates.runs import (
 from cellc.mock.gates.sign import sign_gates
 
 __all__ = [
+    "NO_PHYSICS",
     "GateCheck",
     "GateResult",
-    "NOT_MASSIVE",
     "JudgedRun",
-    "Massive",
+    "PhysicsRuns",
     "Verdict",
     "judged_campaign",
     "judged_rehearsals",

@@ -151,11 +151,11 @@ def _rehearsals(evidence: GateEvidence) -> GateCheck:
 
 
 def _with_masses(evidence: GateEvidence) -> GateCheck:
-    text, massive = "Every rehearsal ends as declared with masses, drives and contacts too", evidence.massive
-    bad = [f"{each.name}: {each.outcome}, {each.reason}" for each in massive.results if not each.passed]
-    good = [f"{each.name}: {each.outcome}" for each in massive.results]
-    good = [f"{massive.computed_by}, {good[0]}", *good[1:]] if good else []
-    return judged(text, good, bad, massive.needed or "a rehearsal")
+    text, physics = "Every rehearsal ends as declared with masses, drives and contacts too", evidence.physics
+    bad = [f"{each.name}: {each.outcome}, {each.reason}" for each in physics.results if not each.passed]
+    good = [f"{each.name}: {each.outcome}" for each in physics.results]
+    good = [f"{physics.computed_by}, {good[0]}", *good[1:]] if good else []
+    return judged(text, good, bad, physics.needed or "a rehearsal")
 
 
 def _bringup(evidence: GateEvidence) -> GateCheck:

@@ -53,7 +53,7 @@ class JudgedRun:
 
 
 @dataclass(frozen=True, slots=True)
-class Massive:
+class PhysicsRuns:
     """Rehearsals of the folder whose joints and parts have masses.
 
     Attributes:
@@ -66,19 +66,21 @@ class Massive:
     computed_by: str = ""
 
 
-NOT_MASSIVE = Massive((), "`cellc gates` where MuJoCo is installed (extra `physics`): it was not run with masses")
+NO_PHYSICS = PhysicsRuns((), "`cellc gates` where MuJoCo is installed (extra `physics`): it was not run with masses")
 
 
-def rehearsed_with_masses(cell: MockCell, folder: Path, seed: int) -> Massive:
+def rehearsed_with_masses(cell: MockCell, folder: Path, seed: int) -> PhysicsRuns:
     """Run the rehearsals of a folder with masses; none where MuJoCo is not installed, or cannot read the scene."""
     try:
         read = with_scene(cell.folder, folder)
     except MissingExtraError:
-        return NOT_MASSIVE
+        return NO_PHYSICS
     except MockError as error:
-        return Massive((), str(error))
+        return PhysicsRuns((), str(error))
     having = cell.with_realities(read, {})
-    return Massive(tuple(having.run(name, seed=seed) for name in in_turn(having, having.rehearsals)), "", read.masses)
+    return PhysicsRuns(
+        tuple(having.run(name, seed=seed) for name in in_turn(having, having.rehearsals)), "", read.masses
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +90,7 @@ class GateEvidence:
     folder: GeneratedFolder
     runs: tuple[JudgedRun, ...]
     sweeps: tuple[Sweep, ...] = ()
-    massive: Massive = NOT_MASSIVE
+    physics: PhysicsRuns = NO_PHYSICS
 
     @property
     def contract(self) -> Contract:

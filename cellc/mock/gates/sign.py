@@ -10,7 +10,7 @@ from cellc.mock.gates.command_path import command_path_checks, mock_run_checks
 from cellc.mock.gates.gate import GateCheck, GateResult
 from cellc.mock.gates.interaction import interaction_checks
 from cellc.mock.gates.model import model_checks
-from cellc.mock.gates.runs import NOT_MASSIVE, GateEvidence, JudgedRun, Massive
+from cellc.mock.gates.runs import NO_PHYSICS, GateEvidence, JudgedRun, PhysicsRuns
 from cellc.mock.sweep.sweep import Sweep
 
 # Name, title and state of the robot.
@@ -27,7 +27,7 @@ def sign_gates(
     runs: Sequence[JudgedRun],
     seed: int,
     sweeps: Sequence[Sweep] = (),
-    massive: Massive = NOT_MASSIVE,
+    physics: PhysicsRuns = NO_PHYSICS,
 ) -> tuple[GateResult, ...]:
     """Judge every line of the gates that can be judged without hardware.
 
@@ -36,9 +36,9 @@ def sign_gates(
         runs: its runs; of two with one name the last counts.
         seed: of the runs.
         sweeps: how often rehearsals succeeded where not everything is known exactly.
-        massive: its rehearsals with masses.
+        physics: its rehearsals with masses.
     """
-    evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()), tuple(sweeps), massive)
+    evidence = GateEvidence(folder, tuple({run.name: run for run in runs}.values()), tuple(sweeps), physics)
     known = folder.contract.configuration_id
     return tuple(
         GateResult(gate, title, state, known, seed, tuple(_distinct(checks(evidence))), signed=not folder.edited)

@@ -10,7 +10,7 @@ import pytest
 
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell, load
-from cellc.mock.gates import GateCheck, JudgedRun, Massive, Verdict, rehearsed_with_masses, sign_gates
+from cellc.mock.gates import GateCheck, JudgedRun, PhysicsRuns, Verdict, rehearsed_with_masses, sign_gates
 from tests.cells import generated
 
 _WORDS = "with masses, drives and contacts too"
@@ -21,10 +21,10 @@ def minimal() -> MockCell:
     return load(generated("minimal"))
 
 
-def _line(cell: MockCell, massive: Massive, runs: Sequence[JudgedRun] = ()) -> GateCheck:
+def _line(cell: MockCell, physics: PhysicsRuns, runs: Sequence[JudgedRun] = ()) -> GateCheck:
     (found,) = [
         check
-        for gate in sign_gates(cell.folder, runs, 0, massive=massive)
+        for gate in sign_gates(cell.folder, runs, 0, physics=physics)
         for check in gate.checks
         if _WORDS in check.text
     ]
@@ -32,12 +32,12 @@ def _line(cell: MockCell, massive: Massive, runs: Sequence[JudgedRun] = ()) -> G
 
 
 def test_rehearsals_are_run_with_masses_and_one_that_fails_there_fails_the_gate(minimal: MockCell) -> None:
-    massive = rehearsed_with_masses(minimal, generated("minimal"), 0)
-    assert massive.results == (load(generated("minimal"), physics=True).run("ready"),)
-    passed = _line(minimal, massive)
-    assert (passed.verdict, passed.evidence) == (Verdict.PASSED, (f"{massive.computed_by}, ready: succeeded",))
-    (ready,) = massive.results
-    other = replace(massive, results=(replace(ready, outcome=AttemptOutcome.TIMEOUT),))
+    physics = rehearsed_with_masses(minimal, generated("minimal"), 0)
+    assert physics.results == (load(generated("minimal"), physics=True).run("ready"),)
+    passed = _line(minimal, physics)
+    assert (passed.verdict, passed.evidence) == (Verdict.PASSED, (f"{physics.computed_by}, ready: succeeded",))
+    (ready,) = physics.results
+    other = replace(physics, results=(replace(ready, outcome=AttemptOutcome.TIMEOUT),))
     assert _line(minimal, other).verdict is Verdict.FAILED
 
 
