@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from time import process_time
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.contract import Contract
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Budget, BudgetError, limits, option
@@ -24,9 +25,10 @@ from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
 from cellc.mock.faults.registry import Injection, any_started, build_fault
 from cellc.mock.faults.response import response_s
-from cellc.mock.folder import GeneratedFolder, in_stage, read_folder
+from cellc.mock.folder import GeneratedFolder, goal_tolerances, in_stage, path_tolerances, read_folder
 from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory
+from cellc.mock.physics.off_plan import off_plan
 from cellc.mock.physics.reading import with_scene
 from cellc.mock.plant import Plant
 from cellc.mock.reality import AS_STATED, Reality
@@ -138,7 +140,9 @@ class _Run:
         may_oversleep: bool,
     ) -> RehearsalResult:
         """Inject the faults at their times, and run the task to its named end."""
-        rehearsal, start_ns = self.rehearsal, plant.now_ns
+        rehearsal, start_ns, dynamics = self.rehearsal, plant.now_ns, plant.control.dynamics
+        if dynamics is not None:
+            dynamics.contacts.begin()
         plant.loads.draw(self.reality)
         if rehearsal.bring_up == "real":
             plant.start.operator_takes_over()
@@ -159,9 +163,21 @@ class _Run:
             within_s=rehearsal.within_s,
             attempts=tuple(task.records),
             bringup=evidence,
-            findings=(*_findings(plant), *absent),
+            findings=(*_findings(plant), *self._of_motions(plant, task.records), *absent),
+            contacts=() if dynamics is None else tuple(dynamics.contacts),
             vacuous=bool(absent) and (len(absent) == len(injections) or task.outcome is AttemptOutcome.SUCCEEDED),
         )
+
+    def _of_motions(self, plant: Plant, records: Sequence[AttemptRecord]) -> Iterator[str]:
+        """Yield how far motions with masses were from their plans, where a bound of the contract is near."""
+        dynamics, parameters = plant.control.dynamics, self.folder.parameters
+        if dynamics is not None:
+            spans = [
+                (record.step, record.started_ns, record.ended_ns)
+                for record in records[:-1]
+                if record.outcome == AttemptOutcome.SUCCEEDED and record.controller_name is not None
+            ]
+            yield from off_plan(dynamics, spans, path_tolerances(parameters), goal_tolerances(parameters))
 
 
 def _not_run(rehearsal: RehearsalEntry, error: LimitReachedError) -> RehearsalResult:

@@ -6,6 +6,7 @@ import hashlib
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TypeVar
 
@@ -369,10 +370,20 @@ def named_files(contract: Contract) -> Iterator[str]:
 
 def path_tolerances(parameters: Mapping[str, str]) -> dict[str, float]:
     """Return `constraints.<joint>.trajectory` of the parameter files, of each joint that has one above zero."""
-    return dict(tolerance for text in parameters.values() for tolerance in _tolerances(text))
+    return dict(tolerance for text in parameters.values() for tolerance in _tolerances(text, "trajectory"))
 
 
-def _tolerances(text: str) -> Iterator[tuple[str, float]]:
+def goal_tolerances(parameters: Mapping[str, str]) -> dict[str, float]:
+    """Return `constraints.<joint>.goal` of the parameter files, of each joint that has one above zero."""
+    return dict(tolerance for text in parameters.values() for tolerance in _tolerances(text, "goal"))
+
+
+@lru_cache(maxsize=64)
+def _tolerances(text: str, key: str) -> tuple[tuple[str, float], ...]:
+    return tuple(_tolerances_of(text, key))
+
+
+def _tolerances_of(text: str, key: str) -> Iterator[tuple[str, float]]:
     try:
         nodes = load_values(text, most=limits().folder_values)
     except (yaml.YAMLError, ValueError, RecursionError):
@@ -381,6 +392,6 @@ def _tolerances(text: str) -> Iterator[tuple[str, float]]:
         parameters = node.get("ros__parameters") if isinstance(node, dict) else None
         constraints = parameters.get("constraints") if isinstance(parameters, dict) else None
         for joint, constraint in constraints.items() if isinstance(constraints, dict) else ():
-            value = constraint.get("trajectory") if isinstance(constraint, dict) else None
+            value = constraint.get(key) if isinstance(constraint, dict) else None
             if isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value <= LARGEST:
                 yield str(joint), float(value)

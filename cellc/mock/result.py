@@ -62,6 +62,19 @@ class StageEvidence:
         return not self.problems
 
 
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Two bodies with masses, and the largest force with which they pressed on each other, N."""
+
+    one: str
+    other: str
+    most_n: float
+    at_ns: int
+
+    def __str__(self) -> str:
+        return f"{self.one} and {self.other} press with up to {self.most_n:.3g} N, at {self.at_ns / 1e9:.3f} s"
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class RehearsalResult:
     """The end of one rehearsal with its evidence; nothing in it depends on the host or the hour.
@@ -76,6 +89,7 @@ class RehearsalResult:
         unseen: links with a shape whose mesh is not there: nothing checked whether they touch anything.
         violations: what nodes under test did against the contract, one line each.
         vacuous: it shows nothing of a fault, which never began although no other one ended the run; a finding says why.
+        contacts: what pressed on what since the task began, the hardest first; empty where nothing has a mass.
     """
 
     name: str
@@ -88,6 +102,7 @@ class RehearsalResult:
     bringup: tuple[StageEvidence, ...]
     findings: tuple[str, ...]
     vacuous: bool = False
+    contacts: tuple[Contact, ...] = ()
     edited: bool = False
     unseen: tuple[str, ...] = ()
     violations: tuple[str, ...] = ()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import asdict
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -29,6 +30,10 @@ if TYPE_CHECKING:
     from cellc.mock.sweep.sweep import Sweep
 
 
+_CONTACTS = 3
+"""That are printed of a rehearsal, the hardest."""
+
+
 @dataclass(frozen=True, slots=True)
 class TimedResult:
     """A result with the time that the host needed, which is in no record and no evidence."""
@@ -52,6 +57,8 @@ def to_summary_json(configuration_id: str, timed: Sequence[TimedResult], notes: 
             "reason": each.result.reason,
             "edited": each.result.edited,
             "violations": list(each.result.violations),
+            "findings": list(each.result.findings),
+            "contacts": [asdict(contact) for contact in each.result.contacts],
         }
         for each in timed
     ]
@@ -81,6 +88,10 @@ def to_lines(timed: Sequence[TimedResult], notes: Sequence[str]) -> Iterator[str
             yield f"        against the contract: {violation}"
         for finding in result.findings:
             yield f"        finding: {finding}"
+        for contact in result.contacts[:_CONTACTS]:
+            yield f"        contact: {contact}"
+        if (more := len(result.contacts) - _CONTACTS) > 0:
+            yield f"        contact: {more} more, with less force; `--evidence` has all"
 
 
 @refusing

@@ -19,6 +19,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.transforms import Pose, Vector3
 from cellc.mock.control.interfaces import Array, Times
 from cellc.mock.errors import MockError
+from cellc.mock.physics.contacts import Contacts
 from cellc.mock.physics.reading import SCENE_FILE
 from cellc.robot.physics.scene import Bodies, Scene, SceneError, Touch, Weight
 
@@ -38,6 +39,7 @@ class _Block:
     Attributes:
         states: after each cycle, shape (cycles, numbers of a state).
         seen: contacts that are not planned, with the number of the cycle.
+        pressing: in each cycle the numbers of two bodies in each contact, and its force in N.
         commands: of all drives in each cycle, shape (cycles, drives).
         followed: command and its step in each cycle, of the drives that are led ahead.
     """
@@ -46,6 +48,7 @@ class _Block:
     states: Array
     commands: Array
     seen: tuple[tuple[int, Seen], ...]
+    pressing: tuple[tuple[NDArray[np.intp], Array], ...]
     followed: Mapping[int, tuple[Array, Array]]
 
 
@@ -76,6 +79,7 @@ class Dynamics:
     Attributes:
         scene: that it is made of.
         seen: contacts that are not planned, one for each two bodies and cycle.
+        contacts: how hard any two bodies pressed on each other at most.
         shared: joints have several owners.
 
     Args:
@@ -99,6 +103,7 @@ class Dynamics:
         self.shared = owners > 1
         self.scene = scene
         self.seen: list[Seen] = []
+        self.contacts = Contacts(scene.bodies)
         self._planned = planned
         self._watched = scene.watched(planned)
         self._leads_s = {scene.drives[joint]: lead for joint, lead in leads_s.items()}
@@ -158,15 +163,18 @@ class Dynamics:
             commands[:, columns] = np.array(list(self._aims.values())).T
         led = np.array([self._led(drive, self._aims[drive], followed, times_ns) for drive in self._aims]).T
         seen: list[tuple[int, Seen]] = []
+        pressing: list[tuple[NDArray[np.intp], Array]] = []
         for cycle, time_ns in enumerate(times_ns.tolist()):
             if len(columns):
                 aims[columns] = led[cycle]
             bodies.run(time_ns // self.scene.step_ns - at_ns // self.scene.step_ns, aims)
             bodies.state(states[cycle])
             seen += [(cycle, Seen(time_ns, touch)) for touch in bodies.touches(self._watched)]
+            pressing.append(bodies.pressing())
             at_ns = time_ns
         self._aims.clear()
-        self._block, self._adopted, self._held = _Block(times_ns, states, commands, tuple(seen), followed), 0, None
+        self._block = _Block(times_ns, states, commands, tuple(seen), tuple(pressing), followed)
+        self._adopted, self._held = 0, None
         try:
             bodies.refuse_unstable()
         except SceneError as error:
@@ -176,7 +184,7 @@ class Dynamics:
         """Take what was computed for another owner at a time; what is asked of the drives waits for the next one."""
         at = [max(0, bisect_right(self._times, time_ns) - 1) for time_ns in times_ns.tolist()]
         states, commands = (np.array([kept[row] for row in at]) for kept in (self._states, self._commands))
-        self._block, self._adopted = _Block(times_ns, states, commands, (), {}), len(at)
+        self._block, self._adopted = _Block(times_ns, states, commands, (), (), {}), len(at)
 
     def _steps(self, drive: int, targets: Array) -> tuple[Array, Array]:
         """Return the commands of a drive in the next cycles, and how far each is from the one before."""
@@ -215,6 +223,7 @@ class Dynamics:
         if first >= cycles:
             return
         self.seen += [seen for cycle, seen in block.seen if first <= cycle < cycles]
+        self.contacts.add(block.times_ns[first:cycles], block.pressing[first:cycles])
         self._times += block.times_ns[first:cycles].tolist()
         self._states.extend(block.states[first:cycles].copy())
         self._commands.extend(block.commands[first:cycles].copy())
@@ -222,13 +231,14 @@ class Dynamics:
         for drive, (targets, steps) in block.followed.items():
             self._followed[drive] = float(targets[cycles - 1]), float(steps[cycles - 1])
 
-    def since(self, stamp_ns: int) -> tuple[Times, Array, Array]:
+    def since(self, stamp_ns: int, until_ns: int | None = None) -> tuple[Times, Array, Array]:
         """Return the times of cycles after an instant, the states, and the commands of the drives in them."""
         first = bisect_right(self._times, stamp_ns)
-        times = np.array(self._times[first:], dtype=np.int64)
+        end = len(self._times) if until_ns is None else bisect_right(self._times, until_ns)
+        times = np.array(self._times[first:end], dtype=np.int64)
         rows = len(times)
-        states = np.array(self._states[first:]).reshape(rows, self.scene.size)
-        return times, states, np.array(self._commands[first:]).reshape(rows, len(self.scene.drives))
+        states = np.array(self._states[first:end]).reshape(rows, self.scene.size)
+        return times, states, np.array(self._commands[first:end]).reshape(rows, len(self.scene.drives))
 
     @property
     def _computed(self) -> _Block:

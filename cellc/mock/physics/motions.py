@@ -13,6 +13,10 @@ from cellc.mock.physics.dynamics import Dynamics
 
 _LEAST = 1e-3
 """rad or m, and rad/s or m/s: by less no joint is away from its command, and slower none moves."""
+_SETTLED_NS = 300_000_000
+"""After which a part that was put down lies; no robot has moved by then."""
+_SETTLES_M = 0.002
+"""By which a part may move as it is put down."""
 _TOPPLED = math.radians(45.0)
 """A part that leans so far beyond how it rested has passed its balance, whatever its edges are."""
 
@@ -40,14 +44,17 @@ class Motion:
         return f"{abs(value) * 1e3:.3g} {'mm' if self.slides else 'mrad'}"
 
 
-def motions(dynamics: Dynamics, since_ns: int, but: Collection[str] = ()) -> Iterator[Motion]:
+def motions(
+    dynamics: Dynamics, since_ns: int, but: Collection[str] = (), until_ns: int | None = None
+) -> Iterator[Motion]:
     """Yield how each driven joint moved since an instant.
 
     Args:
         but: joints that are left out.
+        until_ns: the end of the stretch; None for now.
     """
     scene, joints = dynamics.scene, [joint for joint in dynamics.scene.drives if joint not in but]
-    times, states, commands = dynamics.since(since_ns)
+    times, states, commands = dynamics.since(since_ns, until_ns)
     if not joints or len(times) < 2:
         return
     positions, speeds = scene.positions(states, joints), scene.velocities(states[-1], joints)
@@ -92,6 +99,17 @@ def stopping(found: Sequence[Motion]) -> str:
         return ""
     still = f", and still moves at {worst.length(worst.speed)}/s" if worst.speed >= _LEAST else ""
     return f"stopping distance: joint {worst.joint} goes on by {worst.length(worst.way)}{still}"
+
+
+def unsupported(dynamics: Dynamics) -> Iterator[str]:
+    """Yield the parts that did not rest where the cell has them: they drop, or are pushed up, as time begins."""
+    times, states, _ = dynamics.since(-1, _SETTLED_NS)
+    for part in dynamics.scene.parts if len(times) else ():
+        first, last = (dynamics.scene.pose(row, part).position[2] for row in (states[0], states[-1]))
+        if abs(last - first) > _SETTLES_M:
+            moved = f"moves {abs(last - first) * 1e3:.3g} mm {'down' if last < first else 'up'} as time begins"
+            why = "floats above" if last < first else "sinks into"
+            yield f"support: {part} {moved}: by its `size` and its frame it {why} what is below it"
 
 
 def toppled(dynamics: Dynamics, since_ns: int, held: Collection[str]) -> Iterator[str]:

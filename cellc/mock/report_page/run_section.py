@@ -18,7 +18,7 @@ from cellc.mock.evidence.run_trace import Claim, StateChange, TraceResult
 from cellc.mock.report_page.axes import TimeAxis, ticks
 from cellc.mock.report_page.html import Child, at, breakable, cards, hint, seconds, tag
 from cellc.mock.report_page.plots import plots
-from cellc.mock.result import RehearsalResult
+from cellc.mock.result import Contact, RehearsalResult
 from cellc.mock.sweep.runs import SweepRun
 
 
@@ -221,7 +221,14 @@ def run_section(number: int, run: RunEvidence, contract: Contract) -> Element:
     findings = [tag("p", f"finding: {text}", class_="note") for text in result.findings]
     files = hint("files: ", *_links(run.files))
     parts = [] if run.trace is None else list(_parts(run, run.trace, contract))
-    return tag("section", title, files, *problems, *findings, *parts, id=f"run-{number}")
+    contacts = [cards(("what", "presses on", "with up to", "at"), [_contact(each) for each in result.contacts])]
+    pressed = [tag("h3", "Contacts"), *contacts] if result.contacts else []
+    return tag("section", title, files, *problems, *findings, *parts, *pressed, id=f"run-{number}")
+
+
+def _contact(contact: Contact) -> tuple[Child, ...]:
+    force, stamp = f"{contact.most_n:.3g} N", at(contact.at_ns)
+    return contact.one, contact.other, *(tag("td", text, class_="number") for text in (force, stamp))
 
 
 def _links(files: tuple[str, ...]) -> Iterator[Child]:

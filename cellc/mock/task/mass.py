@@ -8,7 +8,7 @@ from cellc.contract.contract import Contract
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.physics.drives import farthest, spent
 from cellc.mock.physics.dynamics import Dynamics, pressed
-from cellc.mock.physics.motions import drooping, motions, passing, stopping, toppled
+from cellc.mock.physics.motions import drooping, motions, passing, stopping, toppled, unsupported
 from cellc.mock.plant import Plant
 from cellc.mock.task.context import AttemptError, TaskContext
 
@@ -87,3 +87,4 @@ def findings(plant: Plant) -> Iterator[str]:
         return
     yield from (f"{_CONTACT}{each}" for each in pressed(dynamics.seen, 0))
     yield from (f"torque: {each}" for each in spent(dynamics, 0, grippers(plant.contract)))
+    yield from unsupported(dynamics)

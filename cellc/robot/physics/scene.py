@@ -27,6 +27,10 @@ _FREE, _SLIDE, _HINGE = 0, 2, 3
 _EQUAL_JOINTS = 2
 """Type of an equality between two joints."""
 
+_ELLIPTIC = 1
+"""Friction cone."""
+_NO_ROWS: Rows = np.empty((0, 2), dtype=np.intp)
+_NO_FORCES: Array = np.empty(0)
 _THINNEST = 1e-4
 """m: half of what is left of a part that is to be narrower than nothing."""
 _SMOOTHEST = 1e-5
@@ -302,6 +306,21 @@ class Bodies:
                 one, other = (self.scene.bodies[model.geom_bodyid[geom]] for geom in pairs[index])
                 x, y, z = data.contact.frame[index][:3].tolist()
                 yield Touch(one, other, float(self._one[0]), (x, y, z))
+
+    def pressing(self) -> tuple[Rows, Array]:
+        """Return the numbers of each two bodies that press on each other, a row for each contact, and the forces, N."""
+        data, model = self._data, self.model
+        if not data.ncon:
+            return _NO_ROWS, _NO_FORCES
+        pairs: Rows = np.sort(model.geom_bodyid[data.contact.geom], axis=1)
+        if model.opt.cone == _ELLIPTIC:  # the first row of a contact is its normal
+            first = data.contact.efc_address
+            return pairs[first >= 0], data.efc_force[first[first >= 0]]
+        forces = np.zeros(len(pairs))
+        for index in range(len(pairs)):
+            self._library.mj_contactForce(model, data, index, self._one)
+            forces[index] = self._one[0]
+        return pairs, forces
 
     def look(self) -> None:
         """Compute what presses on what in a state that was just restored."""
