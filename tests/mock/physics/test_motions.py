@@ -1,15 +1,18 @@
-"""Droop, overshoot, stopping distance and a part that topples, by the textbook: an oscillator, the balance of a box."""
+"""Droop, overshoot, stopping distance, contacts and a part that topples, by the textbook: an oscillator, a box."""
 
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from cellc.contract.transforms import Pose
+from cellc.mock.physics.contacts import Contacts
 from cellc.mock.physics.dynamics import Dynamics
-from cellc.mock.physics.motions import Motion, drooping, motions, passing, stopping, toppled
+from cellc.mock.physics.motions import Motion, drooping, motions, passing, stopping, toppled, unsupported
+from cellc.mock.physics.off_plan import off_plan
 from cellc.robot.physics.scene import Scene
 
 _MS = 1_000_000
@@ -92,3 +95,66 @@ def test_a_box_is_knocked_over_beyond_its_balance(degrees: float, falls: bool) -
     assert bool(told) == falls
     assert all(line.startswith("knocked over: part leans by 90 deg, ") for line in told)
     assert tuple(toppled(bodies, 400 * _MS, ("part",))) == ()
+
+
+def _off(bodies: Dynamics, path: float, goal: float) -> list[str]:
+    tolerances = [dict.fromkeys(("along", "up"), value) for value in (path, goal)]
+    return list(off_plan(bodies, [("move: there", 2900 * _MS, 11000 * _MS)], *tolerances))
+
+
+def test_a_motion_that_succeeds_is_named_where_it_comes_near_a_bound() -> None:
+    """A step of 100 mm is a path error of all of it, less what one cycle brings, and passed by 52.7 mm."""
+    bodies = _made()
+    _run(bodies, 1, 3000, 0.0)
+    _run(bodies, 3001, 11000, 0.1)
+    first = "path error: joint along is 100 mm from its command in `move: there`, at 3.001 s; "
+    passed = "overshoot: joint along passes its end by 52.7 mm in `move: there`; its goal tolerance is "
+    assert _off(bodies, 0.15, 0.05) == [f"{first}150 mm would end its goal", f"{passed}50 mm"]
+    assert _off(bodies, 0.25, 0.06) == []
+
+
+@pytest.mark.parametrize(("above_mm", "way"), [(0.0, ""), (30.0, "down: floats above"), (-4.0, "up: sinks into")])
+def test_a_part_that_floats_or_sinks_is_named(above_mm: float, way: str) -> None:
+    bodies = _made()
+    bodies.put("part", Pose((0.0, 0.0, 0.05 + above_mm * 1e-3), (0.0, 0.0, 0.0, 1.0)))
+    _run(bodies, 1, 500, 0.0)
+    found = list(unsupported(bodies))
+    if not way:
+        assert found == []
+        return
+    (told,) = (
+        re.fullmatch(r"support: part moves (\S+) mm (\w+) as time begins: .* it (\w+ \w+) what is below it", line)
+        for line in found
+    )
+    assert told is not None, found
+    assert (float(told[1]), f"{told[2]}: {told[3]}") == (pytest.approx(abs(above_mm), abs=0.2), way)
+
+
+def test_contacts_have_the_largest_force_of_all_points_together_and_its_instant() -> None:
+    """At rest the four corners of the box carry its weight of 0.2 kg; dropped by 50 mm it presses harder once."""
+    bodies = _made()
+    _run(bodies, 1, 1000, 0.0)
+    bodies.contacts.begin()
+    _run(bodies, 1001, 1500, 0.0)
+    (rests,) = bodies.contacts
+    assert (rests.one, rests.other) == ("floor", "part")
+    assert rests.most_n == pytest.approx(0.2 * 9.81, rel=1e-3)
+    bodies.put("part", Pose((0.0, 0.0, 0.1), (0.0, 0.0, 0.0, 1.0)))
+    bodies.contacts.begin()
+    _run(bodies, 1501, 2500, 0.0)
+    (hits,) = bodies.contacts
+    assert hits.most_n > 5.0 * rests.most_n
+    # It falls 50 mm in sqrt(2 * 0.05 / 9.81) = 101 ms, and is stopped within some ms.
+    assert 1.590 <= hits.at_ns / 1e9 <= 1.620
+
+
+def test_contacts_are_added_up_by_cycle_whatever_the_order_of_their_points() -> None:
+    contacts = Contacts(("world", "a", "b"))
+    pairs: list[list[list[int]]] = [[[0, 1], [1, 2], [0, 1]], [], [[0, 1], [1, 2]]]
+    forces: list[list[float]] = [[1.0, 5.0, 3.0], [], [3.5, 6.0]]
+    pressing = [
+        (np.array(rows, dtype=np.intp).reshape(-1, 2), np.array(each)) for rows, each in zip(pairs, forces, strict=True)
+    ]
+    contacts.add(np.array([10, 20, 30]), pressing)
+    found = [(each.one, each.other, each.most_n, each.at_ns) for each in contacts]
+    assert found == [("a", "b", 6.0, 30), ("world", "a", 4.0, 10)]
