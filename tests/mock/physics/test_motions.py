@@ -127,7 +127,8 @@ def test_a_part_that_floats_or_sinks_is_named(above_mm: float, way: str) -> None
         for line in found
     )
     assert told is not None, found
-    assert (float(told[1]), f"{told[2]}: {told[3]}") == (pytest.approx(abs(above_mm), abs=0.2), way)
+    assert float(told[1]) == pytest.approx(abs(above_mm), abs=0.2)
+    assert f"{told[2]}: {told[3]}" == way
 
 
 def test_contacts_have_the_largest_force_of_all_points_together_and_its_instant() -> None:
