@@ -42,7 +42,8 @@ CLUSTER = Extra("cluster", "`--cluster`", ("distributed", "dask"), ("distributed
 LIVE = Extra("live", "`--live`", ("foxglove", "mcap"), ("foxglove-sdk>=0.30", "mcap>=1.1"))
 BAGS = Extra("bags", "reading a bag", ("rosbags", "mcap"), ("rosbags>=0.11.0", "mcap>=1.1"))
 PHYSICS = Extra("physics", "`--physics`", ("mujoco",), ("mujoco>=3.3",))
-EXTRAS = (EVIDENCE, LSP, CLUSTER, LIVE, BAGS, PHYSICS)
+FILM = Extra("film", "`--film`", ("PIL",), ("pillow>=10.3",))
+EXTRAS = (EVIDENCE, LSP, CLUSTER, LIVE, BAGS, PHYSICS, FILM)
 
 
 @contextmanager

@@ -106,5 +106,7 @@ def test_summary_as_json() -> None:
         "reason": "",
         "edited": False,
         "violations": [],
+        "findings": [],
+        "contacts": [],
     }
     assert (stopped["response_s"], stopped["within_s"], stopped["edited"]) == (0.04, 0.1, True)

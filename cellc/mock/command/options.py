@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterator
 
 from cellc.contract.compute.fan import USUAL, Fan
-from cellc.contract.extras import CLUSTER, EVIDENCE, LIVE, PHYSICS, Extra
+from cellc.contract.extras import CLUSTER, EVIDENCE, FILM, LIVE, PHYSICS, Extra
 from cellc.contract.frozen import dataclass
 from cellc.mock.ros.asked import AmongNodes
 
@@ -85,6 +85,7 @@ class RehearsalOptions(FolderOptions):
         images: draw what cameras see into the bags.
         among: nodes on a ROS graph that are run for real; None where all are played.
         against: run each rehearsal without masses too, and say where the two part.
+        film: file that a film of the one rehearsal is written to.
     """
 
     rehearsals: tuple[str, ...] = ()
@@ -93,12 +94,15 @@ class RehearsalOptions(FolderOptions):
     images: bool = False
     among: AmongNodes | None = None
     against: bool = False
+    film: str | None = None
 
     def extras(self) -> Iterator[Extra]:
         """Yield what it needs beyond what cellc is installed with."""
         yield from FolderOptions.extras(self)
         if self.live is not None:
             yield LIVE
+        if self.film is not None:
+            yield FILM
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from cellc.contract.diagnostics.unsafe_text import json_document
-from cellc.contract.extras import LIVE, gate
+from cellc.contract.extras import FILM, LIVE, gate
 from cellc.contract.frozen import dataclass
 from cellc.contract.printing import progress, show, show_document
 from cellc.mock.cell import MockCell, in_turn, load
@@ -158,12 +158,25 @@ def load_seeded(options: FolderOptions) -> MockCell:
 
 
 def _run(cell: MockCell, names: Sequence[str], options: RehearsalOptions) -> list[TimedResult]:
+    if options.film is not None:
+        return _timed(cell, names, _filming(options.film, cell, names, options.seed))
     if options.evidence is None:
         return _timed(cell, names, lambda name: cell.run(name, seed=options.seed))
     with begin_evidence(cell, Path(options.evidence), names, options.seed, images=options.images) as collector:
         timed = _timed(cell, names, collector.run)
         collector.settle()
     return timed
+
+
+def _filming(file: str, cell: MockCell, names: Sequence[str], seed: int) -> Callable[[str], RehearsalResult]:
+    """Return what runs the one rehearsal and writes its film."""
+    with gate(FILM):
+        from cellc.mock.command.film import encoder, filmed
+    path = Path(file)
+    if len(names) != 1:
+        raise MockError(path.as_posix(), f"is a film of one rehearsal, got {len(names)}; name it with --rehearsal")
+    encoder(path)  # or it refuses, before anything runs
+    return lambda name: filmed(cell, name, seed, path)
 
 
 def _timed(

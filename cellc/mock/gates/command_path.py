@@ -151,7 +151,7 @@ def _rehearsals(evidence: GateEvidence) -> GateCheck:
 
 
 def _with_masses(evidence: GateEvidence) -> GateCheck:
-    text, physics = "Every rehearsal ends as declared with masses, drives and contacts too", evidence.physics
+    text, physics = "With masses, drives and contacts too every rehearsal ends as declared", evidence.physics
     bad = [f"{each.name}: {each.outcome}, {each.reason}" for each in physics.results if not each.passed]
     good = [f"{each.name}: {each.outcome}" for each in physics.results]
     good = [f"{physics.computed_by}, {good[0]}", *good[1:]] if good else []

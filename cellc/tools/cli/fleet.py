@@ -156,6 +156,7 @@ _OF_ONE_FOLDER = {
     "stage": "--stage",
     "live": "--live",
     "physics": "--physics",
+    "film": "--film",
 }
 
 

@@ -15,6 +15,7 @@ from cellc.tools.cli.run_options import (
     AGAINST,
     EDITED,
     EVIDENCE,
+    FILM,
     FOLDERS,
     IMAGES,
     JSON,
@@ -59,6 +60,8 @@ def _refuse_mixed(options: RehearsalOptions) -> None:
         raise click.UsageError("--against needs --physics.")
     if options.against and (options.evidence or options.records or options.live or options.among):
         raise click.UsageError("--against cannot be combined with --evidence, --records, --live or --ros.")
+    if options.film and (options.against or options.evidence or options.live or options.among):
+        raise click.UsageError("--film cannot be combined with --against, --evidence, --live or --ros.")
 
 
 @click.command(cls=_Mock)
@@ -69,6 +72,7 @@ def _refuse_mixed(options: RehearsalOptions) -> None:
 @IMAGES
 @PHYSICS
 @AGAINST
+@FILM
 @JSON
 @SEED
 @STAGE

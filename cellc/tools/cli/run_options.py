@@ -55,6 +55,12 @@ PHYSICS = click.option("--physics", is_flag=True, help="Give joints and parts ma
 AGAINST = click.option(
     "--against", is_flag=True, help="With --physics: run without masses too, and say where the two part."
 )
+FILM = click.option(
+    "--film",
+    type=click.Path(path_type=str, dir_okay=False),
+    callback=_refuse_empty,
+    help="Write a film of one rehearsal to FILE: .gif, or .mp4 with ffmpeg.",
+)
 STAGE = click.option("--stage", default="", metavar="PERCENT", help="Plan in this stage of commissioning.")
 EDITED = click.option(
     "--edited", is_flag=True, help="Run an edited folder; every result is marked, and no gate is signed."

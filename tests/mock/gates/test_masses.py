@@ -13,7 +13,7 @@ from cellc.mock import MockCell, load
 from cellc.mock.gates import GateCheck, JudgedRun, PhysicsRuns, Verdict, rehearsed_with_masses, sign_gates
 from tests.cells import generated
 
-_WORDS = "with masses, drives and contacts too"
+_WORDS = "With masses, drives and contacts too"
 
 
 @pytest.fixture(scope="module")

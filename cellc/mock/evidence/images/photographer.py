@@ -7,7 +7,7 @@ right, and nothing to train or to tune perception with. Of a mesh the box around
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -110,7 +110,7 @@ class Photographer:
         if last is not None and last.sequence == image.sequence:
             return last
         world = self._plant.world
-        parts = tuple((world.object_pose(name, image.taken_ns), self._edge(name)) for name in world.objects())
+        parts = tuple(self.parts(image.taken_ns))
         shot = Shot(device, image.sequence, image.stamp_ns, world.joint_positions(image.taken_ns), parts)
         self._last[device] = shot
         return shot
@@ -129,20 +129,28 @@ class Photographer:
             return messages.camera_info(shot.stamp_ns, stream.frame, size, camera.focal, camera.center)
         last, view = self._seen.get(topic, (None, None))
         if view is None or last is None or (last.positions, last.parts) != (shot.positions, shot.parts):
-            view = seen(camera, self._bodies(stream.frame, shot))
+            root_in_camera = self._plant.world.posed(stream.frame, shot.positions).inverse()
+            view = seen(camera, self.bodies(root_in_camera, shot.positions, shot.parts))
             self._seen[topic] = shot, view
         return messages.image(shot.stamp_ns, stream.frame, stream.encoding, pixels(view, stream))
 
-    def _bodies(self, frame: str, shot: Shot) -> Iterator[Body]:
+    def parts(self, stamp_ns: int) -> Iterator[tuple[Pose, float]]:
+        """Yield where parts are in the root link at a time, with their edges in m."""
+        world = self._plant.world
+        yield from ((world.object_pose(name, stamp_ns), self._edge(name)) for name in world.objects())
+
+    def bodies(
+        self, root_in_camera: Pose, positions: Mapping[str, float], parts: Iterable[tuple[Pose, float]]
+    ) -> Iterator[Body]:
+        """Yield links and parts in an optical frame, where joints have some positions, rad or m."""
         world, poses = self._plant.world, dict[str, Pose]()
         if self._painted is None:
             self._painted = tuple(painted(self._description, self._mesh_roots))
-        root_in_camera = world.posed(frame, shot.positions).inverse()
         for each in self._painted:
             if each.link not in poses:
-                poses[each.link] = root_in_camera @ world.posed(each.link, shot.positions)
+                poses[each.link] = root_in_camera @ world.posed(each.link, positions)
             yield Body(each.shape, poses[each.link] @ each.pose, each.color)
-        for pose, edge in shot.parts:
+        for pose, edge in parts:
             yield Body(Box((edge, edge, edge)), root_in_camera @ pose, _PART)
 
     def _edge(self, name: str) -> float:
