@@ -1,11 +1,9 @@
 """Nothing is passed over: every scalar of every spec, changed alone to another valid value, is a fact with a name.
 
-A session takes one leaf of thirty-six, another of them in each cell; with ``--long`` every leaf of every cell is tried.
+A session takes one leaf of a hundred and twenty, others in each cell; with ``--long`` every leaf is tried.
 """
 
 from __future__ import annotations
-
-import zlib
 
 import pytest
 
@@ -16,9 +14,10 @@ from cellc.tools.review.short import MOST_LINES, render_short
 from cellc.tools.review.sides import package_of
 from tests.cells import EVERY_CELL
 from tests.review.edits import package_before
-from tests.review.leaves import SpecLeaf, changed, leaves_of
+from tests.review.leaves import changed, leaves_of
+from tests.sample import sample
 
-_SHARE = 36
+_SHARE = 120
 WITHOUT_EFFECT: dict[str, str] = {
     "gen3_2f: motion.groups.manipulator.base": "`arm/base` and `arm/base_link` are two names of one link",
 }
@@ -56,13 +55,9 @@ def _asks_without_evidence(found: Review) -> list[str]:
     ]
 
 
-def _is_taken(leaf: SpecLeaf, *, every: bool) -> bool:
-    return every or zlib.crc32(leaf.name.encode()) % _SHARE == 0
-
-
 @pytest.mark.parametrize("cell", EVERY_CELL)
 def test_a_leaf_that_changed_is_a_fact_with_a_name(cell: str, request: pytest.FixtureRequest) -> None:
-    taken = [leaf for leaf in leaves_of(cell) if _is_taken(leaf, every=request.config.option.long)]
+    taken = sample(request, leaves_of(cell), _SHARE, lambda leaf: leaf.name)
     silent, contradicting, long, tried = dict[str, str](), list[str](), list[str](), 0
     unreasoned = list[str]()
     for leaf in taken:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from _typeshed import TraceFunction
 
 Emitter: TypeAlias = Callable[[CellGraph, Deployment], Iterator[Artifact]]
-_FIRST, _MANY, _MOST = 14, 250, 2.15
+_FIRST, _MANY, _MOST = 8, 250, 2.15
 
 
 def _cell(size: int) -> str:
@@ -134,7 +134,7 @@ SPECS = pytest.mark.parametrize("spec", [_cell, _stands, *HALLS], ids=lambda spe
 def test_no_rule_and_no_line_of_a_gate_searches_the_cell_for_each_of_its_things(
     spec: Callable[[int], str], tmp_path: Path
 ) -> None:
-    cells = _of_three_sizes(spec, 15, tmp_path)
+    cells = _of_three_sizes(spec, 8, tmp_path)
     assert _grown({name: [_steps(work, cell) for cell in cells] for name, work in WORK.items()}) == {}
 
 
@@ -149,7 +149,7 @@ OF_THE_WHOLE = {
 
 @SPECS
 def test_no_emitter_searches_the_cell_for_each_of_its_things(spec: Callable[[int], str], tmp_path: Path) -> None:
-    cells = _of_three_sizes(spec, 8, tmp_path)
+    cells = _of_three_sizes(spec, 4, tmp_path)
     plans = [plan_deployment(build_graph(cell)) for cell in cells]
     steps = {
         emit.__module__: [_steps(partial(_emitted, emit, plan), cell) for cell, plan in zip(cells, plans, strict=True)]
