@@ -1,37 +1,49 @@
-"""Every finding that proposes a text has a fix that ends it, the nearest first: in the examples of all rules."""
+"""Every finding that proposes a text has a fix that ends it, the nearest first: in the examples of all rules.
+
+A session takes one example of five; with ``--long`` every one is taken.
+"""
 
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 
 from cellc.compiler.pipeline import check
-from cellc.compiler.rules.kit import Rule
 from cellc.compiler.rules.run import ALL_RULES
-from cellc.compiler.source import read
+from cellc.compiler.source import SourceDocument, read
+from cellc.contract.diagnostics.diagnostic import Diagnostic
 from tests.cells import CORPUS, there
 from tests.lsp.proposals import faults, proposing, remedies_of
 from tests.rules.examples import diagnose_example, examples
+from tests.sample import sample
 
+_SHARE = 5
 INVALID = sorted((CORPUS / "invalid").glob("*.yaml"))
 
 
-@pytest.mark.parametrize("case", INVALID, ids=lambda case: case.stem)
-def test_a_case_of_the_corpus(case: Path) -> None:
-    document = read(case).value
-    if document is not None:
-        proposed = [one for one in proposing(check(case)) if one.span.file in document.texts]
-        assert [fault for one in proposed for fault in faults(one, document)] == []
+def test_cases_of_the_corpus(request: pytest.FixtureRequest) -> None:
+    wrong = {}
+    for case in sample(request, INVALID, _SHARE, lambda case: case.stem):
+        document = read(case).value
+        if document is not None:
+            wrong[case.stem] = _faults(check(case), document)
+    assert {case: found for case, found in wrong.items() if found} == {}
 
 
-@pytest.mark.parametrize("rule", [pytest.param(rule, id=rule.code) for rule in ALL_RULES])
-def test_the_example_of_a_rule(rule: Rule, tmp_path: Path) -> None:
-    found = diagnose_example(examples(rule)[0], tmp_path)
-    document = there(read(tmp_path / "cell.yaml").value)
+def test_examples_of_rules(request: pytest.FixtureRequest, tmp_path: Path) -> None:
+    wrong = {}
+    for rule in sample(request, ALL_RULES, _SHARE, lambda rule: rule.code):
+        found = diagnose_example(examples(rule)[0], tmp_path)
+        wrong[rule.code] = _faults(found, there(read(tmp_path / "cell.yaml").value))
+    assert {code: found for code, found in wrong.items() if found} == {}
+
+
+def _faults(found: Iterable[Diagnostic], document: SourceDocument) -> list[str]:
     proposed = [one for one in proposing(found) if one.span.file in document.texts]
-    assert [fault for one in proposed for fault in faults(one, document)] == []
+    return [fault for one in proposed for fault in faults(one, document)]
 
 
 _STAGE = """\
