@@ -282,7 +282,7 @@ def test_what_is_named_by_mistake_is_told_in_one_line(
         assert told.count("error[") == 1, told
 
 
-WRITTEN = {"--output", "--sarif", "--records", "--evidence"}
+WRITTEN = {"--output", "--sarif", "--records", "--evidence", "--film"}
 """Options that name what is written: test_bad_outputs.py."""
 NAMED = {"import --srdf", "import --controllers", "sweep --journal", "replay --journal", "gates --journal"}
 """Options whose files belong to a run, or to a robot: their own tests."""
