@@ -1,4 +1,4 @@
-"""`cellc mock --ros --without task` on a real graph: a right task node of rclpy passes, wrong ones are named."""
+"""`cellc mock --ros --without task` on a real graph: right nodes of rclpy pass, wrong ones are named."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out / f"ros-{distro}" / "ur5e_pick"
 
 
-def _run(package: Path, wrong: str, *rehearsals: str) -> dict[str, Any]:
-    node = f"{sys.executable} -m tests.consumers.ros_task {package} {{rehearsal}} {wrong}".strip()
-    asked = ["--ros", "--without", "task", "--ros-python", sys.executable, "--domain", _DOMAIN, "--launch", node]
+def _run(package: Path, wrong: str, *rehearsals: str, without: str = "task", node: str = "ros_task") -> dict[str, Any]:
+    started = f"{sys.executable} -m tests.consumers.{node} {package} {{rehearsal}} {wrong}".strip()
+    asked = ["--ros", "--without", without, "--ros-python", sys.executable, "--domain", _DOMAIN, "--launch", started]
     chosen = [word for name in rehearsals for word in ("--rehearsal", name)]
     patience = ["--patience", "5" if wrong == "blocks" else "60"]
     ended = subprocess.run(
@@ -60,6 +60,16 @@ def _run(package: Path, wrong: str, *rehearsals: str) -> dict[str, Any]:
 def test_the_right_node_passes_every_rehearsal(package: Path) -> None:
     ended = _run(package, "")
     assert len(ended) == 13
+    for name, each in ended.items():
+        assert each["passed"], (name, each)
+        assert each["violations"] == []
+
+
+def test_the_right_pair_passes_every_rehearsal_as_the_played_one(package: Path) -> None:
+    command = [sys.executable, "-m", "cellc", "mock", str(package), "--json"]
+    played = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["rehearsals"]
+    ended = _run(package, "", without="task,perception", node="ros_pair")
+    assert {name: each["outcome"] for name, each in ended.items()} == {each["name"]: each["outcome"] for each in played}
     for name, each in ended.items():
         assert each["passed"], (name, each)
         assert each["violations"] == []

@@ -10,6 +10,7 @@ import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from time import monotonic, sleep
 
 from cellc.contract.errors import CellcError
 from cellc.contract.frozen import dataclass
@@ -48,6 +49,7 @@ from cellc.robot.planning import TrajectoryPoint as PlannedPoint
 SERVED = (MOVE_GROUP, FOLLOW_JOINT_TRAJECTORY, GRIPPER_COMMAND, PARALLEL_GRIPPER_COMMAND)
 _SUCCESS, _PLANNING_FAILED, _CONTROL_FAILED, _PREEMPTED = 1, -1, -4, -7
 _INVALID_GROUP, _INVALID_GOAL, _INVALID_LINK, _NO_TRANSFORM = -15, -16, -18, -21
+_LOOK_S = 0.02
 _ACCEPTED = 0
 """Of action_msgs/srv/CancelGoal."""
 
@@ -98,7 +100,6 @@ class ActionServers:
 
     Attributes:
         goals: in the order of their arrival.
-        arrived: requests that have been taken.
         changed: fires when a goal begins, is canceled or ends.
     """
 
@@ -112,7 +113,6 @@ class ActionServers:
         """
         self._judge = judge
         self.goals: list[ServedGoal] = []
-        self.arrived = 0
         self.changed = Signal()
         self.fingers = Fingers(plant)
         self._plant, self._graph, self._bridge = plant, graph, bridge
@@ -131,6 +131,14 @@ class ActionServers:
             source = interface.sources[0]
             self._channels[self._graph.act(source.full_name, name, interface.type)] = name, source.node
 
+    def await_client(self, full: str, within_s: float) -> None:
+        """Let the host's time pass until a node has found the actions: time of the run would pass without its goals."""
+        until_s = monotonic() + within_s
+        for name, _ in self._actions:
+            topic = f"{name}/_action/status"
+            while all(end.node != full for end in self._bridge.subscriptions(topic)) and monotonic() < until_s:
+                sleep(_LOOK_S)
+
     def open_goals(self) -> tuple[ServedGoal, ...]:
         """Return the goals that execute."""
         return tuple(goal for goal in self.goals if goal.is_open)
@@ -144,7 +152,6 @@ class ActionServers:
         if received.channel not in self._channels:
             return False
         name, server = self._channels[received.channel]
-        self.arrived += 1
         said = json.loads(received.data)
         number = said["number"]
         now_ns, simulation = self._plant.now_ns, self._plant.simulation

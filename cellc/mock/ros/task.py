@@ -45,6 +45,8 @@ _QUIET_NS = 1_000_000_000
 _LOOK_NS = 10_000_000
 _TICK_HZ = 40.0
 """With lockstep: how often time waits until the node has handled what was published; as often as `/clock` comes."""
+_FOUND_S = 2.0
+"""Of the host: how long a node may take to find the actions once they are offered."""
 _TICKS_TO_LOOK = 40
 """After so many it is looked again who hears what."""
 _DYING_S = 2.0
@@ -167,6 +169,8 @@ class TaskUnderTest:
         if not self._offered:
             self._offered = True
             servers.offer()
+            if self._timing.pace is None:
+                servers.await_client(self._full, min(_FOUND_S, self._timing.patience_s))
         try:
             yield from step_of(context, attempt, step)
         except AttemptError as failure:
@@ -193,10 +197,6 @@ class TaskUnderTest:
             AttemptError: none comes in time, or the cell stops.
         """
         servers, _ = self._bound()
-        if self._timing.pace is None and not servers.goals:
-            until_s = monotonic() + self._timing.patience_s
-            while not servers.arrived and (left_s := until_s - monotonic()) > 0.0:
-                self._arrivals.hear(left_s)
         until_ns = context.now_ns + round(IDLE_S * 1e9)
         while self._seen >= len(servers.goals):
             if context.now_ns >= until_ns:

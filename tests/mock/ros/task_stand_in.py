@@ -185,6 +185,7 @@ def run(
     *,
     graph: TaskGraph | None = None,
     watch: Watch | None = None,
+    patience_s: float = 0.0,
 ) -> Judged:
     """Run a rehearsal around a task node, in lockstep."""
     graph = TaskGraph(wrong) if graph is None else graph
@@ -201,7 +202,7 @@ def run(
     monkeypatch.setattr(session, "Bridge", lambda *_: graph)
     for wait in ("_DISCOVERY_S", "_LOOK_S"):
         monkeypatch.setattr(session, wait, 0.0)
-    asked = AmongNodes(("task",), "python3", Timing(None, 0.0), appear_s=0.0)
+    asked = AmongNodes(("task",), "python3", Timing(None, patience_s), appear_s=0.0)
     try:
         return rehearse_among(cell, cell.entry(name), 0, asked, watch)
     finally:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -20,6 +20,7 @@ from cellc.mock.campaign.summary import failure_lines
 from cellc.mock.cell import Watch, cell_of
 from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
+from cellc.mock.ros.bridge import GraphEnd, Received
 from cellc.mock.ros.incoming import MalformedMessageError
 from cellc.mock.ros.requests import FOLLOW_JOINT_TRAJECTORY, GRIPPER_COMMAND, asked_of
 from cellc.mock.ros.session import concerns
@@ -155,6 +156,30 @@ def test_a_goal_that_is_none_is_named(
 ) -> None:
     result = run(cell, monkeypatch, graph=_Poked(goal)).result
     assert any(line.startswith(text) for line in result.violations), result.violations
+
+
+class _Late(TaskGraph):
+    """Has found the actions when it is looked for the third time, and is never waited for while its clock stands."""
+
+    looked = 0
+
+    def subscriptions(self, topic: str) -> Sequence[GraphEnd]:
+        if not topic.endswith("/_action/status"):
+            return super().subscriptions(topic)
+        self.looked += 1
+        return [GraphEnd("/task", "action_msgs/msg/GoalStatusArray", "reliable", "volatile")] * (self.looked > 2)
+
+    def take(self, within_s: float = 0.0) -> Received | None:
+        assert within_s == 0.0
+        return super().take()
+
+
+def test_a_node_that_acts_on_its_clock_is_awaited_until_it_has_found_the_actions_alone(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    graph = _Late()
+    assert run(cell, monkeypatch, "gripper_activated", graph=graph, patience_s=60.0).result.passed
+    assert graph.looked == 4
 
 
 def test_the_node_hears_that_it_is_planned_and_monitored(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
