@@ -95,6 +95,27 @@ def test_a_second_cell_on_the_domain_is_refused(package: Path) -> None:
         first.wait()
 
 
+def test_a_client_of_the_controller_manager_is_answered(package: Path) -> None:
+    pytest.importorskip("controller_manager_msgs")
+    cell = subprocess.Popen(
+        _command(package, "", "--pace", "0.1", "--rehearsal", "pick_and_place"),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        client = [sys.executable, str(ROOT / "tests/consumers/ros_manager_client.py"), "arm_speed"]
+        graph = {**os.environ, "ROS_DOMAIN_ID": _DOMAIN, "ROS_LOCALHOST_ONLY": "1"}
+        told = subprocess.run(client, env=graph, capture_output=True, text=True, timeout=600, check=True).stdout
+    finally:
+        cell.terminate()
+        cell.wait()
+    answers = json.loads(told)
+    assert answers["components"]["arm_hardware"] in ("inactive", "active")
+    assert answers["switched"]
+    assert "joint_states" in answers["before"]
+    assert answers["after"] == {**answers["before"], "arm_speed": "inactive"}
+
+
 @pytest.mark.parametrize("number", range(9))
 def test_a_kill_leaves_nothing(package: Path, number: int) -> None:
     random, whom = Random(number), ("", PROGRAM.name, _NODE.name)[number % 3]

@@ -163,10 +163,15 @@ class Bridge:
         Raises:
             MockError: its type is not installed.
         """
-        asked = {"ask": "act", "channel": channel, "node": node, "action": action, "kind": kind}
-        answer = self._ask(asked, may_fail=True)
-        if "error" in answer:
-            raise MockError("", f"`{action}` of type `{kind}` cannot be offered: {answer['error']}")
+        self._offered({"ask": "act", "channel": channel, "node": node, "name": action, "kind": kind})
+
+    def open_service(self, channel: int, node: str, service: str, kind: str) -> None:
+        """Offer a service of a node; requests are taken under the number of the channel.
+
+        Raises:
+            MockError: its type is not installed.
+        """
+        self._offered({"ask": "serve", "channel": channel, "node": node, "name": service, "kind": kind})
 
     def answer(self, number: int, value: object) -> None:
         """Answer what was asked under a number: whether a goal or a cancel is accepted, or a response."""
@@ -222,6 +227,11 @@ class Bridge:
             if not self._hear(until_s):
                 return None
         return self._arrived.popleft()
+
+    def _offered(self, asked: dict[str, Any]) -> None:
+        answer = self._ask(asked, may_fail=True)
+        if "error" in answer:
+            raise MockError("", f"`{asked['name']}` of type `{asked['kind']}` cannot be offered: {answer['error']}")
 
     def _opened(self, asked: dict[str, Any], qos: Qos) -> None:
         answer = self._ask({**asked, "qos": asdict(qos)}, may_fail=True)

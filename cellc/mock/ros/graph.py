@@ -90,6 +90,12 @@ class Graph:
         self._bridge.open_action(channel, node, action, kind)
         return channel
 
+    def serve(self, node: str, service: str, kind: str) -> int:
+        """Return the channel of requests that arrive for a service, which a node offers from now on."""
+        channel = self._channels[service] = len(self._channels)
+        self._bridge.open_service(channel, node, service, kind)
+        return channel
+
     def look(self) -> None:
         """Look again who hears what: what no node hears is neither drawn nor sent."""
         self._heard = self._bridge.heard()

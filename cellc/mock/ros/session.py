@@ -16,6 +16,7 @@ from cellc.contract.frozen import dataclass
 from cellc.contract.rehearsals import FaultEntry, RehearsalEntry
 from cellc.mock.bus.qos import task_node
 from cellc.mock.cell import MockCell, Watch
+from cellc.mock.control.manager.settings import NODE_NAME
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.bag.messages import TF_MESSAGE
@@ -30,6 +31,7 @@ from cellc.mock.ros.asked import AmongNodes
 from cellc.mock.ros.bridge import Bridge, GraphEnd
 from cellc.mock.ros.graph import Graph, refuse_others
 from cellc.mock.ros.judgment import Judgment, Violation
+from cellc.mock.ros.managers import ManagerServices
 from cellc.mock.ros.perception import PerceptionUnderTest
 from cellc.mock.ros.task import TaskUnderTest, can_be_left_out, not_followed
 from cellc.mock.task.task import EXECUTED
@@ -251,6 +253,10 @@ class _Around:
         ]
         if self._task is not None:
             self._task.begin(plant, graph)
+        managers = ManagerServices(plant, self._bridge)
+        if missing := managers.offer(graph):
+            self.notes.append(missing)
+        self._arrivals.go_to(NODE_NAME, managers.take)
         graph.tick(plant.now_ns)
         for name, full in self._tested.items():
             self._await_node(full)

@@ -47,6 +47,7 @@ class Graph:
             POSES: [GraphEnd("/perception", messages.POSE_STAMPED, "reliable", "volatile")],
             **changes.get("ends", {}),
         }
+        self.services: dict[str, int] = {}
         self.code: int | None = changes.get("code")
         self._topics: dict[int, str] = {}
         self._channels: dict[str, int] = {}
@@ -78,6 +79,9 @@ class Graph:
 
     def open_subscription(self, channel: int, node: str, topic: str, kind: str, qos: Qos) -> None:
         self._channels[topic] = channel
+
+    def open_service(self, channel: int, node: str, service: str, kind: str) -> None:
+        self.services[service] = channel
 
     def transition(self, node: str, name: str, within_s: float) -> str:
         return ""

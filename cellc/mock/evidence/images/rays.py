@@ -27,6 +27,10 @@ BACKGROUND: Color = (0.86, 0.88, 0.90)
 _AMBIENT = 0.35
 """Of the brightness that a face has that is looked at squarely."""
 _PARALLEL = 1e-12
+_NEAREST_M = 1e-3
+"""In front of the camera: what comes nearer has no outline in the image."""
+_EDGE = 1e-6
+"""Pixels by which rays at the edge may seem to be outside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,83 +95,110 @@ def seen(camera: Pinhole, bodies: Iterable[Body]) -> View:
         window = _window(camera, body)
         if window is None:
             continue
-        at, facing = _met(body, rays[:, window])
-        nearer = at < depth[window]
-        hit = window[nearer]
-        depth[hit] = at[nearer]
-        color[hit] = np.array(body.color) * (_AMBIENT + (1.0 - _AMBIENT) * facing[nearer])[:, None]
+        origin, directions = _from_inside(body, rays[:, window])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            at = _met(body.shape, origin, directions)
+            nearer = (at > 0.0) & (at < depth[window])
+            hit = window[nearer]
+            depth[hit] = at[nearer]
+            facing = _facing(body.shape, origin, directions[:, nearer])
+        color[hit] = np.array(body.color) * (_AMBIENT + (1.0 - _AMBIENT) * facing)[:, None]
     return View(depth.reshape(camera.height, camera.width), color.reshape(camera.height, camera.width, 3))
 
 
 def _window(camera: Pinhole, body: Body) -> NDArray[np.int64] | None:
-    """Return the pixels that a body can be in, by the ball around it; None where it is behind the camera."""
-    radius = _radius(body.shape)
-    x, y, z = body.pose.position
-    if z + radius <= 0.0:
+    """Return the pixels that a body can be in, by the box around it; None where no ray meets that."""
+    corners = _corners(body)
+    depth, spans = corners[2], list[range]()
+    if depth.max() <= 0.0:
         return None
-    if z - radius <= 1e-3:
-        return np.arange(camera.width * camera.height)
-    spans: list[range] = []
-    for place, middle, most in ((x, camera.center[0], camera.width), (y, camera.center[1], camera.height)):
-        corners = product((-radius, radius), repeat=2)
-        ends = [middle + camera.focal * (place + side) / (z + way) for side, way in corners]
-        spans.append(range(max(0, math.floor(min(ends))), min(most, math.ceil(max(ends)) + 1)))
+    for across, middle, most in (
+        (corners[0], camera.center[0], camera.width),
+        (corners[1], camera.center[1], camera.height),
+    ):
+        outermost = (middle + _EDGE) / camera.focal * depth
+        if (across > outermost).all() or (across < -outermost).all():
+            return None
+        if depth.min() <= _NEAREST_M:
+            spans.append(range(most))
+            continue
+        ends = middle + camera.focal * across / depth
+        spans.append(range(max(0, math.floor(ends.min())), min(most, math.ceil(ends.max()) + 1)))
     columns, rows = (np.arange(span.start, max(span.start, span.stop)) for span in spans)
     return (rows[:, None] * camera.width + columns).reshape(-1)
 
 
-def _radius(shape: Solid) -> float:
-    if isinstance(shape, Sphere):
-        return shape.radius
-    return math.hypot(*shape.size) / 2.0 if isinstance(shape, Box) else math.hypot(shape.radius, shape.length / 2.0)
+def _corners(body: Body) -> Floats:
+    """Return the corners of the box around a body, shape (3, 8)."""
+    shape = body.shape
+    if isinstance(shape, Box):
+        half = tuple(edge / 2.0 for edge in shape.size)
+    else:
+        half = (shape.radius, shape.radius, shape.radius if isinstance(shape, Sphere) else shape.length / 2.0)
+    signs = np.array(list(product((-1.0, 1.0), repeat=3))).T
+    corners: Floats = np.array(body.pose.position)[:, None] + _turn(body.pose) @ (np.array(half)[:, None] * signs)
+    return corners
 
 
-def _met(body: Body, rays: Floats) -> tuple[Floats, Floats]:
-    """Return how far along each ray a body is met, infinite where it is not, and how squarely in 0..1."""
+def _from_inside(body: Body, rays: Floats) -> tuple[Floats, Floats]:
+    """Return where the camera is as a body has it, shape (3, 1), and where its rays go."""
     inside = body.pose.inverse()
-    turn = np.array([_turned(inside, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))])
-    origin, directions = np.array(inside.position)[:, None], turn.T @ rays
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if isinstance(body.shape, Box):
-            at, normals = _box(np.array(body.shape.size)[:, None] / 2.0, origin, directions)
-        elif isinstance(body.shape, Sphere):
-            at, normals = _sphere(body.shape.radius, origin, directions)
-        else:
-            at, normals = _cylinder(body.shape.radius, body.shape.length / 2.0, origin, directions)
-        squarely = np.abs(np.sum(normals * directions, axis=0)) / np.sqrt(np.sum(directions**2, axis=0))
-    return np.where(np.isfinite(at) & (at > 0.0), at, math.inf), np.nan_to_num(squarely)
+    return np.array(inside.position)[:, None], _turn(inside) @ rays
+
+
+def _turn(pose: Pose) -> Floats:
+    return np.array([_turned(pose, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]).T
 
 
 def _turned(pose: Pose, way: tuple[float, float, float]) -> Sequence[float]:
     return [end - start for end, start in zip(pose.apply(way), pose.position, strict=True)]
 
 
-def _box(half: Floats, origin: Floats, directions: Floats) -> tuple[Floats, Floats]:
+def _met(shape: Solid, origin: Floats, directions: Floats) -> Floats:
+    """Return how far along each ray a shape is met; infinite, or no number, where it is not."""
+    if isinstance(shape, Box):
+        enters, leaves = _slabs(shape, origin, directions)
+        near = enters.max(axis=0)
+        return np.where(near <= leaves.min(axis=0), near, math.inf)
+    if isinstance(shape, Sphere):
+        return _round(directions, origin, shape.radius)
+    side, cap, is_cap = _cylinder(shape, origin, directions)
+    return np.where(is_cap, cap, side)
+
+
+def _facing(shape: Solid, origin: Floats, directions: Floats) -> Floats:
+    """Return how squarely each ray that meets a shape meets it, in 0..1."""
+    normals = np.zeros_like(directions)
+    if isinstance(shape, Box):
+        enters, _ = _slabs(shape, origin, directions)
+        normals[enters.argmax(axis=0), np.arange(directions.shape[1])] = 1.0
+    elif isinstance(shape, Sphere):
+        normals = (origin + _round(directions, origin, shape.radius) * directions) / shape.radius
+    else:
+        side, _, is_cap = _cylinder(shape, origin, directions)
+        normals[:2] = (origin[:2] + side * directions[:2]) / shape.radius
+        normals[:, is_cap] = np.array([[0.0], [0.0], [1.0]])
+    squarely: Floats = np.abs(np.sum(normals * directions, axis=0)) / np.sqrt(np.sum(directions**2, axis=0))
+    return np.nan_to_num(squarely)
+
+
+def _slabs(shape: Box, origin: Floats, directions: Floats) -> tuple[Floats, Floats]:
+    """Return where rays enter and leave the slab of each axis of a box."""
+    half = np.array(shape.size)[:, None] / 2.0
     safe = np.where(np.abs(directions) < _PARALLEL, _PARALLEL, directions)
     one, other = (-half - origin) / safe, (half - origin) / safe
-    enters, leaves = np.minimum(one, other), np.maximum(one, other)
-    near, far = enters.max(axis=0), leaves.min(axis=0)
-    normals = np.zeros_like(directions)
-    normals[enters.argmax(axis=0), np.arange(directions.shape[1])] = 1.0
-    return np.where(near <= far, near, math.inf), normals
+    return np.minimum(one, other), np.maximum(one, other)
 
 
-def _sphere(radius: float, origin: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    at = _round(directions, origin, radius)
-    return at, (origin + at * directions) / radius
-
-
-def _cylinder(radius: float, half: float, origin: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    side = _round(directions[:2], origin[:2], radius)
-    points = origin + side * directions
-    side = np.where(np.abs(points[2]) <= half, side, math.inf)
-    normals = np.concatenate([points[:2] / radius, np.zeros((1, directions.shape[1]))])
+def _cylinder(shape: Cylinder, origin: Floats, directions: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Return where rays meet the side of a cylinder and the plane of its nearer cap, and whether the cap is met."""
+    half = shape.length / 2.0
+    side = _round(directions[:2], origin[:2], shape.radius)
+    side = np.where(np.abs(origin[2] + side * directions[2]) <= half, side, math.inf)
     height = float(origin[2, 0])
     cap = (math.copysign(half, height) - height) / directions[2]
     met = origin[:2] + cap * directions[:2]
-    is_cap = (np.sum(met**2, axis=0) <= radius**2) & (abs(height) > half)
-    normals[:, is_cap] = np.array([[0.0], [0.0], [1.0]])
-    return np.where(is_cap, cap, side), normals
+    return side, cap, (np.sum(met**2, axis=0) <= shape.radius**2) & (abs(height) > half)
 
 
 def _round(directions: Floats, origin: Floats, radius: float) -> Floats:

@@ -263,7 +263,17 @@ class Bridge:
         self._executor.create_task(self._awaited.pop(number).set_result, value)
         return {}
 
-    def on_act(self, channel: int, node: str, action: str, kind: str) -> dict[str, Any]:
+    def on_serve(self, channel: int, node: str, name: str, kind: str) -> dict[str, Any]:
+        """Offer a service of a node; each request is asked for."""
+        made = imported(kind)
+
+        async def respond(request: Any, response: Any) -> Any:
+            return filled(response, await self._inquire(channel, {"request": plain(request)}))
+
+        self._node(node).create_service(made, name, respond, callback_group=ReentrantCallbackGroup())
+        return {}
+
+    def on_act(self, channel: int, node: str, name: str, kind: str) -> dict[str, Any]:
         """Offer an action of a node; each goal is asked for, and ends as it is answered under the number of its end."""
         made = imported(kind)
 
@@ -293,7 +303,7 @@ class Bridge:
         ActionServer(
             self._node(node),
             made,
-            action,
+            name,
             execute_callback=execute,
             goal_callback=decide,
             cancel_callback=cancel,
