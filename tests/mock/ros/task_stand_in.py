@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import pytest
@@ -53,6 +53,7 @@ class TaskGraph(Graph):
         }
         super().__init__(lambda *_: (), nodes={"/task"}, ends={**ends, **changes})
         self.wrong = wrong
+        self.rehearsal = ""
         self.canceled = self.acknowledged = False
         self.actions: dict[str, int] = {}
         self.channel_of: dict[int, int] = {}
@@ -64,6 +65,9 @@ class TaskGraph(Graph):
         self._numbers = 0
 
     # -- the bridge --------------------------------------------------------------------------------------------------
+
+    def start(self, command: Sequence[str]) -> None:
+        self.rehearsal = command[-1]
 
     def subscriptions(self, topic: str) -> Sequence[GraphEnd]:
         return self.ends.get(topic, ())
@@ -177,6 +181,24 @@ class TaskGraph(Graph):
         return sent
 
 
+def stand_in(monkeypatch: pytest.MonkeyPatch, cell: MockCell, graph_of: Callable[[], TaskGraph]) -> None:
+    """Let every run be on a graph without ROS, with a node that is started by the name of its rehearsal."""
+    begin = session._Around.begin
+    contract = json.loads(cell.contract.model_dump_json())
+
+    def watched(around: Any, plant: Plant) -> None:
+        graph = around._bridge
+        steps = [step.model_dump(mode="json") for step in cell.entry(graph.rehearsal).steps]
+        graph.plant = plant
+        graph.program = Program(graph, contract, steps, graph.wrong).run()
+        begin(around, plant)
+
+    monkeypatch.setattr(session._Around, "begin", watched)
+    monkeypatch.setattr(session, "Bridge", lambda *_: graph_of())
+    for wait in ("_DISCOVERY_S", "_LOOK_S"):
+        monkeypatch.setattr(session, wait, 0.0)
+
+
 def run(
     cell: MockCell,
     monkeypatch: pytest.MonkeyPatch,
@@ -188,21 +210,8 @@ def run(
     patience_s: float = 0.0,
 ) -> Judged:
     """Run a rehearsal around a task node, in lockstep."""
-    graph = TaskGraph(wrong) if graph is None else graph
-    begin = session._Around.begin
-    contract = json.loads(cell.contract.model_dump_json())
-    steps = [step.model_dump(mode="json") for step in cell.entry(name).steps]
-
-    def watched(around: Any, plant: Plant) -> None:
-        graph.plant = plant
-        graph.program = Program(graph, contract, steps, wrong).run()
-        begin(around, plant)
-
-    monkeypatch.setattr(session._Around, "begin", watched)
-    monkeypatch.setattr(session, "Bridge", lambda *_: graph)
-    for wait in ("_DISCOVERY_S", "_LOOK_S"):
-        monkeypatch.setattr(session, wait, 0.0)
-    asked = AmongNodes(("task",), "python3", Timing(None, patience_s), appear_s=0.0)
+    stand_in(monkeypatch, cell, lambda: TaskGraph(wrong) if graph is None else graph)
+    asked = AmongNodes(("task",), "python3", Timing(None, patience_s), launch="node {rehearsal}", appear_s=0.0)
     try:
         return rehearse_among(cell, cell.entry(name), 0, asked, watch)
     finally:
