@@ -1,6 +1,6 @@
 """A plugin of pytest for the repository of a node: the fixture `cellc_cell` plays the cell around it on a ROS graph.
 
-What is played stands in the configuration of pytest, see docs/mock.md. pytest loads this file in every session in which
+What is played is configured as docs/mock.md has it. pytest loads this file in every session in which
 cellc is installed, so that what is heavy is imported by the fixture alone.
 """
 
@@ -36,7 +36,7 @@ _WORKER = "PYTEST_XDIST_WORKER"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add what the fixture is told."""
+    """Add the options of the fixture."""
     for name, text in _OPTIONS.items():
         parser.addini(f"cellc_{name}", text, default="")
 
@@ -135,27 +135,27 @@ def _cellc_loaded(pytestconfig: pytest.Config) -> tuple[MockCell, AmongNodes]:
     from cellc.mock import load
     from cellc.mock.errors import MockError
 
-    told = {name: str(pytestconfig.getini(f"cellc_{name}")) for name in _OPTIONS}
-    asked = asked_with(told, os.environ.get(_WORKER, "gw0"))
+    options = {name: str(pytestconfig.getini(f"cellc_{name}")) for name in _OPTIONS}
+    asked = asked_with(options, os.environ.get(_WORKER, "gw0"))
     try:
-        return load(Path(pytestconfig.rootpath, told["folder"])), asked
+        return load(Path(pytestconfig.rootpath, options["folder"])), asked
     except MockError as error:
         pytest.fail(str(error), pytrace=False)
 
 
-def asked_with(told: Mapping[str, str], worker: str) -> AmongNodes:
+def asked_with(options: Mapping[str, str], worker: str) -> AmongNodes:
     """Return what a configuration asks for, with a domain of its own for each worker; fail where it cannot be used."""
     from cellc.mock.ros.asked import OWN_DOMAIN, AmongNodes, Timing, usual_interpreter
 
     for name in ("folder", "without"):
-        if not told[name]:
+        if not options[name]:
             pytest.fail(f"`cellc_{name}` must be set in the configuration of pytest: {_OPTIONS[name]}", pytrace=False)
     timing = Timing(
-        _number("pace", told["pace"]) if told["pace"] else None, _number("patience", told["patience"] or "5")
+        _number("pace", options["pace"]) if options["pace"] else None, _number("patience", options["patience"] or "5")
     )
-    domain = int(_number("domain", told["domain"] or str(OWN_DOMAIN))) - int(worker.removeprefix("gw"))
-    nodes = tuple(told["without"].replace(",", " ").split())
-    return AmongNodes(nodes, told["python"] or usual_interpreter(), timing, domain, told["launch"])
+    domain = int(_number("domain", options["domain"] or str(OWN_DOMAIN))) - int(worker.removeprefix("gw"))
+    nodes = tuple(options["without"].replace(",", " ").split())
+    return AmongNodes(nodes, options["python"] or usual_interpreter(), timing, domain, options["launch"])
 
 
 def _number(name: str, text: str) -> float:

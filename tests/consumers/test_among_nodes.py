@@ -116,7 +116,7 @@ def test_a_client_of_the_controller_manager_is_answered(package: Path) -> None:
     assert answers["after"] == {**answers["before"], "arm_speed": "inactive"}
 
 
-@pytest.mark.parametrize("number", range(9))
+@pytest.mark.parametrize("number", range(int(os.environ.get("CELLC_KILLS", "9"))))
 def test_a_kill_leaves_nothing(package: Path, number: int) -> None:
     random, whom = Random(number), ("", PROGRAM.name, _NODE.name)[number % 3]
     mark = f"{os.getpid()}-{number}"
