@@ -86,10 +86,10 @@ def test_a_second_cell_on_the_domain_is_refused(package: Path) -> None:
         stderr=subprocess.DEVNULL,
     )
     try:
-        _await(lambda: _marked(first.pid))
+        _await(lambda: any(_children(int(bridge)) for bridge in _children(first.pid)))
         second = subprocess.run(_command(package, ""), check=False, capture_output=True, text=True, timeout=300)
         assert second.returncode == 2
-        assert "is on the graph already, and it is played here" in second.stderr
+        assert "another cell is played on this domain" in second.stderr
     finally:
         first.terminate()
         first.wait()
@@ -131,10 +131,6 @@ def test_a_kill_leaves_nothing(package: Path, number: int) -> None:
     child.communicate(timeout=120)
     _await(lambda: not _ours(mark))
     assert not _ours(mark)
-
-
-def _marked(pid: int) -> bool:
-    return any(Path(f"/proc/{each}/stat").exists() for each in _children(pid))
 
 
 def _children(pid: int) -> list[str]:

@@ -119,8 +119,13 @@ def refuse_others(bridge: Bridge, contract: Contract, tested: Collection[str]) -
         tested: full names of the nodes that are not played.
 
     Raises:
-        MockError: there is such a node, or a publisher of a topic that is published here.
+        MockError: there is such a node, another mock, or a publisher of a topic that is published here.
     """
+    if MOCK in bridge.nodes():
+        text = (
+            "another cell is played on this domain; end `cellc mock --ros` there, or name another domain with --domain"
+        )
+        raise MockError("", text)
     otherwise = "it may be that of a real robot; end it, or name another domain with --domain"
     names = full_names(contract) - frozenset(tested)
     for node in sorted(bridge.nodes()):

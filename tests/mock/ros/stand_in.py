@@ -142,7 +142,7 @@ def run(
     monkeypatch.setattr(session._Around, "begin", watched)
     monkeypatch.setattr(session, "Bridge", lambda *_: graph)
     monkeypatch.setattr(Photographer, "message", lambda _, topic, shot: messages.clock(shot.stamp_ns))  # draws nothing
-    for wait in ("_DISCOVERY_S", "_LOOK_S"):
+    for wait in ("_DISCOVERY_S", "_AGAIN_S", "_LOOK_S"):
         monkeypatch.setattr(session, wait, 0.0)
     monkeypatch.setattr("cellc.mock.ros.perception._CLOCK_S", 0.0)
     asked = AmongNodes(("perception",), "python3", Timing(None), launch=launch, appear_s=0.0)

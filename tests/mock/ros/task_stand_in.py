@@ -195,7 +195,7 @@ def stand_in(monkeypatch: pytest.MonkeyPatch, cell: MockCell, graph_of: Callable
 
     monkeypatch.setattr(session._Around, "begin", watched)
     monkeypatch.setattr(session, "Bridge", lambda *_: graph_of())
-    for wait in ("_DISCOVERY_S", "_LOOK_S"):
+    for wait in ("_DISCOVERY_S", "_AGAIN_S", "_LOOK_S"):
         monkeypatch.setattr(session, wait, 0.0)
 
 

@@ -121,6 +121,10 @@ def test_ends_on_the_graph_are_held_against_the_contract(
     ("changes", "text"),
     [
         ({"distro": "humble"}, "the ROS environment is `humble`, the folder is built for `jazzy`; source that"),
+        (
+            {"nodes": {"/perception", "/cellc_mock"}},
+            "another cell is played on this domain; end `cellc mock --ros` there",
+        ),
         ({"nodes": {"/perception", "/controller_manager"}}, "`/controller_manager` is on the graph already, and it is"),
         ({"ends": {"/clock": [replace(_END, node="/bag")]}}, "`/bag` publishes `/clock`, which is played here: it may"),
         ({"nodes": {"/rviz"}}, "`/perception` does not appear within 0 s on domain 100, on which there is `/rviz`"),

@@ -25,6 +25,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections import Counter
 from collections.abc import Generator
 from contextlib import suppress
 from typing import Any
@@ -206,9 +207,9 @@ class Bridge:
         }
 
     def on_nodes(self) -> dict[str, Any]:
-        """Name the nodes on the graph that are not played here."""
-        seen = {full_name(name, namespace) for name, namespace in self._looking.get_node_names_and_namespaces()}
-        return {"nodes": sorted(seen - set(self._nodes))}
+        """Name the nodes on the graph that are not played here, and those played here that are there twice."""
+        seen = Counter(full_name(name, namespace) for name, namespace in self._looking.get_node_names_and_namespaces())
+        return {"nodes": sorted((seen - Counter(self._nodes.keys())).keys())}
 
     def on_ends(self, topic: str, publishers: bool) -> dict[str, Any]:
         """Describe the publishers of a topic, or its subscriptions, of nodes that are not played here."""
