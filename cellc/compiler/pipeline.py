@@ -270,21 +270,24 @@ def compile_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
 
 def emit_cell(checked: Checked) -> Outcome[tuple[Artifact, ...]]:
     """Emit the artifacts of a checked cell with the manifest over them."""
-    if checked.graph is None or not checked.ok:
-        return Outcome(None)
+    return emit_graph(checked.graph) if checked.graph is not None and checked.ok else Outcome(None)
+
+
+def emit_graph(graph: CellGraph) -> Outcome[tuple[Artifact, ...]]:
+    """Emit the artifacts of a graph, also of one in which rules find errors: to compare them, never to write them."""
     # Emitters are imported here: a check does not pay for them.
     from cellc.compiler.deploy.deployment import plan_deployment
     from cellc.compiler.emit.emit_all import emit_all
     from cellc.compiler.output.manifest import with_manifest
 
     stage("writing artifacts")
-    beyond = _beyond_limits(checked.graph)
+    beyond = _beyond_limits(graph)
     if beyond:
         return Outcome(None, beyond)
-    plan = plan_deployment(checked.graph)
+    plan = plan_deployment(graph)
     artifacts = with_manifest(
-        emit_all(checked.graph, plan),
-        cell=checked.graph.cell.name,
+        emit_all(graph, plan),
+        cell=graph.cell.name,
         configuration_id=plan.configuration_id,
         configuration_inputs=plan.configuration_inputs,
         version_tuple=plan.versions,

@@ -66,7 +66,7 @@ class ContractClock(ContractModel):
     domain: str = Field(description="Clock domain.")
     synchronized_by: str | None = Field(None, description="What disciplines it.")
     max_offset_s: Annotated[
-        Seconds | None, Graded(ReviewArea.TIME, "bound of its offset", Rule.LOOSER, why="its stamps may be further off")
+        Seconds | None, Graded(ReviewArea.TIME, "bound of its offset", Rule.CLOCK, why="its stamps may be further off")
     ] = Field(None, description="Bound of its offset; null where nothing bounds it.")
     simulated: bool = Field(False, description="Time comes from /clock.")
     offset_s: Annotated[Offset, Graded(ReviewArea.REHEARSALS, "offset on the mock")] = Field(

@@ -139,7 +139,7 @@ class ContractSwitched(ContractModel):
 class ContractDevice(ContractModel):
     """A device as the mock needs it."""
 
-    model: Annotated[str, Graded(ReviewArea.DEVICES, rule=Rule.DANGEROUS)] = Field(description="Catalog entry.")
+    model: Annotated[str, Graded(ReviewArea.DEVICES, rule=Rule.REPLACED)] = Field(description="Catalog entry.")
     kind: str = Field(description="Kind of device.")
     prefix: str = Field(description="Put before its joint and link names.")
     root_link: str = Field(description="Link that is mounted.")

@@ -24,8 +24,8 @@ class Rule(Enum):
     MEASURED = "dangerous where it grew by more than 5 % or vanished without a new revision, else review"
     FEWER = "dangerous where it shrank or vanished, else review"
     BACK = "dangerous where it is lower, else review"
-    NAMED = "dangerous where it became UNKNOWN or vanished, else review"
-    MATRIX = "dangerous where it was OK and is not any more, safe where it became OK, else review"
+    NAMED = "dangerous where it was stated and became UNKNOWN or vanished, else review"
+    MATRIX = "dangerous where it became incompatible, safe where it became OK, else review"
     PLACED = "dangerous for the base of an arm, of an obstacle, and without a new calibration; else review"
     COVERED = "dangerous where it no longer takes up all the room that it took, else review"
     APART = "dangerous where arms may meet in more room than before, else review"
@@ -33,6 +33,14 @@ class Rule(Enum):
     LOST = "dangerous where something of it is lost, else review"
     KEPT = "dangerous where something of it is lost, else safe"
     COMPARED = "dangerous where something of it is compared nowhere any more, else review"
+    LOAD = (
+        "dangerous where it vanished, is beyond the rating, or changed by over a tenth of it unexplained; else review"
+    )
+    TOOL = "dangerous without a new calibration of a frame on it, else review"
+    REPLACED = (
+        "dangerous for an arm that ends elsewhere, and where what rests on the model before was left, else review"
+    )
+    CLOCK = "dangerous where it grew by more than 5 % or vanished and an age limit rests on it, else review"
 
 
 class Graded(NamedTuple):

@@ -74,6 +74,7 @@ class ReviewFinding(ContractModel):
     severity: str = Field(description="Its severity.")
     message: str = Field(description="What it says.")
     place: str = Field(description="File, line and column.")
+    cause: int | None = Field(None, description="Of a new one, the number of its cause; null where no line is known.")
 
 
 class ReviewRehearsal(ContractModel):

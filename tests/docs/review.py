@@ -37,8 +37,9 @@ cellc diff generated/ur5e_pick cells/ur5e_pick/cell.yaml
 ```
 
 A side is a spec, a generated folder, or either of them in a git revision. From a revision, cellc takes the folder of
-the spec, its includes and its devices; it follows no links, and reads git but never changes it. A spec with errors is
-not compared: `cellc check` lists them.
+the spec, its includes and its devices; it follows no links, and reads git but never changes it. A spec in which
+rules find errors is compared all the same, so that its repair can be reviewed: errors that are new stand first, and a
+note says how many of before are still there. One that cannot be read or linked is refused; `cellc check` lists why.
 
 The exit code is 0 where nothing changed, 1 where something did, 2 where a side cannot be read, and 70 where cellc
 itself failed. With `--breaking` it is 1 only where a consumer outside the cell breaks. `--rehearse` runs the rehearsals
@@ -47,10 +48,11 @@ of both sides on the mock and compares how they end. `--format markdown` writes 
 `--format json` the object of `review.schema.json` (`cellc schema review`).
 
 What is printed fits on a screen of 25 lines, and so does what a comment shows unfolded; `--all` prints every value,
-finding and gate. The first line counts the headings by their grade, and the changes below them. New findings come
-first, those that fail before others. Then each line of the spec that changed is a heading with what it causes under it:
-the worst first, and of one grade what stops motion or is a matter of safety, then how far things get, what they carry,
-how fast they are, accelerations, tolerances, gains. A device with another model is before what else changed of it.
+finding and gate. The first line counts the headings by their grade, and the changes below them. New errors come
+first; other new findings stand below the line that they follow from. Each line of the spec that changed is a heading
+with what it causes under it: the worst first, and of one grade what stops motion or is a matter of safety, then how far
+things get and move, the farthest first, what they carry, how fast they are, accelerations, tolerances, gains. A device
+with another model, or a new one, is before what else changed.
 Several lines with the same values, of several devices, are one heading. Lines that are too long are broken where the
 whole still fits, else cut, never in a quantity nor between the two values of a change. Two lines that exchanged their
 values say so. To know what a line causes, cellc builds the cell with that line alone, or with all but that line. Lines
@@ -95,13 +97,28 @@ A change that fits no row below is graded `review`, so that nothing is missed. A
 listed change explains is listed with its file. Zero is not a bound:
 ros2_control skips the check of a tolerance or time of zero.
 
-A new measurement is one cause: its lines in `calibrations`, and the poses of frames and mounts that it measured.
+One act is one cause, and its heading says how far things moved: a new measurement with its lines in `calibrations` and
+the poses of frames and mounts that it measured; another model with its mount, pins and serial number, and with the
+calibration that was renewed for it; both ends of a topic; a list that repeats addresses of other lines.
+
+What was measured is graded by whether it was measured again, not by how far it moved: with a new revision it is graded
+`review`, without one dangerous. The TCP that a robot is told follows the frames on it. A payload has no revision. It is
+graded `review` while the mass differs by less than a tenth of what the arm is rated for and its center by less than
+50 mm, as when it is weighed again, or where the arm carries other devices; dangerous above that, beyond the rating, and
+where it is gone.
+
+Another model is dangerous where an arm ends elsewhere in the same joint positions, where calibrations that measured the
+one before have no new revision, and where a tool is heavier or lighter by a tenth of the rating and the payload of its
+arm was left; else it is graded `review`. A pin that is UNKNOWN from the start is a blocker, and not dangerous. The
+bound of a clock counts where stamps with an age limit are made on it, or are judged on it and it is above a tenth of
+the limit.
 
 A measured transform changes only with a new measurement: a changed pose of a calibrated frame is dangerous unless
 the calibration has a new revision. So is another model, serial number, mount or day of mounting of a device that a
 calibration measured: the device of the frame, and those that carry it, up to the next joint that moves.
 
-Collision shapes are compared by the room that they take up. One that shrank or lies elsewhere is dangerous, as is one
+Collision shapes are compared by the room that they take up, those of a device in the frame by which it is mounted.
+One that shrank or lies elsewhere is dangerous, as is one
 that is gone: planning no longer avoids where it was. One that grew is graded `review`. Of an obstacle, pose and size
 count together. A box, also that of a shared area, says what it loses and gains on each side. One arm at a time is in
 a shared area: a larger one keeps arms apart in more room and is graded `review`, for what grants access must be set to
@@ -132,7 +149,10 @@ def _areas() -> Iterator[str]:
     yield ""
     yield "The owner is that of the approval area in `owners.approvals` before the change, with a new one beside them;"
     yield "a change cannot choose its own approver. Another owner of an area is approved by the old and the new one,"
-    yield "in that area and in that of the owners. Stiffness and damping of joints are approved by safety and control."
+    yield "in that area and in that of the owners. The owner of the recovery is asked of its states, too. What only"
+    yield "follows, such as a tip that moves, asks nobody beside the owner of its cause; a new name asks where"
+    yield "consumers may break. Of what is safe, limits and matters of safety are asked."
+    yield "Stiffness and damping of joints are approved by safety and control."
     yield "Gates and layers rest on those before them, so that"
     yield "the evidence from the first one on is no longer valid. Under the same configuration id none is."
     yield ""

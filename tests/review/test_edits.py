@@ -96,8 +96,6 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous calibration | gripper_base_link | pose in its parent | xyz 0 0 11 mm, rpy 0 0 90 deg -> "
             "xyz 0 0 11 mm, rpy 0 0 91 deg | turns 1 deg",
             "dangerous calibration | hand_eye | revision | 4 -> 3",
-            "dangerous payload | arm | robot TCP rotation_vector | "
-            "0.0000 0.0000 1.5708 rad -> 0.0000 0.0000 1.5882 rad",
             "dangerous payload | arm | robot TCP rpy | 0.00 0.00 90.00 deg -> 0.00 0.00 91.00 deg",
             "dangerous interfaces | /move_action | frame of the payload | world -> arm_base_link | breaks",
             "dangerous time | /object_pose | oldest sample that may be used | 200 ms -> 300 ms | +50 %",

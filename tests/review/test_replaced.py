@@ -68,10 +68,10 @@ def test_a_joint_that_turns_without_end_has_no_missing_limit() -> None:
     assert first.title.startswith("devices.arm.model: ")  # and not the first motion that follows from it
 
 
-def test_a_value_has_the_unit_of_the_line_that_causes_it() -> None:
+def test_each_value_has_the_unit_in_which_it_is_written() -> None:
     found = review_of("rail_arm", ("path_tolerance: 0.2 rad 20 mm", "path_tolerance: 0.3 rad 3 cm"))
     told = {(change.before, change.after, change.delta) for change in found.changes}
-    assert told == {("0.2 rad", "0.3 rad", "+50 %"), ("2 cm", "3 cm", "+50 %")}
+    assert told == {("0.2 rad", "0.3 rad", "+50 %"), ("20 mm", "3 cm", "+50 %")}
 
 
 def test_positions_of_fingers_that_turn_and_that_slide_have_each_their_unit() -> None:
@@ -156,8 +156,8 @@ def test_a_lighter_part_is_no_other_part() -> None:
     assert heavier.why == "force, payload and motion were chosen for a lighter part"
 
 
-def test_a_lower_limit_asks_nobody_for_the_lines_of_a_document() -> None:
+def test_a_lower_limit_asks_who_answers_for_limits_and_nobody_for_the_lines_of_a_document() -> None:
     found = review_of("fr3_hand", ("velocity: 35 %", "velocity: 20 %"))
     (group,) = groups_of(found)
-    assert (str(group.grade), group.asks) == ("safe", "")
+    assert (str(group.grade), group.asks) == ("safe", "controller (controls)")
     assert {str(change.grade) for change in found.changes} == {"safe"}

@@ -193,9 +193,7 @@ class RobotController(Part):
         accepts: what the controller takes.
     """
 
-    payload: Annotated[
-        Payload | None, STATED, Graded(ReviewArea.PAYLOAD, "payload", Rule.DANGEROUS, why=OTHER_LOAD)
-    ] = None
+    payload: Annotated[Payload | None, STATED, Graded(ReviewArea.PAYLOAD, "payload", Rule.LOAD, why=OTHER_LOAD)] = None
     tcp: Annotated[str | None, STATED, Graded(ReviewArea.PAYLOAD, "TCP", Rule.DANGEROUS, why="the TCP moves")] = None
     program: Annotated[RobotProgram | None, STATED] = None
     collision: Annotated[CollisionThresholds | None, STATED] = None

@@ -98,7 +98,7 @@ def check(
 def _new_or_failing(findings: Findings, revision: str, fail_on: str) -> Findings:
     """Return the findings that fail, and those that a file had not in a revision."""
     from cellc.tools.report.json_report import as_review_finding
-    from cellc.tools.review.review import new_among
+    from cellc.tools.review.findings import new_among
     from cellc.tools.review.sides import SideError, findings_at
 
     try:

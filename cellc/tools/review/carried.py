@@ -6,7 +6,7 @@ import math
 
 from cellc.contract.contract import Contract
 from cellc.tools.review.facts import Facts
-from cellc.tools.review.units import length
+from cellc.tools.review.units import length, shown
 
 _REACHING = ("arm", "axis")
 """Kinds of devices that carry what they hold to other places."""
@@ -27,6 +27,9 @@ def longer_link(link: str, before: Facts, after: Facts) -> str:
     was, now = before.contract.devices.get(device), after.contract.devices.get(device)
     if was is None or now is None or was.model != now.model or device != _device_of(link, after):
         return ""
+    frame = before.contract.frames.get(link)
+    if frame is not None and frame.kind != "link":
+        return ""  # a frame of the cell, and no link of the arm
     if not is_reaching(before.contract, device) or not (_carries_tip(link, before) and _carries_tip(link, after)):
         return ""
     old, new = (next(each for each in side.description.joints if each.child == link) for side in (before, after))
@@ -35,7 +38,7 @@ def longer_link(link: str, before: Facts, after: Facts) -> str:
     if abs(grown) <= _NOTICED:
         return f"origin of joint `{new.name}` moves: {ENDS_ELSEWHERE}"
     by = f"`{new.parent}` {length(abs(grown))} {'longer' if grown > 0 else 'shorter'}"
-    return f"{by}, origin of joint `{new.name}` {length(sides[0])} -> {length(sides[1])}: {ENDS_ELSEWHERE}"
+    return f"{by}, origin of joint `{new.name}` {shown(sides[0], 'm')} -> {shown(sides[1], 'm')}: {ENDS_ELSEWHERE}"
 
 
 def _device_of(link: str, facts: Facts) -> str:

@@ -3,41 +3,30 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from cellc.compiler.pipeline import check_document
-from cellc.compiler.source.document import Child, SourceDocument
-from cellc.contract.diagnostics import YamlPath
-from cellc.contract.review import ReviewCause, ReviewValue
+from cellc.compiler.source.document import SourceDocument
+from cellc.contract.diagnostics import Severity, YamlPath
+from cellc.contract.review import ReviewCause, ReviewFinding, ReviewValue
 from cellc.contract.vocabulary import Grade
+from cellc.tools.review.acts import MEASURED, Cause, alike, described, is_model, shortened, texts_of
 from cellc.tools.review.change import Change
 from cellc.tools.review.compare import UNCLASSIFIED, reported
 from cellc.tools.review.facts import Facts
-from cellc.tools.review.sides import SideError, package_of
-from cellc.tools.review.spec_edits import SpecEdit, spec_edits, undone, with_edits
+from cellc.tools.review.findings import more, said_of
+from cellc.tools.review.sides import Package, SideError, package_of
+from cellc.tools.review.spec_edits import SpecEdit, undone, with_edits
 from cellc.tools.review.titles import WHOLE_SPEC
 
-_MOST = 20
-"""Causes that are tried one by one; of more edits, those of one part of the spec are one cause."""
-_TOGETHER = 3
-"""Values of one mapping that are listed as one: of a calibration, its revision, its day and its residual."""
-_AS_ONE = ("payload",)
-"""Mappings whose values are listed as one however few they are: a mass and where it is."""
-_POSE = ("xyz", "rpy")
-"""Keys of a place: where something is and how it is turned count together."""
-_MEASURED, _REVISION, _CALIBRATION = ("calibrations",), "revision", "calibration"
-_ROOMS, _PLACED = ("scene", "areas"), 3
-"""Sections whose entries take up room: where it is and how large count together."""
-_LONGEST, _BESIDE = 60, 12
-"""Characters of a value that a heading has, and of what is the same before those that differ."""
-
-Cause: TypeAlias = tuple[SpecEdit, ...]
-"""Edits of a spec that are listed as one."""
 _Changes: TypeAlias = Mapping[tuple[str, str], Change]
 """Changes by subject and quantity."""
+
+
+Brought: TypeAlias = frozenset[tuple[str, str]]
+"""What findings say that a cause brings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,77 +35,32 @@ class State:
 
     document: SourceDocument
     facts: Facts
+    findings: tuple[ReviewFinding, ...] = ()
+
+    @property
+    def errors(self) -> frozenset[str]:
+        """Codes of errors that it has."""
+        return frozenset(found.code for found in self.findings if found.severity == Severity.ERROR)
 
 
 @dataclass(frozen=True, slots=True)
 class _Trial:
-    """What a cause changes by itself; not valid where the spec has errors both with it alone and with all but it."""
+    """What a cause changes by itself.
+
+    It is not valid where the spec has errors that neither side has, both with it alone and with all but it.
+    """
 
     changes: _Changes
     valid: bool
-
-
-def causes_between(before: SourceDocument, after: SourceDocument) -> tuple[Cause, ...]:
-    """Return the edits between two states of a spec, those of one part as one where there are many.
-
-    What a new measurement found is one with it: the calibration, and the poses that it measured.
-    """
-    edits = spec_edits(before, after)
-    renewed = {edit.path[1] for edit in edits if edit.path[:1] == _MEASURED and len(edit.path) > len(_MEASURED) + 1}
-    beside = Counter(edit.path[:-1] for edit in edits)
-    alike = Counter(map(_alike, edits))
-    parts = [_part(edit.path, beside, after, renewed) for edit in edits]
-    # Lines that are alike, of several devices or interfaces, are one.
-    parts = [
-        _alike(edit) if part == edit.path and len(part) > 2 and alike[_alike(edit)] > 1 else part
-        for edit, part in zip(edits, parts, strict=True)
-    ]
-    causes = _grouped(edits, parts)
-    causes = tuple(tuple(sorted(cause, key=_place_in_measurement)) for cause in causes)
-    for depth in (3, 2, 1):
-        if len(causes) > _MOST:
-            causes = _grouped(edits, [edit.path[:depth] for edit in edits])
-    return causes
-
-
-def _part(
-    path: YamlPath, beside: Mapping[YamlPath, int], after: SourceDocument, renewed: Collection[object]
-) -> YamlPath:
-    """Return the part of the spec that an edit is listed with: itself where it is listed alone."""
-    if path[-1] in _POSE and (name := after.text_at((*path[:-1], _CALIBRATION))) in renewed:
-        return *_MEASURED, name
-    if path[:1] == _MEASURED and path[1] in renewed:
-        return path[:2]
-    return path[:-1] if _is_together(path, beside) else path
-
-
-def _alike(edit: SpecEdit) -> YamlPath:
-    return "=", edit.path[0], *edit.path[2:], *map(str, texts_of(edit))
-
-
-def _place_in_measurement(edit: SpecEdit) -> int:
-    """Return which edit of a new measurement is first: its revision, then what it moved, then the rest of it."""
-    if edit.path[:1] != _MEASURED:
-        return 1
-    return 0 if edit.path[-1] == _REVISION else 2
-
-
-def _is_together(path: YamlPath, beside: Mapping[YamlPath, int]) -> bool:
-    is_one = path[-1] in _POSE or (path[-2:-1] and path[-2] in _AS_ONE) or (len(path) == _PLACED and path[0] in _ROOMS)
-    return beside[path[:-1]] >= (2 if is_one else _TOGETHER)
-
-
-def _grouped(edits: Sequence[SpecEdit], paths: Sequence[YamlPath]) -> tuple[Cause, ...]:
-    grouped: dict[YamlPath, list[SpecEdit]] = {}
-    for edit, path in zip(edits, paths, strict=True):
-        grouped.setdefault(path, []).append(edit)
-    return tuple(map(tuple, grouped.values()))
+    brought: Brought = frozenset()
 
 
 def attributed(
     changes: Sequence[Change], causes: Sequence[Cause], before: State, after: State
-) -> tuple[tuple[Cause, ...], list[tuple[int | None, Change]]]:
-    """Return the causes that change something, and each change with the number of its cause; None where none has it.
+) -> tuple[tuple[Cause, ...], list[tuple[int | None, Change]], tuple[Brought, ...]]:
+    """Return the causes that change something, each change with the number of its cause, and the findings of each.
+
+    The number is None where no cause has a change.
 
     Causes that cannot be tried alone, such as a device and its controllers, are one. What comes from elsewhere, such as
     a comment that excuses a finding or a file that the spec names, has none.
@@ -126,7 +70,7 @@ def attributed(
     together = tuple(edit for cause, trial in zip(causes, trials, strict=True) if not trial.valid for edit in cause)
     known = [trial.changes for trial in trials if trial.valid]
     rest = len(alone) if together else None
-    held = [(change, *_held(change, [len(set(map(_alike, cause))) for cause in alone], known)) for change in changes]
+    held = [(change, *_held(change, [len(set(map(alike, cause))) for cause in alone], known)) for change in changes]
     found = [
         (_cause_of(change, held_by, known, rest), change) for change, held_by, is_repeated in held if not is_repeated
     ]
@@ -142,15 +86,15 @@ def attributed(
         together = _leading_first(together, [change for number, change in found if number == rest])
     kept = sorted({number for number, _ in found if number is not None})
     every = (*alone, together)
+    brought = [trial.brought for trial in trials if trial.valid]
+    new = frozenset(map(said_of, more(after.findings, before.findings)))
+    # What none brings alone, those bring that cannot be tried alone.
+    brought.append(new.difference(*brought))
     return (
         tuple(every[number] for number in kept),
         [(None if number is None else kept.index(number), change) for number, change in found],
+        tuple(brought[number] for number in kept),
     )
-
-
-def is_model(path: YamlPath) -> bool:
-    """Tell whether a value of a spec is the model of a device, which more follows from than from any other."""
-    return path[:1] == ("devices",) and path[2:] == ("model",)
 
 
 def _leading_first(cause: Cause, changes: Sequence[Change]) -> Cause:
@@ -214,19 +158,28 @@ def _cause_of(change: Change, having: Sequence[int], known: Sequence[_Changes], 
 
 
 def _tried(cause: Cause, before: State, after: State) -> _Trial:
-    alone = facts_of_document(with_edits(before.document, cause, after.document))
+    known = before.errors | after.errors
+    alone = package_of_document(with_edits(before.document, cause, after.document), known)
     if alone is not None:
-        return _Trial(_by_key(reported(before.facts, alone)), valid=True)
-    without = facts_of_document(with_edits(after.document, undone(cause), before.document))
+        return _trial(before.facts, before.findings, alone.facts, alone.findings)
+    without = package_of_document(with_edits(after.document, undone(cause), before.document), known)
     if without is not None:
-        return _Trial(_by_key(reported(without, after.facts)), valid=True)
+        return _trial(without.facts, without.findings, after.facts, after.findings)
     return _Trial({}, valid=False)
 
 
-def facts_of_document(document: SourceDocument) -> Facts | None:
-    """Return what the package of a spec in memory says; None where the spec has errors."""
+def _trial(was: Facts, known: Sequence[ReviewFinding], now: Facts, found: Sequence[ReviewFinding]) -> _Trial:
+    return _Trial(_by_key(reported(was, now)), valid=True, brought=frozenset(map(said_of, more(found, known))))
+
+
+def package_of_document(document: SourceDocument, known: Collection[str] = ()) -> Package | None:
+    """Return the package of a spec in memory; None where the spec has an error that is not known."""
+    checked = check_document(document)
+    codes = {found.code for found in checked.diagnostics if found.severity is Severity.ERROR}
+    if not codes <= {*known}:
+        return None
     try:
-        return package_of(document.file, check_document(document)).facts
+        return package_of(document.file, checked)
     except SideError:
         return None
 
@@ -245,9 +198,9 @@ def as_cause(cause: Cause) -> ReviewCause:
     """Return a cause as a review lists it: its line, or the part of the spec that holds its lines."""
     first = cause[0]
     if len(cause) == 1:
-        before, after = texts_of(first)
+        before, after = texts_of(first) if None not in (first.before, first.after) else described(first)
         return ReviewCause(line=_dotted(first.path), before=before, after=after, place=str(first.place))
-    common = first.path[:2] if first.path[:1] == _MEASURED else _common(cause)
+    common = _part_of(cause)
     values = tuple(
         ReviewValue(
             line=_dotted(edit.path[len(common) if edit.path[: len(common)] == common else 0 :]),
@@ -260,11 +213,20 @@ def as_cause(cause: Cause) -> ReviewCause:
     )
     return ReviewCause(
         line=_dotted(common) or WHOLE_SPEC,
-        after=_short(", ".join(value.line for value in values)),
+        after=shortened(", ".join(value.line for value in values)),
         place=str(first.place),
         lines=len(cause),
         values=values,
     )
+
+
+def _part_of(cause: Cause) -> YamlPath:
+    """Return the part of the spec that a cause is of: a device with another model, a calibration, or what all have."""
+    models = [edit.path[:2] for edit in cause if is_model(edit.path)]
+    measured = [edit.path[:2] for edit in cause if edit.path[:1] == MEASURED]
+    if len(models) == 1 or (measured and not models):
+        return (*models, *measured)[0]
+    return _common(cause)
 
 
 def _common(cause: Cause) -> YamlPath:
@@ -275,35 +237,3 @@ def _common(cause: Cause) -> YamlPath:
 
 def _dotted(path: YamlPath) -> str:
     return ".".join(map(str, path))
-
-
-def texts_of(edit: SpecEdit) -> tuple[str | None, str | None]:
-    """Return both values of an edit in one line; of long ones the part that differs."""
-    was, now = (None if child is None else _flow(child) for child in (edit.before, edit.after))
-    if was is None or now is None:
-        return None if was is None else _short(was), None if now is None else _short(now)
-    if max(len(was), len(now)) > _LONGEST:
-        alike = next((at for at, (one, other) in enumerate(zip(was, now, strict=False)) if one != other), len(was))
-        start = was.rfind(" ", 0, max(alike - _BESIDE, 0)) + 1
-        was, now = (f"...{text[start:]}" if start else text for text in (was, now))
-    return _short(was), _short(now)
-
-
-def flow_of(child: Child) -> str:
-    """Return a value in one line, cut where it is long."""
-    return _short(_flow(child))
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
-
-
-def _flow(child: Child) -> str:
-    """Return a value in one line, as YAML has it in flow style."""
-    node = child.node
-    if not node.is_collection:
-        return node.text
-    inner = [_flow(each) for each in node.children.values()]
-    if isinstance(node.data, list):
-        return f"[{', '.join(inner)}]"
-    return "{" + ", ".join(f"{key}: {text}" for key, text in zip(node.children, inner, strict=True)) + "}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 from cellc.contract.review import ApprovalArea
 from cellc.contract.vocabulary import Grade, ReviewArea
@@ -12,6 +13,10 @@ from cellc.tools.review.units import difference, shown_both
 
 PRESENT = "present"
 """Value of what is there as a whole."""
+
+
+Written: TypeAlias = tuple[Collection[str], Collection[str]]
+"""Units in which values are written before and after."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,12 +28,12 @@ class Figures:
     units: tuple[str, str]
     share: bool
 
-    def texts(self, wanted: Collection[str] = ()) -> tuple[str | None, str | None, str]:
-        """Return values and difference as people read them, in units that they wrote."""
+    def texts(self, wanted: Written = ((), ())) -> tuple[str | None, str | None, str]:
+        """Return values and difference as people read them, each in units that they wrote."""
         was, now = shown_both(self.before, self.after, self.units, wanted)
         unit, other = self.units
         is_one = unit == other
-        delta = difference(self.before, self.after, unit, share=self.share, wanted=wanted) if is_one else ""
+        delta = difference(self.before, self.after, unit, share=self.share, wanted=wanted[1]) if is_one else ""
         return was, now, delta
 
 
@@ -61,10 +66,10 @@ class Change:
     differing: frozenset[str] = field(default=frozenset(), compare=False)
 
 
-def in_units(change: Change, wanted: Collection[str]) -> Change:
+def in_units(change: Change, wanted: Written) -> Change:
     """Return a change with its figures in the units in which the line was written that causes it."""
     figures = change.figures
-    if figures is None or not wanted:
+    if figures is None or not any(wanted):
         return change
     was, now, delta = figures.texts(wanted)
     was, now = change.before if was is None else was, change.after if now is None else now

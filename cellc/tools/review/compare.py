@@ -36,8 +36,10 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
-_COMPARES = "versions"
-"""Kind of a request that only reads: a step of it moves nothing."""
+_RECOVERY = "recovery owner"
+"""Who answers for what lets motion resume, beside the approver of safety."""
+_IDLE = ("versions", "transition")
+"""Kinds of requests that move nothing: they compare, or start a node that is managed."""
 UNCLASSIFIED = "(not classified)"
 """How the quantity of lines ends that no row of the table explains."""
 WHOLE = "cell"
@@ -70,12 +72,15 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     return {
         area: " and ".join(dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner))
         for area in {*were, *are}
-    }
+    } | {_RECOVERY: str(before.leaves.get(("spec", "safety", *_RECOVERY.split()), ""))}
 
 
 def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:
     asked, own = change.approval or APPROVAL[change.area], APPROVAL[change.area]
     owner, beside = owners.get(asked, ""), own if own != asked else None
+    answers = owners[_RECOVERY] if "recover" in change.quantity else ""
+    if answers and answers not in owner.split(" and "):
+        owner = f"{owner} and {answers}" if owner else answers
     if change.quantity.startswith(HANDED) and change.before and change.before not in owner.split(" and "):
         owner = f"{owner} and {change.before}" if owner else change.before
     return ReviewChange(
@@ -128,16 +133,16 @@ def reported(before: Facts, after: Facts) -> list[Change]:
         for item in lines_left(was, now, known)
     ]
     reported += [_of_lines(item) for item in left if item.file in edited or not item.file.startswith(_SHOWS)]
-    reported = [change for change in reported if not _is_of_a_gone_link(change, before, after)]
+    reported = [change for change in reported if not _is_of_one_link(change, before, after)]
     return with_models(reported, before, after) or list(_unexplained(before, after))
 
 
-def _is_of_a_gone_link(change: Change, before: Facts, after: Facts) -> bool:
-    """Tell whether a pair is one of a link that is gone: the change of its shapes says that nothing avoids it."""
+def _is_of_one_link(change: Change, before: Facts, after: Facts) -> bool:
+    """Tell whether a pair is one of a link that one side alone has, which its own shapes and device tell."""
     if change.quantity not in PAIRS:
         return False
-    gone = {link.name for link in before.description.links} - {link.name for link in after.description.links}
-    return not gone.isdisjoint(change.subject.split(" with "))
+    was, now = ({link.name for link in side.description.links} for side in (before, after))
+    return not (was ^ now).isdisjoint(change.subject.split(" with "))
 
 
 def _unexplained(before: Facts, after: Facts) -> Iterator[Change]:
@@ -226,10 +231,10 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) ->
     names = () if fit is None else fit.subject
     shown_leaf = next((delta for delta in inner if delta.path == (*path, thing.shown)), None)
     value = PRESENT if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
-    compares = added and any(delta.path[-2:] == ("request", "kind") and delta.after == _COMPARES for delta in inner)
+    idle = added and any(delta.path[-2:] == ("request", "kind") and delta.after in _IDLE for delta in inner)
     held = any(delta.path[len(path)] == thing.holds for delta in inner if len(delta.path) > len(path))
     removed = thing.removed if held or not thing.holds else Grade.REVIEW
-    taken = removed if not added else Grade.REVIEW if compares else thing.added
+    taken = removed if not added else Grade.REVIEW if idle else thing.added
     reaches = added and path[:2] == ("contract", "devices") and is_reaching(after.contract, path[2])
     return Change(
         thing.area,

@@ -17,7 +17,7 @@ from cellc.contract.limits import limits
 from cellc.contract.review import ReviewCause, ReviewValue
 from cellc.contract.store.regular_file import read_regular
 from cellc.contract.vocabulary import ReviewArea
-from cellc.tools.review.causes import flow_of
+from cellc.tools.review.acts import flow_of
 from cellc.tools.review.change import Change
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.spec_edits import spec_edits

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewChange
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.causes import (
-    Cause,
-    State,
-    as_cause,
-    attributed,
-    causes_between,
-    facts_of_document,
-    flow_of,
-    without_lines,
-)
-from cellc.tools.review.change import Change, in_units
+from cellc.tools.review.acts import Cause, causes_between, flow_of
+from cellc.tools.review.causes import Brought, State, as_cause, attributed, package_of_document, without_lines
+from cellc.tools.review.change import Change, Written, in_units
 from cellc.tools.review.compare import change_of, changes_between, merged, reported
 from cellc.tools.review.device_folders import by_folders, folder_causes
 from cellc.tools.review.facts import Facts
@@ -43,19 +36,24 @@ class Explained:
     causes: tuple[ReviewCause, ...]
     changes: tuple[ReviewChange, ...]
     renames: tuple[Rename, ...] = ()
+    brought: tuple[Brought, ...] = ()
+    """What the findings say that each cause brings."""
 
 
 def explained(before: Package, after: Package) -> Explained:
     """Return every change with what causes it; of folders, of which no spec is there, the changes alone."""
     if before.document is None or after.document is None:
         return _of_folders(before, after)
-    was, now = State(before.document, before.facts), State(after.document, after.facts)
+    was, now = (
+        State(document, side.facts, side.findings)
+        for side, document in ((before, before.document), (after, after.document))
+    )
     renames, base = _with_names_after(was, now)
     leading = _leading(renames)
     names = [_of_rename(rename, was.facts, base.facts) for rename in leading]
     changes = reported(base.facts, now.facts)
-    causes, found = attributed(changes, causes_between(base.document, now.document), base, now)
-    first = [_as_cause(rename) for rename in leading]
+    causes, found, brought = attributed(changes, causes_between(base.document, now.document), base, now)
+    first = [_as_cause(rename, now.document) for rename in leading]
     in_folders = folder_causes(was.document, now.document) if any(number is None for number, _ in found) else ()
     wanted = [_units_of(cause) for cause in causes]
     of_folders, found = by_folders(found, in_folders, len(causes), base.facts, now.facts)
@@ -76,17 +74,23 @@ def explained(before: Package, after: Package) -> Explained:
         ),
         merged(numbered, before.facts, after.facts),
         renames,
+        (*(frozenset() for _ in first), *brought),
     )
 
 
-def _units_of(cause: Cause) -> frozenset[str]:
-    """Return the units in which the lines of a cause are written now, or were where they are gone."""
-    written = [edit.after or edit.before for edit in cause]
-    return frozenset().union(*(units_in(flow_of(child)) for child in written if child is not None))
+def _units_of(cause: Cause) -> Written:
+    """Return the units in which the lines of a cause were written, and are; of what is new or gone, those of it."""
+    sides = [[edit.before or edit.after for edit in cause], [edit.after or edit.before for edit in cause]]
+    was, now = (_in_texts(flow_of(child) for child in side if child is not None) for side in sides)
+    return was, now
 
 
-def _units_written(cause: ReviewCause) -> frozenset[str]:
-    texts = (cause.before, cause.after, *(text for value in cause.values for text in (value.before, value.after)))
+def _units_written(cause: ReviewCause) -> Written:
+    values = [(cause.before, cause.after), *((value.before, value.after) for value in cause.values)]
+    return _in_texts(was or now for was, now in values), _in_texts(now or was for was, now in values)
+
+
+def _in_texts(texts: Iterable[str | None]) -> frozenset[str]:
     return frozenset().union(*(units_in(text) for text in texts if text))
 
 
@@ -105,8 +109,10 @@ def _of_folders(before: Package, after: Package) -> Explained:
     return Explained(tuple(map(_as_cause, leading)), merged(found, before.facts, after.facts), renames)
 
 
-def _as_cause(rename: Rename) -> ReviewCause:
-    return ReviewCause(line=_line(rename), before=rename.before, after=rename.after, renamed=True)
+def _as_cause(rename: Rename, document: SourceDocument | None = None) -> ReviewCause:
+    child = None if document is None else document.child((*rename.section, rename.after))
+    place = "" if child is None else str(child.key_span or child.span)
+    return ReviewCause(line=_line(rename), before=rename.before, after=rename.after, place=place, renamed=True)
 
 
 def _with_names_after(was: State, now: State) -> tuple[tuple[Rename, ...], State]:
@@ -115,8 +121,8 @@ def _with_names_after(was: State, now: State) -> tuple[tuple[Rename, ...], State
     if not renames:
         return (), was
     document = renamed(was.document, now.document, renames)
-    facts = facts_of_document(document)
-    return ((), was) if facts is None else (renames, State(document, facts))
+    package = package_of_document(document, was.errors)
+    return ((), was) if package is None else (renames, State(document, package.facts, package.findings))
 
 
 def _leading(renames: Sequence[Rename]) -> tuple[Rename, ...]:

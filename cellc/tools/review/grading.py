@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from cellc.contract.contract import Contract
 from cellc.contract.grading import UNAVOIDED, Rule
 from cellc.contract.review import ApprovalArea
+from cellc.contract.transforms import identity
 from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
 from cellc.robot.description.model import Collision
 from cellc.tools.review.carried import is_reaching, longer_link
 from cellc.tools.review.covering import covers
 from cellc.tools.review.facts import Facts
-from cellc.tools.review.geometry import on_carrier
 from cellc.tools.review.leaves import Delta, Leaf, Prose, said
+from cellc.tools.review.loads import is_measured_again, left_behind, unexplained_load
 from cellc.tools.review.measured import unmeasured
 from cellc.tools.review.rooms import is_part_of_scene, keeps_apart, obstacle_covers
 from cellc.tools.review.rules import approval_of
@@ -36,9 +37,9 @@ def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
     """Return the grade of a change by a rule; what a calibration measured does not change without a new revision."""
     verdict = _by_rule(rule, delta, before, after)
     names = unmeasured(delta, before.contract, after.contract)
-    if verdict.why or not names:
+    if not names or (verdict.why and rule is not Rule.REPLACED):
         return verdict
-    area = verdict.area if verdict.grade is Grade.DANGEROUS else ReviewArea.CALIBRATION
+    area = verdict.area if verdict.grade is Grade.DANGEROUS or rule is Rule.REPLACED else ReviewArea.CALIBRATION
     return Verdict(Grade.DANGEROUS, _unmeasured(names, before.contract), area)
 
 
@@ -56,6 +57,8 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(_compared(delta, after))
     if rule is Rule.MEASURED:
         return _of_measurement(delta, before, after)
+    if rule in _TOLD:
+        return _TOLD[rule](delta, before, after)
     return Verdict(_GRADES[rule](delta.before, delta.after), approval=approval_of(delta.path))
 
 
@@ -96,14 +99,16 @@ def _back(before: Leaf | None, after: Leaf | None) -> Grade:
 
 
 def _named(before: Leaf | None, after: Leaf | None) -> Grade:
+    if before is None:
+        return Grade.REVIEW
     return Grade.DANGEROUS if after is None or str(after).split()[-1:] == [UNKNOWN] else Grade.REVIEW
 
 
 def _matrix(before: Leaf | None, after: Leaf | None) -> Grade:
-    was, now = (str(item).startswith("OK") for item in (before, after))
-    if was and not now:
+    was, now = (str(item).partition(":")[0] for item in (before, after))
+    if now == "INCOMPATIBLE" != was:
         return Grade.DANGEROUS
-    return Grade.SAFE if now and not was else Grade.REVIEW
+    return Grade.SAFE if now == "OK" != was else Grade.REVIEW
 
 
 def _claim(before: Leaf | None, after: Leaf | None) -> Grade:
@@ -203,22 +208,21 @@ def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:
     )
     in_parent = obstacle_covers(delta.path[2], before, after)
     if in_parent is None:
-        was, now = _on_same_carrier(delta.path[2], was, now, before, after)
-        in_parent = covers(was, now)
+        in_parent = covers(_in_mount(delta.path[2], was, before), _in_mount(delta.path[2], now, after))
     return Verdict(Grade.REVIEW if in_parent else Grade.DANGEROUS)
 
 
-def _on_same_carrier(
-    link: str, was: tuple[Collision, ...], now: tuple[Collision, ...], before: Facts, after: Facts
-) -> tuple[tuple[Collision, ...], tuple[Collision, ...]]:
-    """Return shapes where they are on what carries the link, which may have moved with them; else in the link."""
-    old, new = on_carrier(link, before), on_carrier(link, after)
-    if old is None or new is None or old[0] != new[0]:
-        return was, now
-    return (
-        tuple(replace(shape, pose=old[1] @ shape.pose) for shape in was),
-        tuple(replace(shape, pose=new[1] @ shape.pose) for shape in now),
-    )
+def _in_mount(link: str, shapes: tuple[Collision, ...], facts: Facts) -> tuple[Collision, ...]:
+    """Return shapes where they are in the frame by which their device is mounted: how that moved is told by itself."""
+    roots = {device.root_link for device in facts.contract.devices.values()}
+    joints = {joint.child: joint for joint in facts.description.joints}
+    place = identity()
+    for _ in joints:
+        joint = joints.get(link)
+        if link in roots or joint is None or joint.movable:
+            break
+        place, link = joint.pose @ place, joint.parent
+    return tuple(replace(shape, pose=place @ shape.pose) for shape in shapes)
 
 
 def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:
@@ -228,6 +232,52 @@ def _of_measurement(delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(Grade.REVIEW)
     return Verdict(_looser(delta.before, delta.after))
 
+
+def _of_load(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    why = unexplained_load(delta, before, after)
+    return Verdict(Grade.REVIEW) if why is None else Verdict(Grade.DANGEROUS, why)
+
+
+def _of_tool(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    is_known = delta.after is not None and is_measured_again(delta.path[2], before, after)
+    return Verdict(Grade.REVIEW if is_known else Grade.DANGEROUS)
+
+
+def _of_model(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    why = left_behind(delta.path[2], before, after)
+    return Verdict(Grade.DANGEROUS, why) if why else Verdict(Grade.REVIEW)
+
+
+def _of_clock(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    """A stamp that nothing is decided by may be further off."""
+    return Verdict(_looser(delta.before, delta.after) if _decides(delta.path[2], after) else Grade.REVIEW)
+
+
+_OF_AGE = 0.1
+"""Share of an age limit that the clock of who judges it may be off before it counts."""
+
+
+def _decides(clock: str, facts: Facts) -> bool:
+    """Tell whether stamps of limited age are made on a clock, or are judged on it while it may be far off."""
+    of, clocks = facts.contract.clock_of, facts.contract.clocks
+    bound = clocks[clock].max_offset_s if clock in clocks else None
+    for interface in facts.contract.interfaces.values():
+        if interface.max_age_s is None:
+            continue
+        if clock in (interface.time_source, *(of.get(end.node) for end in interface.sources)):
+            return True
+        is_judged = clock in {of.get(end.node) for end in interface.sinks}
+        if is_judged and (bound is None or bound > _OF_AGE * interface.max_age_s):
+            return True
+    return False
+
+
+_TOLD: Mapping[Rule, Callable[[Delta, Facts, Facts], Verdict]] = {
+    Rule.LOAD: _of_load,
+    Rule.TOOL: _of_tool,
+    Rule.REPLACED: _of_model,
+    Rule.CLOCK: _of_clock,
+}
 
 _APART = "arms meet in no more room than before; what grants access must be set to the same area"
 ELSEWHERE = "the arm reaches where people at the cell do not expect it"

@@ -7,14 +7,16 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChange
+from cellc.contract.diagnostics import Severity
+from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChange, ReviewFinding
 from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.change import PRESENT
 from cellc.tools.review.grading import UNMEASURED
+from cellc.tools.review.headings import Deltas, Quote, farthest, is_act, moves_of, plain
 from cellc.tools.review.order import order_of
-from cellc.tools.review.replaced import LENGTH, MASS
-from cellc.tools.review.titles import Quote, leading_first, shortest_of, title_of
+from cellc.tools.review.replaced import LENGTH, MASS, PAIRS
+from cellc.tools.review.titles import leading_first, shortest_of, title_of, where_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
 _SEEN = tuple(f"{what} of {of}" for of in ("depth", "color") for what in ("range", "field of view", "resolution"))
@@ -28,6 +30,14 @@ _PLACED = (
     "place in the root frame",
 )
 """Quantities that say the most about a cause with many changes, in this order."""
+_OF_MEASUREMENT = (
+    "pose in its parent",
+    "base in its parent",
+    "residual",
+    "measurement measured",
+    "measurement samples",
+)
+"""What the heading of a measurement says."""
 _FIGURE = re.compile(r"\[?[-+]?[\d.]")
 _PLACES = re.compile(r" \([^():]+:[0-9, ]+\)")
 """Files and lines in a heading."""
@@ -45,10 +55,12 @@ class Group:
 
     Attributes:
         changes: the worst first; never empty.
+        findings: new ones that follow from it, and do not fail.
     """
 
     cause: ReviewCause | None
     changes: tuple[ReviewChange, ...]
+    findings: tuple[ReviewFinding, ...] = ()
 
     @property
     def grade(self) -> Grade:
@@ -71,7 +83,7 @@ class Group:
             return self._without_place(width)
         parts = [] if self.cause is None else self.cause.line.split(".")
         if self.cause is not None and len(self.cause.values) > 1 and len(self.title) > width:
-            return shortest_of(self.cause, width, self._deltas) or self.title
+            return shortest_of(self.cause, width, self._deltas, self._moves) or self.title
         while len(parts) > 2 and len(self._title("." * 3 + ".".join(parts))) > width:
             parts = parts[1:]
         is_whole = self.cause is None or len(parts) == len(self.cause.line.split("."))
@@ -86,7 +98,7 @@ class Group:
         tail = f" ({sized})" if sized else ""
         parts = cause.line.split(".")
         shown = [".".join(parts), *("..." + ".".join(parts[at:]) for at in range(1, len(parts) - 1))]
-        heads = [title_of(cause, line, str, {}).rpartition(" (")[0] for line in shown]
+        heads = [_PLACES.sub("", title_of(cause, line, str, {})) for line in shown]
         fits = (head + end for end in (tail, "") for head in heads if len(head + end) <= width)
         return next(fits, heads[0])
 
@@ -98,14 +110,20 @@ class Group:
             named = next((change for change in self.changes if change.quantity.startswith(NAME_OF)), None)
             noun, follow = ("", "") if named is None else (named.quantity.removeprefix(NAME_OF), named.delta)
             names = f"{quote(cause.before or '')} -> {quote(cause.after or '')}"
-            return f"renamed: {noun} {names}{f' ({follow})' if follow else ''}"
-        return title_of(cause, line, quote, self._deltas)
+            place = f" ({where_of(cause.place)})" if cause.place else ""
+            return f"renamed: {noun} {names}{f' ({follow})' if follow else ''}{place}"
+        return title_of(cause, line, quote, self._deltas, self._moves)
 
     @property
-    def _deltas(self) -> Mapping[tuple[str, str], str]:
+    def _moves(self) -> Mapping[str, str]:
+        """How far what the heading places moves."""
+        return moves_of(self.changes)
+
+    @property
+    def _deltas(self) -> Deltas:
         """How much each value of the heading changed, where a change has those values and nothing else says it."""
         return {
-            (change.before, change.after): change.delta
+            plain(change.before, change.after): change.delta
             for change in self.changes
             if change.before is not None and change.after is not None and change.delta.endswith("%")
         }
@@ -129,8 +147,15 @@ class Group:
     @property
     def listed(self) -> tuple[ReviewChange, ...]:
         """The changes that neither the heading nor its figures say."""
+        if self._is_act:
+            said = (*((_MODEL, *_VALUED) if self.is_model else ()), *_OF_MEASUREMENT, *_PLACED)
+            return tuple(change for change in self.changes if not change.quantity.startswith(said))
         said = (_MODEL, *_VALUED) if self.is_model else ()
         return tuple(change for change in self.changes if change.quantity not in said) or self.changes
+
+    @property
+    def _is_act(self) -> bool:
+        return self.cause is not None and is_act(self.cause)
 
     @property
     def figures(self) -> tuple[str, ...]:
@@ -147,7 +172,8 @@ class Group:
         for change in sorted(
             sized, key=lambda change: ((*_VALUED, *_PLACED).index(change.quantity), _HOME not in change.subjects[0])
         ):
-            listed[_figure(change)] = None
+            if not (self._is_act and change.quantity.startswith(_OF_MEASUREMENT)):
+                listed[_figure(change)] = None
         return tuple(listed)[: max(_SAID, sum(change.quantity in valued for change in sized))]
 
     @property
@@ -156,9 +182,32 @@ class Group:
         return asked_of(self.changes)
 
 
+_FOLLOWING = (
+    "tip",
+    "versions that it compares",
+    "place in the root frame",
+    "sweep quantity",
+    "inertia",
+    MASS,
+    LENGTH,
+    *PAIRS,
+)
+"""What only follows from another change, whose owner is asked."""
+_ASKED_OF_SAFE = (ReviewArea.LIMITS, ReviewArea.SAFETY)
+"""What somebody answers for even where it is stricter than it was."""
+
+
+def _asks(change: ReviewChange) -> bool:
+    if change.quantity.startswith(NAME_OF):
+        return change.breaking
+    return change.grade is not Grade.SAFE or change.area in _ASKED_OF_SAFE
+
+
 def asked_of(changes: Sequence[ReviewChange]) -> str:
-    """Return who approves changes: area and owner of each that is not safe."""
-    told = [change for change in changes if change.grade is not Grade.SAFE]
+    """Return who approves changes: area and owner of each, but for what only follows and for what is safe."""
+    asking = [change for change in changes if _asks(change)]
+    own = [change for change in asking if change.area is not ReviewArea.DOCUMENTS]
+    told = [change for change in own if not change.quantity.startswith(_FOLLOWING)] or own or asking
     asked = {change.beside: change.beside_owner for change in told if change.beside is not None}
     asked |= {change.approval: change.owner for change in told}
     return ", ".join(f"{area} ({asked[area] or 'no owner'})" for area in _ASKED if area in asked)
@@ -197,22 +246,40 @@ def groups_of(review: Review) -> tuple[Group, ...]:
         key = (-1, change.area.value) if change.cause is None else (change.cause, "")
         held.setdefault(key, []).append(change)
     groups = [
-        Group(None if number < 0 else leading_first(review.causes[number], changes), tuple(changes))
+        Group(
+            None if number < 0 else leading_first(review.causes[number], changes),
+            tuple(changes),
+            tuple(each for each in review.new_findings if each.cause == number and each.severity != Severity.ERROR),
+        )
         for (number, _), changes in held.items()
     ]
     return tuple(sorted(groups, key=lambda group: _order(group, groups)))
 
 
-def _order(group: Group, groups: Sequence[Group]) -> tuple[int, int, tuple[object, ...]]:
-    """Return the place of a group: by its grade, a device with another model by that of all that is said of it."""
+def _order(group: Group, groups: Sequence[Group]) -> tuple[object, ...]:
+    """Return the place of a group: by its grade, a device with another model by that of all that is said of it.
+
+    What is added comes before what rests on it, and what moves before loads, the farthest first.
+    """
     grade = group.grade
     if group.cause is not None and group.is_model:
-        of = group.cause.line.removesuffix(_MODEL)
+        of = f"{group.cause.line.removesuffix(f'.{_MODEL}')}."
         grades = [each.grade for each in groups if each.cause is not None and each.cause.line.startswith(of)]
         grade = max((grade, *grades), key=tuple(Grade).index)
     # What else changed is read with the names after, and beside another model.
     is_name = group.cause is not None and group.cause.renamed
-    return -tuple(Grade).index(grade), -2 if is_name else -1 if group.is_model else 0, order_of(group.changes[0])
+    is_new = any(change.quantity in _EXCHANGED for change in group.changes)
+    kind = -3 if is_name else -2 if group.is_model else -1 if is_new else 0
+    place = order_of(group.changes[0])
+    far, turned = farthest(group.changes) if group.cause is not None else (0.0, 0.0)
+    is_far = far >= _FAR_MM or turned >= _FAR_DEG
+    weight = min(place[1], 1) if is_far else place[1]
+    return -tuple(Grade).index(grade), kind, not (kind and group.unmeasured), weight, -far, -turned, place
+
+
+_EXCHANGED = ("device added", "device removed")
+_FAR_MM, _FAR_DEG = 1.0, 1.0
+"""What moves by less is read with tolerances."""
 
 
 def _in_backticks(value: str) -> str:

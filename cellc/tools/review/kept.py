@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.vocabulary import UNKNOWN
-from cellc.tools.review.causes import Cause, flow_of, is_model
+from cellc.tools.review.acts import Cause, flow_of, is_model
 
 _OF_DEVICE = ("payload", "grip", "limits", "serial", "collision", "impedance", "tool_connector")
 """What is stated of the device itself, what counts most first."""

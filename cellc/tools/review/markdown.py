@@ -8,9 +8,10 @@ nowhere.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from cellc.compiler.formats.escape import code
+from cellc.contract.diagnostics import Severity
 from cellc.contract.diagnostics.unsafe_text import harmless_line
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import Review, ReviewChange, ReviewFinding
@@ -66,12 +67,17 @@ def _head(review: Review) -> Iterator[str]:
     yield f"{as_code(review.before.name)} ({as_code(review.before.configuration_id)}) → "
     yield f"{as_code(review.after.name)} ({as_code(review.after.configuration_id)})"
     yield ""
-    found = review.new_findings
+    yield from _found(
+        "New findings that fail", [each for each in review.new_findings if each.severity == Severity.ERROR]
+    )
+
+
+def _found(title: str, found: Sequence[ReviewFinding]) -> Iterator[str]:
     if found:
-        yield f"**New findings: {len(found)}**"
+        yield f"**{title}: {len(found)}**"
         yield from (f"- {_finding(each)}" for each in found[:_OPEN_FINDINGS])
         yield ""
-        yield from folded("More new findings", map(_finding, found[_OPEN_FINDINGS:]))
+        yield from folded(f"More: {title.lower()}", map(_finding, found[_OPEN_FINDINGS:]))
 
 
 def _of_group(group: Group, room: int) -> tuple[list[str], int]:
@@ -126,6 +132,7 @@ def _values(change: ReviewChange) -> str:
 
 
 def _tail(review: Review) -> Iterator[str]:
+    yield from _found("New findings", [each for each in review.new_findings if each.severity != Severity.ERROR])
     yield from folded("Resolved findings", map(_finding, review.gone_findings))
     yield from folded("Rehearsals", (as_prose(outcomes(rehearsal)) for rehearsal in review.rehearsals))
     yield from folded("Gates to repeat", (as_prose(gate_line(gate)) for gate in review.gates))

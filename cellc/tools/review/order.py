@@ -11,11 +11,17 @@ from cellc.tools.review.rules import LATER
 
 _ANY = 3
 _WEIGHTS = (
-    (0, re.compile(r"watchdog|timeout|\bstop|\bcap\b|^model$")),
-    (1, re.compile(r"^approver |\breach|^base in|lower position|upper position|collision shapes (?!added)")),
-    (2, re.compile(r"payload|\bload\b|grip force|^effort$")),
+    (0, re.compile(r"watchdog|\bstop|\bcap\b|^model$")),
+    (
+        1,
+        re.compile(
+            r"^approver |\breach|^base in|lower position|upper position|collision shapes (?!added)|^parent$|"
+            "pose in its parent"
+        ),
+    ),
+    (2, re.compile(r"payload|\bload\b|grip force")),
     (4, re.compile(r"\bacceleration|\bjerk|deceleration")),
-    (5, re.compile("tolerance")),
+    (5, re.compile("tolerance|timeout")),
     (6, re.compile("gain|stiffness|damping")),
 )
 """What stops is read first; then who answers and how far things get, what they carry, and how fast; then tolerances."""
@@ -23,7 +29,7 @@ _MANIFOLD = 2
 """Places by which a figure goes ahead that is at least doubled or halved."""
 
 
-def order_of(change: ReviewChange) -> tuple[int, int, bool, float, int, bool, str, tuple[str, ...]]:
+def order_of(change: ReviewChange) -> tuple[int, int, bool, float, bool, int, bool, str, tuple[str, ...]]:
     """Return the place of a change: by grade, by what it means to people, by what safety approves, by size, by area."""
     areas, grades = tuple(ReviewArea), tuple(Grade)
     is_later = change.quantity.endswith(LATER)
@@ -35,6 +41,7 @@ def order_of(change: ReviewChange) -> tuple[int, int, bool, float, int, bool, st
         max(weight - _MANIFOLD, 0) if doublings >= 1.0 else weight,
         change.approval != "safety",
         -doublings,
+        not change.delta.startswith("loses"),
         areas.index(change.area),
         is_later,
         change.quantity,

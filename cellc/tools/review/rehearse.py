@@ -25,8 +25,11 @@ def outcomes_of(before: Package, after: Package) -> tuple[ReviewRehearsal, ...]:
     """Return how each rehearsal of either package ended on both.
 
     Raises:
-        SideError: the mock cannot load a package.
+        SideError: a side has errors, or the mock cannot load its package.
     """
+    for side in (before, after):
+        if side.errors:
+            raise SideError(f"{side.name}: a cell with errors is not rehearsed; see `cellc check`")
     stage("rehearsals of both")
     with temporary_folder("cellc-diff-") as folder:
         was, now = _run((before, after), folder)

@@ -24,7 +24,7 @@ _APART = re.compile(r"[\s/.,]+")
 MASS, LENGTH = "mass in the description", "length from the mount"
 PAIRS = ("can now meet", "can no longer meet")
 """What is said of two links of which a collision is checked that was not, and in the other direction."""
-CLAIM, PARTS = "controller that claims it", "links and joints"
+CLAIM, PARTS, INERTIA = "controller that claims it", "links and joints", "inertia of its links"
 _OF_BODY = ("collision shapes added", "collision shapes removed", "mass and inertia added", "mass and inertia removed")
 
 
@@ -118,6 +118,11 @@ _NOTICED = 1e-4
 """kg and m."""
 
 
+def mass_of(device: str, facts: Facts) -> float:
+    """Return what the links of a device weigh in the description, in kg."""
+    return _mass(facts.description, _body(device, facts)[0])
+
+
 def _mass(body: Description, links: Collection[str]) -> float:
     return sum(link.inertial.mass for link in body.links if link.name in links and link.inertial is not None)
 
@@ -151,9 +156,11 @@ def with_models(changes: Sequence[Change], before: Facts, after: Facts) -> list[
     for each in replaced(before, after):
         held = {change.before for change in left if change.quantity == CLAIM and change.before is not None}
         following = [change for change in left if _follows(change, each, held, edited)]
+        left = [change for change in left if change not in following]
         if following and (each.gone or each.come):
-            left = [change for change in left if change not in following]
             left.append(_parts(each, following))
+        elif following:
+            left.append(Change(ReviewArea.MODEL, each.device, INERTIA, "those before", "others", Grade.REVIEW))
     return left
 
 
@@ -185,6 +192,8 @@ def _follows(change: Change, each: Replaced, held: Collection[str | None], edite
         return not each.bare.isdisjoint(change.subject.split(" with "))
     if change.quantity in _OF_BODY:
         return change.subject in each.links
+    if change.quantity.startswith("inertia") and change.area is ReviewArea.MODEL:
+        return change.subject in each.links and change.subject not in edited
     was, now = _parted(change.before), _parted(change.after)
     if was - now and now - was:
         return was - now <= each.gone and now - was <= each.come

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import re
-from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from cellc.compiler.deploy.gates import GateText, gate_texts
-from cellc.contract.diagnostics import Severity
+from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal, ReviewSide
 from cellc.contract.vocabulary import ReviewArea
-from cellc.tools.review.explained import explained
-from cellc.tools.review.renames import Names, Rename, names_of
+from cellc.tools.review.explained import Explained, explained
+from cellc.tools.review.findings import more, new_among, said_of
+from cellc.tools.review.renames import Rename
 from cellc.tools.review.replaced import joints_of
 from cellc.tools.review.rules import REPEATED
 from cellc.tools.review.sides import Package
@@ -27,15 +26,37 @@ def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal
         after=_side(after),
         changes=told.changes,
         causes=told.causes,
-        new_findings=_more(after.findings, before.findings, told.renames) if specs else (),
-        gone_findings=_more(before.findings, (*after.findings, *after.excused), told.renames) if specs else (),
+        new_findings=_with_causes(more(after.findings, before.findings, told.renames), told) if specs else (),
+        gone_findings=more(before.findings, (*after.findings, *after.excused), told.renames) if specs else (),
         rehearsals=tuple(rehearsals),
         gates=_gates(before, after, told.changes),
         files=tuple(
             path for path in sorted({*before.files, *after.files}) if before.files.get(path) != after.files.get(path)
         ),
-        notes=(*before.notes, *after.notes),
+        notes=(*before.notes, *after.notes, *_standing(before, after, told.renames)),
     )
+
+
+def _with_causes(found: Sequence[ReviewFinding], told: Explained) -> tuple[ReviewFinding, ...]:
+    """Return findings with the number of the cause that each follows from."""
+    causes = [
+        next((number for number, brought in enumerate(told.brought) if said_of(each) in brought), None)
+        for each in found
+    ]
+    return tuple(each.model_copy(update={"cause": cause}) for each, cause in zip(found, causes, strict=True))
+
+
+def _standing(before: Package, after: Package, renames: Sequence[Rename]) -> Iterator[str]:
+    """Yield how many errors there were before and still are; of a spec beside a folder, how many it has."""
+    if not (before.is_spec and after.is_spec):
+        for side in (before, after):
+            if side.errors:
+                yield f"{side.name}: {count(len(side.errors), 'error')}; `cellc check` lists them"
+        return
+    standing = len(after.errors) - len(new_among(after.errors, before.errors, renames))
+    if standing:
+        first = after.errors[0]
+        yield f"{count(standing, 'error')} of before still there, such as {first.code}; `cellc check` lists them"
 
 
 def _gates(before: Package, after: Package, changes: Sequence[ReviewChange]) -> tuple[ReviewGate, ...]:
@@ -54,43 +75,6 @@ def _side(package: Package) -> ReviewSide:
         for device in contract.devices
     }
     return ReviewSide(name=package.name, cell=contract.cell, configuration_id=contract.configuration_id, joints=joints)
-
-
-_RANK = (Severity.ERROR, Severity.BLOCKER, Severity.WARNING)
-_FIGURE = re.compile(r"(?<!\w)\d[\w.:/-]*")
-_GOT = re.compile(r"\bgot .*")
-
-
-def _more(
-    one: Sequence[ReviewFinding], other: Sequence[ReviewFinding], renames: Sequence[Rename]
-) -> tuple[ReviewFinding, ...]:
-    """Return the findings of one side that the other has not, those that fail first.
-
-    A finding that says the same of another figure, or of a part that has another name, is neither new nor gone.
-    """
-    more = [one[number] for number in new_among(one, other, renames)]
-    return tuple(sorted(more, key=lambda finding: _RANK.index(finding.severity) if finding.severity in _RANK else 9))
-
-
-def new_among(
-    found: Sequence[ReviewFinding], before: Sequence[ReviewFinding], renames: Sequence[Rename] = ()
-) -> tuple[int, ...]:
-    """Return the numbers of the findings that were not there before."""
-    names = names_of(renames) if renames else None
-    known = Counter(_said(finding, names) for finding in before)
-    new = []
-    for number, finding in enumerate(found):
-        said = _said(finding, names)
-        known[said] -= 1
-        if known[said] < 0:
-            new.append(number)
-    return tuple(new)
-
-
-def _said(finding: ReviewFinding, names: Names | None) -> tuple[str, str]:
-    """Return what a finding says, without the figures and what it got."""
-    message = finding.message if names is None else names.in_text(finding.message)
-    return finding.code, _FIGURE.sub("#", _GOT.sub("", message))
 
 
 def gates_again(areas: Sequence[ReviewArea]) -> tuple[ReviewGate, ...]:

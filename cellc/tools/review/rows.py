@@ -44,6 +44,7 @@ _UNREADY = "it is not the first motion that people are ready for"
 _MEET = "arms may meet in it"
 _STARTS = "somebody else, or a program, starts what moves"
 _ANSWERS = "somebody else is responsible for what stops the motion"
+_OTHER_POINT = "every goal is reached with another point"
 _OTHER = "another device may answer at this address"
 
 
@@ -94,12 +95,12 @@ _ALL: Sequence[Row] = (
     Row(f"{_LAW} ...", Graded(_A.CONTROL, "control law of the joints:")),
     Row(
         "contract frames {frame} grasp mass_kg",
-        Graded(_A.MOTION, "mass of the part to grip", Rule.LOOSER, "kg", why=OTHER_MASS),
+        Graded(_A.MOTION, "mass of the part to grip", Rule.REVIEW, "kg", why=OTHER_MASS),
     ),
     *(
         Row(
             f"contract frames {{frame}} grasp bands {{device}} {end}",
-            Graded(_A.MOTION, what, Rule.DANGEROUS, "joint", why=GRIPPED),
+            Graded(_A.MOTION, what, Rule.REVIEW, "joint", why=GRIPPED),
         )
         for end, what in (
             ("lower", "least joint position that holds it"),
@@ -114,16 +115,19 @@ _ALL: Sequence[Row] = (
         )
     ),
     Row("spec safety recovery states", Graded(_A.SAFETY, "states that need recovery", Rule.LOST, ordered=False)),
-    Row("spec safety recovery owner", Graded(_A.SAFETY, "recovery owner", Rule.DANGEROUS)),
-    Row("spec safety recovery observer", Graded(_A.SAFETY, "recovery observer", Rule.DANGEROUS)),
+    Row("spec safety recovery owner", Graded(_A.SAFETY, "recovery owner", Rule.NAMED)),
+    Row("spec safety recovery observer", Graded(_A.SAFETY, "recovery observer", Rule.NAMED)),
     *_DECLARED,
     # What stops, and what happens then.
     Row("area {area} {what}", Graded(_A.SAFETY, "shared area", Rule.DANGEROUS, why=_MEET)),
     Row("watch {watch} ...", Graded(_A.SAFETY, "watch that deactivates controllers", Rule.DANGEROUS, ordered=False)),
-    Row("check payload {device} {what}", Graded(_A.PAYLOAD, "robot payload", Rule.DANGEROUS, why=OTHER_LOAD)),
-    Row("check tcp {device} {what}", Graded(_A.PAYLOAD, "robot TCP", Rule.DANGEROUS, why="the TCP moves")),
+    Row("check payload {device} {what}", Graded(_A.PAYLOAD, "robot payload", Rule.LOAD, why=OTHER_LOAD)),
+    Row(
+        "check tcp {device} {what}",
+        Graded(_A.PAYLOAD, "robot TCP", Rule.TOOL, why=_OTHER_POINT),
+    ),
     Row("check thresholds {device}", Graded(_A.SAFETY, "collision thresholds set in the robot", Rule.DANGEROUS)),
-    Row("check load {device}", Graded(_A.PAYLOAD, "load set in the robot", Rule.DANGEROUS, why=OTHER_LOAD)),
+    Row("check load {device}", Graded(_A.PAYLOAD, "load set in the robot", Rule.LOAD, why=OTHER_LOAD)),
     Row("check joint_impedance {device}", Graded(_A.SAFETY, "impedance of the joints", Rule.DANGEROUS)),
     Row("check tool_impedance {device}", Graded(_A.SAFETY, "impedance at the tool", Rule.DANGEROUS)),
     Row("check tool_voltage {device} {what}", Graded(_A.SAFETY, "tool connector", Rule.DANGEROUS, why=_BURNS)),

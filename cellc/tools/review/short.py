@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
+from cellc.contract.diagnostics import Severity
 from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
-from cellc.contract.review import Review, ReviewChange
+from cellc.contract.review import Review, ReviewChange, ReviewFinding
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.compare import UNCLASSIFIED, WHOLE
@@ -92,19 +93,28 @@ def _sides(review: Review) -> Iterator[Line]:
 
 
 def _findings(review: Review, fold: _Fold) -> Iterator[Line]:
-    found = review.new_findings
+    """Yield the new findings that fail; others stand below what they follow from."""
+    found = [each for each in review.new_findings if each.severity == Severity.ERROR]
     if not found:
         return
     yield (Styled(f"new findings: {len(found)}", Style.BOLD),)
-    for each in found[:_FEW]:
-        yield from fold(f"  {each.severity}[{each.code}]: {each.message}", "    ")
-    if len(found) > _FEW:
-        yield f"  and {len(found) - _FEW} more"
+    yield from _first_findings(found, fold)
+
+
+def _first_findings(found: Sequence[ReviewFinding], fold: _Fold, most: int = _FEW) -> Iterator[str]:
+    for each in found[:most]:
+        yield from fold(f"  new {each.severity}[{each.code}]: {each.message}", "    ")
+    if len(found) > most:
+        yield f"  and {len(found) - most} more new findings"
 
 
 def _foot(review: Review) -> Iterator[Line]:
+    left = [each for each in review.new_findings if each.severity != Severity.ERROR and each.cause is None]
+    yield from _first_findings(left, _cut, _NOTES)
     if review.gone_findings:
-        yield f"resolved findings: {len(review.gone_findings)}"
+        codes = Counter(f"{each.severity}[{each.code}]" for each in review.gone_findings)
+        told = ", ".join(f"{code}{f' {number} times' if number > 1 else ''}" for code, number in codes.items())
+        yield cut(f"resolved findings: {len(review.gone_findings)}, {told}")
     differing = [each for each in review.rehearsals if each.before != each.after or each.passed_after is False]
     yield from (cut(f"rehearsal {outcomes(each)}") for each in differing[:_FEW])
     if len(differing) > _FEW:
@@ -118,7 +128,10 @@ def _foot(review: Review) -> Iterator[Line]:
 def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Line]:
     """Yield each group with what there is room for: all of them have a line before one has many."""
     shown = groups if len(groups) <= room else groups[: room - 1]
-    titles = [_title(group, folds.titles) for group in shown]
+    titles = [_title(group, broken) for group in shown]
+    if sum(map(len, titles)) + len(shown) > room:
+        # What follows gives way before what a heading says.
+        titles = [_title(group, folds.titles) for group in shown]
     left = room - sum(map(len, titles)) - (len(shown) < len(groups))
     is_listed = folds.titles is _cut
     wanted = [len([*_inner(group, _UNBOUNDED, folds, is_listed=is_listed)]) for group in shown]
@@ -158,10 +171,12 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
         else []
     )
     figures: _Lines = [line for text in group.unmeasured for line in broken(f"  {text.replace('`', '')}", "    ")]
+    found = [*_first_findings(group.findings, folds.findings, _NOTES)]
     dangers = len({_said(change) for change in changes if change.grade is Grade.DANGEROUS})
     # A danger is seen before figures are.
-    lines_left = max(most - len(figures) - len(asked) - min(dangers, _FEW) - 1, 1)
+    lines_left = max(most - len(figures) - len(found) - len(asked) - min(dangers, _FEW) - 1, 1)
     figures += [(Styled(line, Style.BOLD),) for line in _first_figures(group.figures, lines_left)]
+    figures += found
     kept = broken(f"  {group.kept}", "    ")
     figures += kept if len(figures) + len(kept) + len(asked) < most else [cut(f"  {group.kept}")][: len(kept)]
     worst = _alike([change for change in changes if change.grade is group.grade or change.breaking])
@@ -177,9 +192,21 @@ def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterat
     if rest:
         lines.append((Styled(cut(_rest(rest, group, folds.whole, is_whole=not listed)), Style.DIM),))
     room = max(most - len(asked), 0)
-    if len(lines) > room > 0:
+    if len(lines) > room > 0 and changes:
         lines = [*lines[: room - 1], (Styled(cut(f"  {_listed(changes, group)}"), Style.DIM),)]
-    yield from (*lines[:room], *asked)[: max(most, 0)]
+    yield from (*_with_asks(lines[:room], group, is_listed=is_listed), *asked)[: max(most, 0)]
+
+
+def _with_asks(lines: _Lines, group: Group, *, is_listed: bool) -> _Lines:
+    """Return lines with the areas that are asked behind the last of them, where it has room for that."""
+    asks = f"; asks {', '.join(part.partition(' (')[0] for part in group.asks.split(', '))}" if group.asks else ""
+    if not is_listed or not asks or not lines:
+        return lines
+    last = lines[-1]
+    text = last if isinstance(last, str) else "".join(each if isinstance(each, str) else each.text for each in last)
+    return (
+        [*lines[:-1], (last, asks) if isinstance(last, str) else (*last, asks)] if len(text + asks) <= WIDTH else lines
+    )
 
 
 def _first_figures(figures: Sequence[str], most: int) -> list[str]:

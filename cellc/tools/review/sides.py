@@ -76,6 +76,11 @@ class Package:
     notes: tuple[str, ...] = ()
     document: SourceDocument | None = None
 
+    @property
+    def errors(self) -> tuple[ReviewFinding, ...]:
+        """What keeps its package from being built."""
+        return tuple(found for found in self.findings if found.severity == Severity.ERROR)
+
 
 def sides(arguments: Sequence[str]) -> tuple[Side, Side]:
     """Return what one or two arguments name, as those of `git diff` do.
@@ -165,7 +170,7 @@ def packages(*wanted: Side) -> Iterator[tuple[tuple[Package, Path], ...]]:
     """Give the package of each side, with the path of its spec or folder for as long as it is there.
 
     Raises:
-        SideError: a side cannot be read, or holds errors.
+        SideError: a side cannot be read or linked.
     """
     with ExitStack() as stack:
         try:
@@ -271,17 +276,24 @@ def _of_spec(name: str, file: str) -> Package:
 
 
 def package_of(name: str, checked: Checked) -> Package:
-    """Return the package of a cell that was checked.
+    """Return the package of a cell that was checked; of one in which rules find errors, what it would be.
 
     Raises:
-        SideError: it holds errors, or does not exist.
+        SideError: it cannot be linked, is beyond a limit, or does not exist.
     """
-    from cellc.compiler.pipeline import emit_cell
+    from cellc.compiler.pipeline import emit_graph
 
-    emitted = emit_cell(checked)
-    if emitted.value is None or checked.graph is None:
-        diagnostics = (*checked.diagnostics, *emitted.diagnostics)
-        raise SideError(first_error(name, diagnostics))
+    if checked.graph is None:
+        raise SideError(first_error(name, checked.diagnostics))
+    try:
+        emitted = emit_graph(checked.graph)
+    except Exception:
+        # Emitters take for granted what rules find.
+        if checked.ok:
+            raise
+        raise SideError(first_error(name, checked.diagnostics)) from None
+    if emitted.value is None:
+        raise SideError(first_error(name, (*checked.diagnostics, *emitted.diagnostics)))
     files = {artifact.path: artifact.text for artifact in emitted.value}
     findings = tuple(as_review_finding(diagnostic) for diagnostic in checked.diagnostics)
     excused = tuple(as_review_finding(diagnostic) for diagnostic in checked.excused)

@@ -2,40 +2,42 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping, Sequence
-from typing import TypeAlias
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewChange, ReviewValue
 from cellc.contract.vocabulary import Grade
+from cellc.tools.review.headings import Deltas, Quote, is_act, parts_of, plain
 
 _MOST = 6
 """Values of one cause that a heading names."""
 _PAIR = 2
-
-_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.])")
-
-Quote: TypeAlias = Callable[[str], str]
-"""How a value is written in the heading."""
+_INTERFACES, _SUMMARY = "interfaces.", "summary"
 
 
-Deltas: TypeAlias = Mapping[tuple[str, str], str]
-"""How much differs, by the values before and after."""
-
-
-def title_of(cause: ReviewCause, line: str, quote: Quote, deltas: Deltas) -> str:
+def title_of(
+    cause: ReviewCause, line: str, quote: Quote, deltas: Deltas, moves: Mapping[str, str] = MappingProxyType({})
+) -> str:
     """Return the heading of a cause.
 
     Args:
         line: its path, or what there is room for.
         deltas: how much of several values each changed.
+        moves: how far things moved, by their name.
     """
+    if len(cause.values) > 1 and is_act(cause):
+        first, *others = parts_of(cause, quote, moves, deltas)
+        return ", ".join((f"{first} ({_places(cause.values)})", *others))
     if len(cause.values) > 1:
         return _of_several(cause, line, quote, deltas)
-    where = _where(cause.place)
+    where = where_of(cause.place)
     if cause.before is None or cause.after is None:
-        return f"{line} {'added' if cause.before is None else 'removed'} ({where})"
+        value = cause.before or cause.after or ""
+        told = f": {quote(value)}" if value and not value.endswith("...") else ""
+        return f"{line} {'added' if cause.before is None else 'removed'} ({where}){told}"
+    if line == _SUMMARY:
+        return f"{line}: other words ({where})"
     return f"{line}: {quote(cause.before)} -> {quote(cause.after)} ({where})"
 
 
@@ -45,29 +47,24 @@ WHOLE_SPEC = "spec"
 
 def leading_first(cause: ReviewCause, changes: Sequence[ReviewChange]) -> ReviewCause:
     """Return a cause with the values first that dangerous changes have, in the order of those."""
-    if len(cause.values) < _PAIR or cause.line == WHOLE_SPEC:
+    if len(cause.values) < _PAIR or cause.line == WHOLE_SPEC or is_act(cause):
         return cause
-    worst = [_plain(change.before, change.after) for change in changes if change.grade is Grade.DANGEROUS]
+    worst = [plain(change.before, change.after) for change in changes if change.grade is Grade.DANGEROUS]
 
     def place(value: ReviewValue) -> int:
-        pair = _plain(value.before, value.after)
+        pair = plain(value.before, value.after)
         return worst.index(pair) if pair in worst else len(worst)
 
     return cause.model_copy(update={"values": tuple(sorted(cause.values, key=place))})
 
 
-def _plain(*values: str | None) -> tuple[str | None, ...]:
-    """Return values with their numbers in one spelling: `2.0 kg` is `2 kg`."""
-    return tuple(
-        None if value is None else _NUMBER.sub(lambda number: f"{float(number[0]):.12g}", value) for value in values
-    )
-
-
-def shortest_of(cause: ReviewCause, width: int, deltas: Deltas) -> str:
+def shortest_of(cause: ReviewCause, width: int, deltas: Deltas, moves: Mapping[str, str]) -> str:
     """Return the first of several values, whole, with how many more there are; empty where there is no room for it.
 
     The path gives way before its values do.
     """
+    if is_act(cause):
+        return _first_parts(parts_of(cause, str, moves, deltas), width)
     first, others = cause.values[0], len(cause.values) - 1
     sized = _sized(first, deltas)
     parts = [*([] if cause.line == WHOLE_SPEC else cause.line.split(".")), *first.line.split(".")]
@@ -76,19 +73,34 @@ def shortest_of(cause: ReviewCause, width: int, deltas: Deltas) -> str:
     return next((line for line in lines if len(line) <= width), "")
 
 
+def _first_parts(parts: Sequence[str], width: int) -> str:
+    """Return as many parts of an act as there is room for, with how many more there are."""
+    path, _, rest = parts[0].removeprefix("frames.").partition(" ")
+    for kept in range(len(parts), 0, -1):
+        more = f" and {len(parts) - kept} more" if kept < len(parts) else ""
+        for head in (path, *(f"...{path[at:]}" for at, letter in enumerate(path) if letter == "." and at)):
+            line = ", ".join((f"{head} {rest}", *parts[1:kept])) + more
+            if len(line) <= width:
+                return line
+    return ""
+
+
 def _sized(value: ReviewValue, deltas: Deltas) -> str:
-    delta = deltas.get((value.before or "", value.after or ""))
+    delta = deltas.get(plain(value.before, value.after))
     return f" ({delta})" if delta else ""
 
 
 def _of_several(cause: ReviewCause, line: str, quote: Quote, deltas: Deltas) -> str:
     values, where = cause.values, _places(cause.values)
     if line == WHOLE_SPEC:
-        leading = f"{values[0].line}{_change(values[0], quote)} ({_where(values[0].place)})"
+        leading = f"{values[0].line}{_change(values[0], quote)} ({where_of(values[0].place)})"
         return f"{leading} and {count(len(values) - 1, 'line')} ({_places(values[1:])})"
     paths = [value.line.split(".") for value in values]
     names = [path[0] for path in paths]
     ends = {tuple(path[1:]) for path in paths}
+    same = len({(value.before, value.after) for value in values}) == 1
+    if line.startswith(_INTERFACES) and same and len({path[-1] for path in paths}) == 1:
+        return f"{line}.{paths[0][-1]} of both ends{_change(values[0], quote)} ({where})"
     if len(ends) == 1 and len(values) <= _MOST and all(len(path) > 1 for path in paths):
         whole = ".".join((line, "{" + ",".join(names) + "}", *paths[0][1:]))
         first = values[0]
@@ -124,12 +136,12 @@ def _change(value: ReviewValue, quote: Quote, *, shortened: bool = False) -> str
 
 def _places(values: Sequence[ReviewValue]) -> str:
     """Return the file and the lines of values; of those in several files, the first."""
-    split = [_where(value.place).rpartition(":") for value in values]
+    split = [where_of(value.place).rpartition(":") for value in values]
     lines = [line for file, _, line in split if file == split[0][0]]
     return f"{split[0][0]}:{', '.join(dict.fromkeys(lines[:_MOST]))}"
 
 
-def _where(place: str) -> str:
+def where_of(place: str) -> str:
     """Return the name of a file and a line in it."""
     file, _, rest = place.replace("\\", "/").rpartition("/")[2].partition(":")
     return f"{file}:{rest.partition(':')[0]}" if rest else file

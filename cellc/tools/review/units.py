@@ -19,11 +19,14 @@ _TURNED = math.radians(1e-3)
 
 
 def shown_both(
-    before: Leaf | None, after: Leaf | None, units: tuple[str, str], wanted: Collection[str] = ()
+    before: Leaf | None,
+    after: Leaf | None,
+    units: tuple[str, str],
+    wanted: tuple[Collection[str], Collection[str]] = ((), ()),
 ) -> tuple[str | None, str | None]:
-    """Return two values with their units, with few digits where these tell them apart."""
+    """Return two values with their units, each as a person wrote it, with few digits where these tell them apart."""
     few, all_digits = (
-        (shown(before, units[0], wanted, digits), shown(after, units[1], wanted, digits))
+        (shown(before, units[0], wanted[0], digits), shown(after, units[1], wanted[1], digits))
         for digits in (_LEGIBLE, _EVERY)
     )
     return all_digits if few[0] == few[1] else few
@@ -151,7 +154,7 @@ def difference(
 
 def _of_quantities(before: str, after: str) -> str:
     """Return the share by which a quantity differs from another of its kind, or how far a place is from another."""
-    (was, kind), (now, other) = (_quantity(text) for text in (before, after))
+    (was, kind), (now, other) = (quantity_of(text) for text in (before, after))
     if not kind or kind != other or len(was) != len(now):
         return ""
     if len(was) == _PLACE and kind == "length":
@@ -167,7 +170,7 @@ def _of_quantities(before: str, after: str) -> str:
 _SI = {kind: unit for unit, (kind, factor) in UNITS.items() if factor == 1.0}
 
 
-def _quantity(text: str) -> tuple[tuple[float, ...], str]:
+def quantity_of(text: str) -> tuple[tuple[float, ...], str]:
     """Return the figures of a text in SI, and of which kind they are; nothing where it is no quantity."""
     *figures, unit = text.split() or [""]
     name, factor = UNITS.get(unit, ("", None))

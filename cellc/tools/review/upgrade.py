@@ -69,7 +69,7 @@ def plan_upgrade(file: str, target: Distro) -> Planned:
     edits, moved = edited_check(file, cell, checked.findings.texts, [(move.pin, move.text) for move in moves])
     moved = moved or checked
     try:
-        after = package_of(f"{file} on {target}", moved)
+        after = package_of(f"{file} on {target}", moved) if moved.ok else None
     except SideError:
         after = None
     return Planned(_upgrade(cell, target, moves, before, after, moved), edits, checked.findings.texts)
