@@ -21,6 +21,7 @@ class Rule(Enum):
     MORE = "dangerous where it grew or vanished, else safe"
     LESS = "dangerous where it shrank or vanished, else safe"
     LOOSER = "dangerous where it grew by more than 5 % or vanished, else review"
+    HEAVIER = "dangerous where it is heavier by more than a tenth, else review"
     MEASURED = "dangerous where it grew by more than 5 % or vanished without a new revision, else review"
     FEWER = "dangerous where it shrank or vanished, else review"
     BACK = "dangerous where it is lower, else review"

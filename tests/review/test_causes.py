@@ -236,7 +236,7 @@ def test_nothing_breaks_that_was_not_there() -> None:
 def test_a_pin_is_told_once_with_what_the_matrix_says() -> None:
     found = review_of("ur5e_pick", ("ur_robot_driver 3.8.0", "ur_robot_driver 3.7.0"))
     (change,) = [change for change in found.changes if change.area == "versions"]
-    assert (str(change.grade), change.after) == ("dangerous", "ur_robot_driver 3.7.0")
+    assert (str(change.grade), change.after) == ("review", "ur_robot_driver 3.7.0")
     assert change.why.startswith("the compatibility matrix says UNKNOWN")
 
 

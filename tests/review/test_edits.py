@@ -43,7 +43,6 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
         ),
         [
             "dangerous safety | cell | path of the stop | hardwired -> safety_bus",
-            "dangerous safety | cell | recovery observer | operator -> guard",
             "dangerous safety | arm | voltage of the tool connector added | None -> present",
             "dangerous calibration | tcp | pose in its parent | xyz 0 0 162 mm, rpy 0 0 0 deg -> "
             "xyz 0 0 163 mm, rpy 0 0 0 deg | moves 1 mm",
@@ -51,6 +50,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous payload | arm | robot TCP xyz | 0.00 0.00 173.00 mm -> 0.00 0.00 174.00 mm | moves 1 mm",
             "dangerous payload | arm | robot payload mass | 1.0 kg -> 1.5 kg | +50 %",
             "dangerous rehearsals | canceled | bound of the outcome | 200 ms -> 400 ms | +100 %",
+            "review safety | cell | recovery observer | operator -> guard",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",
             "review interfaces | /move_action | timeout | 90 s -> 45 s | -50 %",
@@ -155,7 +155,6 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous control | arm_trajectory | plugin | ur_controllers/ScaledJointTrajectoryController -> "
             "joint_trajectory_controller/JointTrajectoryController",
             "dangerous time | control_pc | bound of its offset | 1 ms -> 2 ms | +100 %",
-            "dangerous versions | arm.driver | pinned version | ur_robot_driver 3.8.0 -> ur_robot_driver 3.7.0",
             "dangerous network | arm_hardware | address | 192.168.56.101 -> 192.168.56.102",
             "review control | arm_trajectory | parameter constraints.stopped_velocity_tolerance | 0.2 -> 0.01 | -95 %",
             "review control | camera | parameter depth_module.exposure | 8000 -> 10000",
@@ -165,6 +164,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review control | arm_trajectory | parameter speed_scaling_interface_name | "
             "arm_speed_scaling/speed_scaling_factor -> None",
             "review time | camera | exposure | 8 ms -> 10 ms | +25 %",
+            "review versions | arm.driver | pinned version | ur_robot_driver 3.8.0 -> ur_robot_driver 3.7.0",
             "review versions | arm.firmware | pinned version | polyscope 5.21.0 -> polyscope 5.22.0",
             "review network | control_pc | variable ROS_AUTOMATIC_DISCOVERY_RANGE | SYSTEM_DEFAULT -> SUBNET",
         ],

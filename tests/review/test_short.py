@@ -36,7 +36,7 @@ def test_a_faster_arm_stands_before_a_patch_of_its_library_and_both_say_their_va
     first, second = (group.title for group in groups_of(found))
     assert first.startswith("devices.arm.limits.velocity: 35 % -> 60 % (cell.yaml:")
     assert second.startswith("devices.{arm,hand}.sdk: libfranka 0.20.4 -> 0.20.5 (cell.yaml:")
-    assert "**dangerous** `devices.{arm,hand}.sdk`: `libfranka 0.20.4` -> `0.20.5`" in render_markdown(found)
+    assert "**review** `devices.{arm,hand}.sdk`: `libfranka 0.20.4` -> `0.20.5`" in render_markdown(found)
     # What only follows is no change to look at, and nobody is asked for it.
     (limits,) = [group for group in groups_of(found) if group.title == first]
     assert limits.asks == "controller (controls)"

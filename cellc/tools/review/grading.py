@@ -84,6 +84,8 @@ def _less(before: Leaf | None, after: Leaf | None) -> Grade:
 
 _SLIGHTLY = 1.05
 """What a bound may grow by, all in all, before it is another: less is a matter of rounding and of units."""
+_A_TENTH = 1.1
+"""What a part may be heavier by before force, payload and motion are chosen anew."""
 
 
 def _looser(before: Leaf | None, after: Leaf | None) -> Grade:
@@ -92,6 +94,11 @@ def _looser(before: Leaf | None, after: Leaf | None) -> Grade:
     allowed = before * _SLIGHTLY if isinstance(before, (int, float)) else before
     loosened = after is None or after == 0 or _greater(after, allowed)
     return Grade.DANGEROUS if was_bound and loosened else Grade.REVIEW
+
+
+def _heavier(before: Leaf | None, after: Leaf | None) -> Grade:
+    allowed = _A_TENTH * before if isinstance(before, (int, float)) else before
+    return Grade.DANGEROUS if before is not None and _greater(after, allowed) else Grade.REVIEW
 
 
 def _back(before: Leaf | None, after: Leaf | None) -> Grade:
@@ -128,6 +135,7 @@ _GRADES = {
     Rule.MORE: _more,
     Rule.LESS: _less,
     Rule.LOOSER: _looser,
+    Rule.HEAVIER: _heavier,
     Rule.FEWER: _back,
     Rule.BACK: _back,
     Rule.NAMED: _named,

@@ -95,7 +95,7 @@ _ALL: Sequence[Row] = (
     Row(f"{_LAW} ...", Graded(_A.CONTROL, "control law of the joints:")),
     Row(
         "contract frames {frame} grasp mass_kg",
-        Graded(_A.MOTION, "mass of the part to grip", Rule.REVIEW, "kg", why=OTHER_MASS),
+        Graded(_A.MOTION, "mass of the part to grip", Rule.HEAVIER, "kg", why=OTHER_MASS),
     ),
     *(
         Row(
