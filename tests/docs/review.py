@@ -102,7 +102,7 @@ the poses of frames and mounts that it measured; another model with its mount, p
 calibration that was renewed for it; both ends of a topic; a list that repeats addresses of other lines.
 
 What was measured is graded by whether it was measured again, not by how far it moved: with a new revision it is graded
-`review`, without one dangerous. The TCP that a robot is told follows the frames on it. A payload has no revision. It is
+`review`, without one dangerous. The TCP that is set in a robot follows the frames on it. A payload has no revision. It is
 graded `review` while the mass differs by less than a tenth of what the arm is rated for and its center by less than
 50 mm, as when it is weighed again, or where the arm carries other devices; dangerous above that, beyond the rating, and
 where it is gone.
@@ -150,7 +150,7 @@ def _areas() -> Iterator[str]:
     yield "The owner is that of the approval area in `owners.approvals` before the change, with a new one beside them;"
     yield "a change cannot choose its own approver. Another owner of an area is approved by the old and the new one,"
     yield "in that area and in that of the owners. The owner of the recovery is asked of its states, too. What only"
-    yield "follows, such as a tip that moves, asks nobody beside the owner of its cause; a new name asks where"
+    yield "follows, such as a tip that moves, asks no owner but that of its cause; a new name asks where"
     yield "consumers may break. Of what is safe, limits and matters of safety are asked."
     yield "Stiffness and damping of joints are approved by safety and control."
     yield "Gates and layers rest on those before them, so that"

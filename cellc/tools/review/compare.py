@@ -37,7 +37,7 @@ _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
 _RECOVERY = "recovery owner"
-"""Who answers for what lets motion resume, beside the approver of safety."""
+"""Who is responsible for what lets motion resume, beside the approver of safety."""
 _IDLE = ("versions", "transition")
 """Kinds of requests that move nothing: they compare, or start a node that is managed."""
 UNCLASSIFIED = "(not classified)"

@@ -57,8 +57,8 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(_compared(delta, after))
     if rule is Rule.MEASURED:
         return _of_measurement(delta, before, after)
-    if rule in _TOLD:
-        return _TOLD[rule](delta, before, after)
+    if rule in _OF_BOTH_SIDES:
+        return _OF_BOTH_SIDES[rule](delta, before, after)
     return Verdict(_GRADES[rule](delta.before, delta.after), approval=approval_of(delta.path))
 
 
@@ -85,7 +85,7 @@ def _less(before: Leaf | None, after: Leaf | None) -> Grade:
 _SLIGHTLY = 1.05
 """What a bound may grow by, all in all, before it is another: less is a matter of rounding and of units."""
 _A_TENTH = 1.1
-"""What a part may be heavier by before force, payload and motion are chosen anew."""
+"""What a part may be heavier by before force, payload and motion must be chosen again."""
 
 
 def _looser(before: Leaf | None, after: Leaf | None) -> Grade:
@@ -221,7 +221,7 @@ def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:
 
 
 def _in_mount(link: str, shapes: tuple[Collision, ...], facts: Facts) -> tuple[Collision, ...]:
-    """Return shapes where they are in the frame by which their device is mounted: how that moved is told by itself."""
+    """Return shapes where they are in the frame by which their device is mounted: how that moved is a change of its own."""
     roots = {device.root_link for device in facts.contract.devices.values()}
     joints = {joint.child: joint for joint in facts.description.joints}
     place = identity()
@@ -280,7 +280,7 @@ def _decides(clock: str, facts: Facts) -> bool:
     return False
 
 
-_TOLD: Mapping[Rule, Callable[[Delta, Facts, Facts], Verdict]] = {
+_OF_BOTH_SIDES: Mapping[Rule, Callable[[Delta, Facts, Facts], Verdict]] = {
     Rule.LOAD: _of_load,
     Rule.TOOL: _of_tool,
     Rule.REPLACED: _of_model,

@@ -194,7 +194,7 @@ _FOLLOWING = (
 )
 """What only follows from another change, whose owner is asked."""
 _ASKED_OF_SAFE = (ReviewArea.LIMITS, ReviewArea.SAFETY)
-"""What somebody answers for even where it is stricter than it was."""
+"""What has an owner to ask even where it is stricter than it was."""
 
 
 def _asks(change: ReviewChange) -> bool:

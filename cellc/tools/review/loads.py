@@ -1,4 +1,4 @@
-"""What an arm is told of the load and the tool that it carries, and whether something shows that it is so."""
+"""What load and tool an arm is set to, and whether something shows that it is so."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def left_behind(device: str, before: Facts, after: Facts) -> str:
     """Return why another model is dangerous though all that measured it was measured again; empty where it is not.
 
     An arm that ends elsewhere in the same joint positions follows plans and poses of another one. What an arm carries
-    is part of the load that it is told.
+    is part of the load that it is set to.
     """
     if is_reaching(before.contract, device) or is_reaching(after.contract, device):
         return _OTHER_ARM if _ends_elsewhere(device, before, after) else ""
@@ -113,7 +113,7 @@ def left_behind(device: str, before: Facts, after: Facts) -> str:
             rating = _rating(carrier, after)
             heavier = mass_of(device, after) - mass_of(device, before)
             if told and rating and told == _load(carrier, before) and abs(heavier) >= _TENTH * rating:
-                return f"the load that `{carrier}` is told was left as it was"
+                return f"the payload set for `{carrier}` was left as it was"
     return ""
 
 

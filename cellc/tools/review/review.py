@@ -37,10 +37,10 @@ def review(before: Package, after: Package, rehearsals: Sequence[ReviewRehearsal
     )
 
 
-def _with_causes(found: Sequence[ReviewFinding], told: Explained) -> tuple[ReviewFinding, ...]:
+def _with_causes(found: Sequence[ReviewFinding], explanation: Explained) -> tuple[ReviewFinding, ...]:
     """Return findings with the number of the cause that each follows from."""
     causes = [
-        next((number for number, brought in enumerate(told.brought) if said_of(each) in brought), None)
+        next((number for number, brought in enumerate(explanation.brought) if said_of(each) in brought), None)
         for each in found
     ]
     return tuple(each.model_copy(update={"cause": cause}) for each, cause in zip(found, causes, strict=True))
