@@ -102,7 +102,7 @@ the poses of frames and mounts that it measured; another model with its mount, p
 calibration that was renewed for it; both ends of a topic; a list that repeats addresses of other lines.
 
 What was measured is graded by whether it was measured again, not by how far it moved: with a new revision it is graded
-`review`, without one dangerous. The TCP that is set in a robot follows the frames on it. A payload has no revision. It is
+`review`, without one dangerous. The TCP set in a robot follows the frames on it. A payload has no revision. It is
 graded `review` while the mass differs by less than a tenth of what the arm is rated for and its center by less than
 50 mm, as when it is weighed again, or where the arm carries other devices; dangerous above that, beyond the rating, and
 where it is gone.

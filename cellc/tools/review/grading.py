@@ -221,7 +221,7 @@ def _of_shapes(delta: Delta, before: Facts, after: Facts) -> Verdict:
 
 
 def _in_mount(link: str, shapes: tuple[Collision, ...], facts: Facts) -> tuple[Collision, ...]:
-    """Return shapes where they are in the frame by which their device is mounted: how that moved is a change of its own."""
+    """Return shapes where they are in the frame by which their device is mounted; how that moved is its own change."""
     roots = {device.root_link for device in facts.contract.devices.values()}
     joints = {joint.child: joint for joint in facts.description.joints}
     place = identity()
