@@ -18,6 +18,7 @@ from cellc.contract.entities import ContractEndpoint, ContractInterface
 from cellc.contract.grading import (
     DEVIATES,
     FASTER,
+    FURTHER,
     GRIPPED,
     OTHER_LOAD,
     OTHER_MASS,
@@ -154,6 +155,12 @@ _ALL: Sequence[Row] = (
             _A.LIMITS, "effort", Rule.MORE, "effort", why="the joint may press harder than people at the cell expect"
         ),
     ),
+    *(
+        Row(f"real joint {{joint}} limit {end}", Graded(_A.LIMITS, f"{end} position", rule, "joint", why=FURTHER))
+        for end, rule in (("lower", Rule.LESS), ("upper", Rule.MORE))
+    ),
+    Row("real joint {joint} limit velocity", Graded(_A.LIMITS, "velocity", Rule.MORE, "joint/s", why=FASTER)),
+    Row("spec recording ...", Graded(_A.FIGURES, "recording")),
     Row("real joint {joint} axis", Graded(_A.MODEL, "axis", Rule.DANGEROUS, why="the joint turns about another axis")),
     Row("real joint {joint} type", Graded(_A.MODEL, "type", Rule.DANGEROUS)),
     Row("real joint {joint} mimic ...", Graded(_A.MODEL, "mimicked joint", Rule.DANGEROUS)),
