@@ -23,8 +23,7 @@ from cellc.mock.by_hand import notes_on, refuse_not_executed
 from cellc.mock.control import ManagerAbortedError
 from cellc.mock.errors import LimitReachedError, MockError, OversleptError
 from cellc.mock.faults.ports import FaultPorts, fault_ports
-from cellc.mock.faults.registry import Injection, any_started, build_fault
-from cellc.mock.faults.response import response_s
+from cellc.mock.faults.registry import Injection, any_started, build_fault, response_s
 from cellc.mock.folder import GeneratedFolder, goal_tolerances, in_stage, path_tolerances, read_folder
 from cellc.mock.nodes.motion_model import build_motion_model
 from cellc.mock.nodes.motion_planner import PlanMemory

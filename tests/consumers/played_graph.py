@@ -88,11 +88,9 @@ class Played:
 
     def parameters(self, folder: Path, target: str) -> None:
         """Give each node the values of its file."""
-        other = {"real": ".mock", "mock": ".real"}[target]
         for file in sorted((folder / "config").rglob("*.yaml")):
-            if file.stem.endswith(other):
-                continue
-            self.section("", yaml.safe_load(file.read_text()))
+            if file.stem.partition(".")[2] in ("", target):  # the others are those of another target
+                self.section("", yaml.safe_load(file.read_text()))
 
     def section(self, name: str, part: Any) -> None:
         """Declare what a section of a parameter file has."""

@@ -54,7 +54,13 @@ def asked(program: str, plan: dict[str, Any], phase: str) -> list[tuple[str, str
     exec(compile(program, "scripts/bring_up", "exec"), module.__dict__)
     real = module._loaded
     module._loaded = lambda kind: real(kind) if kind.startswith("lifecycle_msgs/") else _stand_in(kind)
-    module.listed_controllers = lambda graph, manager: []
+    ask = module.listed_controllers
+
+    def listed(graph: Any, manager: str) -> list[Any]:
+        _tried(module, lambda: ask(graph, manager))
+        return []
+
+    module.listed_controllers = listed
     read = json.loads(json.dumps(plan), object_hook=lambda entry: SimpleNamespace(**entry))
     steps = [step for target in (read.mock, read.real) for step in target if step.phase == phase]
     proofs = [one for step in steps for one in (*step.proof, *getattr(step, "effect", ()))]
@@ -63,7 +69,7 @@ def asked(program: str, plan: dict[str, Any], phase: str) -> list[tuple[str, str
     kept = [said.create_publisher(Log, proof.topic, 1) for proof in proofs if proof.kind == "topic"]
     graph.spin(0.2)
     for one in proofs:
-        module.missing(graph, [one])
+        module.unmet_reason(graph, [one])
     for step in steps:
         _tried(module, lambda step=step: module.request(graph, step.request, 0.0) if hasattr(step, "request") else "")
     found = ends(graph._node)

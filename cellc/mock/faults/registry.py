@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Protocol, runtime_checkable
 
+from cellc.contract.attempt import AttemptRecord
 from cellc.contract.contract import Contract
 from cellc.contract.faults import FaultKind
 from cellc.contract.rehearsals import FaultEntry
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.errors import FaultMissedError, MockError
 from cellc.mock.faults import frames, goals, joints, network, parts, programs, samples, sensors, stops
 from cellc.mock.faults.cases import FaultCase
@@ -133,3 +135,26 @@ def build_fault(entry: FaultEntry, contract: Contract) -> Fault:
 def possible_faults(contract: Contract) -> tuple[FaultCase, ...]:
     """Return every fault that a cell can meet, with what each of its steps may make of it."""
     return tuple(case for kind in FaultKind if kind in FAULTS for case in FAULTS[kind].cases(contract))
+
+
+def response_s(injections: Sequence[Injection], records: Sequence[AttemptRecord]) -> float | None:
+    """Return the time from the last fault taking effect to the bounded end of the attempt that it ended.
+
+    A cancel takes effect when it is requested and ends when the joints stand still. Any other fault takes effect when
+    it begins, or when the attempt begins that meets it, and ends with the attempt.
+    """
+    attempts = records[:-1]
+    if not attempts:
+        return None
+    ended = next((record for record in attempts if record.outcome != AttemptOutcome.SUCCEEDED), attempts[-1])
+    # What began after that end did not cause it.
+    starts = [
+        injection.start_ns
+        for injection in injections
+        if injection.start_ns is not None and injection.start_ns <= ended.ended_ns
+    ]
+    if not starts:
+        return None
+    if ended.outcome == AttemptOutcome.CANCELED and ended.cancel is not None:
+        return ended.cancel.latency_s
+    return (ended.ended_ns - max(*starts, ended.started_ns)) / 1e9
