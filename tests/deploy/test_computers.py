@@ -55,3 +55,16 @@ def test_every_pinned_part_is_compared_by_a_program_or_read_by_a_person(cell: st
     pinned = {name for name, text in json.loads(texts["manifest.json"])["version_tuple"].items() if text != "UNKNOWN"}
     assert {name for name in pinned - compared if name not in page} == set()
     assert compared <= pinned
+
+
+@pytest.mark.parametrize("cell", EVERY_CELL)
+def test_each_computer_compares_its_versions_when_it_starts(cell: str) -> None:
+    texts = built(cell).texts
+    started = {Path(name).name.removesuffix(".launch.xml") for name in texts if name.startswith("launch/")}
+    launched = started - {"cell", "activate", "claim", "goal", "move", "view"}
+    steps = json.loads(texts["config/bring_up.json"])["real"]
+    compared = {step["host"]: step["proof"] for step in steps if step["name"].startswith("compare_versions")}
+    # It asks no node, so that it waits for none on another computer.
+    assert compared == {host: [] for host in launched or {""}}
+    for host in launched:
+        assert f"--target real --host {host} start" in texts[f"launch/{host}.launch.xml"]

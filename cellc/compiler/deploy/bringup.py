@@ -69,14 +69,13 @@ DEADLINE_S = 60.0
 
 def bring_up(cell: Cell) -> BringUp:
     """Return the plan of a cell: steps of both targets in the order of their phases, and what the stopper watches."""
-    real = tuple(_steps(cell, "real"))
     return BringUp(
         format=1,
         cell=cell.name,
         enclave=bring_up_enclave(cell),
         mock=tuple(_steps(cell, "mock")),
         sim=tuple(_steps(simulated(cell), "mock")) if is_asked(cell) else (),
-        real=(*_comparisons(cell, real), *real),
+        real=(*_comparisons(cell), *_steps(cell, "real")),
         watches=tuple(watches(cell)),
     )
 
@@ -119,17 +118,16 @@ def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
         yield _move(cell, target)
 
 
-def _comparisons(cell: Cell, steps: tuple[BringUpStep, ...]) -> Iterator[BringUpStep]:
+def _comparisons(cell: Cell) -> Iterator[BringUpStep]:
     """Yield what compares each computer with the tuple that every gate is passed with, before its other steps.
 
-    One that takes no other step runs no bring-up, and is left to the person at gate G0.
+    It reads what is installed and asks no node, so that it waits for none, also on a computer with no other step.
     """
-    taking = {step.host for step in steps if step.phase is BringUpPhase.START}
     for host, parts in compared_on(cell):
-        if parts and (host in taking or not host):
+        if parts:
             name = f"compare_versions{host and f'_on_{host}'}"
             asked = Comparison(kind="versions", parts=tuple(part.shown for part in parts))
-            yield _step(BringUpPhase.START, name, host, [*_mocked(cell, "real")], asked, [])
+            yield _step(BringUpPhase.START, name, host, [], asked, [])
 
 
 def _configure(cell: Cell, node: Node, target: Target) -> BringUpStep:

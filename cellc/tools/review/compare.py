@@ -213,7 +213,7 @@ def _things(deltas: Sequence[Delta], before: Facts, after: Facts) -> tuple[list[
             rest.append(delta)
         else:
             folded.setdefault(place, []).append(delta)
-    things = [(thing, _of_thing(path, thing, inner, after)) for (path, thing), inner in folded.items()]
+    things = [(thing, _of_thing(path, thing, inner, (before, after))) for (path, thing), inner in folded.items()]
     reported = [change for thing, change in things if not thing.follows]
     return reported + [change for thing, change in things if thing.follows and not is_covered(change, reported)], rest
 
@@ -225,7 +225,7 @@ def _folds(path: Path, old: frozenset[Path], new: frozenset[Path]) -> Iterator[t
             yield from ((prefix, thing) for thing in THINGS if fits(thing.parts, prefix) is not None)
 
 
-def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) -> Change:
+def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], sides: tuple[Facts, Facts]) -> Change:
     added = inner[0].before is None
     fit = fits(thing.parts, path)
     names = () if fit is None else fit.subject
@@ -233,9 +233,13 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], after: Facts) ->
     value = PRESENT if shown_leaf is None else shown(shown_leaf.after if added else shown_leaf.before, "")
     idle = added and any(delta.path[-2:] == ("request", "kind") and delta.after in _IDLE for delta in inner)
     held = any(delta.path[len(path)] == thing.holds for delta in inner if len(delta.path) > len(path))
-    removed = thing.removed if held or not thing.holds else Grade.REVIEW
+    compared = next((delta for delta in inner if delta.path[-2:] == ("request", "parts")), None)
+    if compared is not None and not added:
+        removed = grade(Rule.COMPARED, compared, *sides).grade
+    else:
+        removed = thing.removed if held or not thing.holds else Grade.REVIEW
     taken = removed if not added else Grade.REVIEW if idle else thing.added
-    reaches = added and path[:2] == ("contract", "devices") and is_reaching(after.contract, path[2])
+    reaches = added and path[:2] == ("contract", "devices") and is_reaching(sides[1].contract, path[2])
     return Change(
         thing.area,
         " ".join(names),

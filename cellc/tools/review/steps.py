@@ -73,6 +73,6 @@ def _likeness(before: Mapping[Path, Leaf], after: Mapping[Path, Leaf]) -> float:
 
 
 def _equal(one: Leaf | None, other: Leaf | None) -> float:
-    if isinstance(one, tuple) and isinstance(other, tuple):
-        return len({*one} & {*other}) / max(len({*one} | {*other}), 1)
+    if isinstance(one, tuple) and isinstance(other, tuple) and one != other:
+        return len({*one} & {*other}) / len({*one} | {*other})
     return float(one == other)

@@ -61,6 +61,8 @@ def stages(cell: Cell, plan: Deployment, host: str | None) -> Iterator[Element]:
         if plan.bring_up.sim:
             yield bring_up(cell, "sim", mock, host)
     if BringUpPhase.START in phases(plan.bring_up, "real", host):
+        if not mock:
+            yield comment("compare the installed versions with the version tuple")
         yield bring_up(cell, "real", [BringUpPhase.START], host)
     if plan.bring_up.watches and host in (None, *(manager.host for manager in cell.managers)):
         yield comment("end goals and claims when a robot stops, pauses or is silent; only a person restores them")
