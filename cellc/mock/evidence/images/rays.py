@@ -147,7 +147,8 @@ def _from_inside(body: Body, rays: Floats) -> tuple[Floats, Floats]:
 
 
 def _turn(pose: Pose) -> Floats:
-    return np.array([_turned(pose, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]).T
+    turn: Floats = np.array([_turned(pose, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]).T
+    return turn
 
 
 def _turned(pose: Pose, way: tuple[float, float, float]) -> Sequence[float]:
