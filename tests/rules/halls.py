@@ -20,12 +20,17 @@ def _place(number: int, z: str = "0.1") -> str:
     return f"{9 * number} 0 {z} m"
 
 
-def _arms(size: int) -> Section:
+def _arms(size: int, host: int | None = None) -> Section:
+    """Return arms, each at a computer of its own, or all at one."""
     return {
         f"d{n}": {
             "model": "ur5e",
             "mount": {"parent": "world", "xyz": _place(n)},
-            "connection": {"host": f"h{n}", "nic": "a", "address": f"192.168.{n}.101"},
+            "connection": {
+                "host": f"h{n if host is None else host}",
+                "nic": "a",
+                "address": f"192.168.{n}.101" if host is None else f"192.168.{host}.{101 + n}",
+            },
         }
         for n in range(size)
     }
@@ -131,10 +136,13 @@ def of_groups(size: int) -> str:
     }  # fmt: skip
     return _spec(
         {
-            "hosts": _hosts(size),
-            "devices": _arms(size),
+            "hosts": _hosts(1),
+            "devices": _arms(size, host=0),
             "nodes": _nodes(size),
-            "control": {"update_rate": "500 Hz", "controllers": {f"c{n}": _trajectory(n) for n in names}},
+            "control": {
+                "update_rate": "500 Hz",
+                "controllers": {"s": {"type": "joint_state_broadcaster"}, **{f"c{n}": _trajectory(n) for n in names}},
+            },
             "motion": {
                 "groups": {f"g{n}": {"base": f"d{n}/base_link", "tip": f"d{n}/tool0"} for n in names},
                 "poses": {f"p{n}": {f"g{n}": "-90 -90 90 -90 -90 0 deg"} for n in names},
@@ -168,16 +176,18 @@ def _manager(number: int) -> Section:
 
 
 def of_services(size: int) -> str:
-    """Write nodes in a ring, each of which calls a service and an action of the one before."""
-    service: Section = {"service": "std_srvs/srv/Trigger", "timeout": "1 s", "on_timeout": "error"}
+    """Write nodes in a chain, each of which calls a service and an action of the one before."""
+    service: Section = {
+        "service": "std_srvs/srv/Trigger", "timeout": "1 s", "on_timeout": "error", "on_error": "success",
+    }  # fmt: skip
     action: Section = {
         "action": "moveit_msgs/action/MoveGroup", "frame": "world", "timeout": "90 s",
         "on_timeout": "cancel_and_hold", "cancel_within": "200 ms",
     }  # fmt: skip
-    ends: list[Section] = [{"server": f"n{n}", "client": f"n{(n + 1) % size}"} for n in range(size)]
+    ends: list[Section] = [{"server": f"n{n}", "client": f"n{n + 1}"} for n in range(size)]
     named: Section = {f"/s{n}": {**service, **end} for n, end in enumerate(ends)}
     named |= {f"/a{n}": {**action, **end} for n, end in enumerate(ends)}
-    return _spec({"nodes": _nodes(size), "interfaces": named})
+    return _spec({"nodes": _nodes(size + 1), "interfaces": named})
 
 
 def of_steps(size: int) -> str:

@@ -23,6 +23,7 @@ from cellc.compiler.emit.launch import launch
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.pipeline import check, emit_cell
 from cellc.compiler.rules.run import ALL_RULES
+from cellc.contract.diagnostics import Severity
 from tests.cells import there
 from tests.rules.halls import HALLS, of_groups
 
@@ -169,7 +170,9 @@ def _of_three_sizes(spec: Callable[[int], str], first: int, folder: Path) -> lis
     first = 3 if spec is of_groups else first  # goals take long to find
     for size in (first, 2 * first, 4 * first):
         (folder / "cell.yaml").write_text(spec(size), encoding="utf-8")
-        cells.append(there(check(folder / "cell.yaml").graph).cell)
+        checked = check(folder / "cell.yaml")
+        assert checked.ok, [each.message for each in checked if each.severity is Severity.ERROR]
+        cells.append(there(checked.graph).cell)
     return cells
 
 

@@ -14,7 +14,7 @@ comparisons together explains nothing that chance would not.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ METHOD_INTERVAL = "Clopper-Pearson"
 METHOD_SENSITIVITY = "Monte Carlo filtering, Kolmogorov-Smirnov"
 _CHANCE = 0.05
 _STEPS = 60
+_TOGETHER = 1 << 16
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -114,9 +115,15 @@ class Explanation:
 
 
 def explain(
-    quantities: Sequence[UncertainQuantity], values: Mapping[str, Array], failed: Flags
+    quantities: Sequence[UncertainQuantity], drawn: Callable[[Sequence[UncertainQuantity]], Array], failed: Flags
 ) -> tuple[Explanation, ...]:
-    """Return every quantity, what differs most first; those of one thing along several axes count as one."""
+    """Return every quantity, what differs most first; those of one thing along several axes count as one.
+
+    Args:
+        drawn: returns the values of some quantities, in rows; the columns are runs. It is called for one thing after
+            the other, so that ten million runs need not hold the values of all.
+        failed: which of the runs did, one for each column.
+    """
     groups: dict[str, list[UncertainQuantity]] = {}
     for quantity in quantities:
         groups.setdefault(f"{quantity.target} {quantity.source}", []).append(quantity)
@@ -126,40 +133,50 @@ def explain(
     compared = sum(len(group) + (len(group) > 1) for group in groups.values())
     # Smirnov's asymptotic distribution; 2 exp(-2 c^2) is its first term, an upper bound of the tail.
     critical = math.sqrt(-0.5 * math.log(_CHANCE / compared / 2.0)) * math.sqrt((fail + rest) / (fail * rest))
-    explanations = (_explanation(group, values, failed, critical) for group in groups.values())
+    explanations = (_explanation(group, drawn(group), failed, critical) for group in groups.values())
     return tuple(sorted(explanations, key=lambda one: (-one.statistic, one.name)))
 
 
-def _explanation(
-    group: Sequence[UncertainQuantity], values: Mapping[str, Array], failed: Flags, critical: float
-) -> Explanation:
-    series = [values[quantity.name] for quantity in group]
-    length = np.sqrt(np.sum([column**2 for column in series], axis=0))
+def _explanation(group: Sequence[UncertainQuantity], series: Array, failed: Flags, critical: float) -> Explanation:
+    length = np.zeros(len(failed))
+    for column in series:
+        length += column**2
+    np.sqrt(length, out=length)
     statistic = max(_distance(column[failed], column[~failed]) for column in (*series, length))
     names = tuple(quantity.name for quantity in group)
     name = (
         names[0] if len(names) == 1 else names[0].rpartition(" ")[0] + (" rotation" if group[0].unit == "rad" else "")
     )
-    return Explanation(name, names, statistic, min(1.0, critical), _halved(group, values, failed))
+    return Explanation(name, names, statistic, min(1.0, critical), _halved(group, series, failed))
 
 
 def _distance(one: Array, other: Array) -> float:
     """Return the largest distance of two empirical distributions."""
-    at = np.sort(np.concatenate((one, other)))
-    first = np.searchsorted(np.sort(one), at, side="right") / len(one)
-    second = np.searchsorted(np.sort(other), at, side="right") / len(other)
+    one.sort()
+    other.sort()
+    return max(_apart(one, other, at) for values in (one, other) for at in _in_blocks(values))
+
+
+def _in_blocks(values: Array) -> Iterator[Array]:
+    return (values[start : start + _TOGETHER] for start in range(0, len(values), _TOGETHER))
+
+
+def _apart(one: Array, other: Array, at: Array) -> float:
+    """Return the largest distance of the distributions of two sorted samples at some values."""
+    first = np.searchsorted(one, at, side="right") / len(one)
+    second = np.searchsorted(other, at, side="right") / len(other)
     return float(np.abs(first - second).max())
 
 
-def _halved(group: Sequence[UncertainQuantity], values: Mapping[str, Array], failed: Flags) -> float | None:
+def _halved(group: Sequence[UncertainQuantity], series: Array, failed: Flags) -> float | None:
     """Return the rate of failure if these were spread half as far: by the weights that the runs had then.
 
     Self-normalized importance sampling. A half of a normal is within its double everywhere, so that no weight is above
     2 for each axis; of a uniform one the inner half counts alone.
     """
     weights = np.ones(len(failed))
-    for quantity in group:
-        shape = values[quantity.name] / scale(quantity)
+    for quantity, column in zip(group, series, strict=True):
+        shape = column / scale(quantity)
         weights *= 2.0 * (np.abs(shape) <= 0.5) if quantity.distribution == "uniform" else 2.0 * np.exp(-1.5 * shape**2)
     total = float(weights.sum())
     effective = total**2 / float((weights**2).sum()) if total else 0.0

@@ -111,7 +111,7 @@ class RunStore(Mapping[int, SweepRun]):
         return self._endings[ending]
 
     def _grow(self) -> None:
-        rows = 2 * len(self._numbers)
+        rows = _more(self._length)
         for column in (self._numbers, self._ending, self._digest, self._age_s):
             column.resize(rows, refcheck=False)  # in place: no second copy of what is there
         for room in self._rooms.values():
@@ -123,7 +123,7 @@ class RunStore(Mapping[int, SweepRun]):
             self._row_beyond[number] = row
             return
         if number >= len(self._row_after):
-            self._row_after.resize(max(2 * len(self._row_after), number + 1), refcheck=False)
+            self._row_after.resize(max(_more(len(self._row_after)), number + 1), refcheck=False)
         self._row_after[number] = row + 1  # 0 for none
 
     def _row(self, number: int) -> int | None:
@@ -278,6 +278,11 @@ class SweepRuns(Sequence[SweepRun]):
 
     def _endings(self) -> list[tuple[_Ending, Flags]]:
         return self._store.endings(self._rows)
+
+
+def _more(rows: int) -> int:
+    """Return how many rows follow: an eighth more, as what is added is memory that nothing may fill."""
+    return rows + max(_AT_FIRST, rows // 8)
 
 
 def _there(figures: Figures) -> Figures:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
 
 import numpy as np
 
@@ -36,10 +37,8 @@ _SHOWN_UNITS: Mapping[str, tuple[str, float]] = {
 
 def explanations(sweep: Sweep) -> tuple[Explanation, ...]:
     """Return what explains the failures, the most first."""
-    quantities = sweep.uncertainty.quantities
-    rows = draw_all(quantities, sweep.seed, sweep.runs.numbers)
-    values = {quantity.name: row for quantity, row in zip(quantities, rows, strict=True)}
-    return explain(quantities, values, ~sweep.runs.passed)
+    drawn = partial(draw_all, seed=sweep.seed, numbers=sweep.runs.numbers)
+    return explain(sweep.uncertainty.quantities, drawn, ~sweep.runs.passed)
 
 
 def sweep_lines(sweep: Sweep, contract: Contract, replay: Callable[[int], str]) -> Iterator[str]:
@@ -47,7 +46,7 @@ def sweep_lines(sweep: Sweep, contract: Contract, replay: Callable[[int], str]) 
     found = explanations(sweep)
     yield from count_lines(sweep)
     yield from unexplained(sweep, found)
-    for table in (margin_table(tuple(margins(sweep, contract))), drawn_table(sweep), explained_table(found)):
+    for table in (margin_table(margins(sweep, contract)), drawn_table(sweep), explained_table(found)):
         yield from aligned(table)
     for run in sweep.failed[:_SHOWN]:
         yield f"FAILED  sweep:{run.number}: {run.outcome}"
@@ -103,7 +102,7 @@ def verdict_line(sweep: Sweep) -> str:
     return f"{'passed' if sweep.verdict else 'FAILED'}: {wanted}; {after}"
 
 
-def margin_table(found: Sequence[Margin]) -> Table:
+def margin_table(found: Iterable[Margin]) -> Table:
     """Return a row for each margin; a share of the runs is as good as its figure, or better."""
     rows = [
         (margin.name, *(_shown(margin.quantile(share), margin.unit) for share in _QUANTILES), _bound(margin))

@@ -62,7 +62,7 @@ def test_a_share_of_the_runs_is_as_good_as(share: float, expected: float) -> Non
 
 def test_distance_of_failed_runs_and_what_chance_exceeds() -> None:
     failed = np.arange(50) // 10 == 3  # runs 30 to 39, of values 0.00, 0.02, ... 0.98
-    (found,) = explain([quantity("q")], {"q": np.arange(50) / 50.0}, failed)
+    (found,) = explain([quantity("q")], lambda _: np.array([np.arange(50) / 50.0]), failed)
     assert found.statistic == pytest.approx(0.75)  # below all that failed lie 30 of the other 40
     # sqrt(-ln(0.05/2)/2) * sqrt(50/(10*40)) = 1.358102 * 0.353553
     assert found.critical == pytest.approx(0.480162, abs=1e-6)
@@ -72,7 +72,7 @@ def test_distance_of_failed_runs_and_what_chance_exceeds() -> None:
 
 def test_half_the_spread_of_a_uniform_quantity_is_its_inner_half() -> None:
     values = np.linspace(-1.0, 1.0, 201)  # steps of 0.01
-    (found,) = explain([quantity("q")], {"q": values}, values > 0.405)
+    (found,) = explain([quantity("q")], lambda _: np.array([values]), values > 0.405)
     assert found.halved == pytest.approx(10 / 101)  # 101 runs within 0.5, of which 0.41 to 0.50 failed
 
 

@@ -172,7 +172,9 @@ def test_the_only_cause_is_named_and_what_has_no_effect_is_not(nest: MockCell) -
     rows = [draw(quantities, 0, run) for run in range(600)]
     values = {quantity.name: np.array([row[quantity.name] for row in rows]) for quantity in quantities}
     distance = np.sqrt(sum(values[name] ** 2 for name in NEST))
-    first, *others = explain(quantities, values, distance > TOLERANCE_M)
+    first, *others = explain(
+        quantities, lambda group: np.array([values[one.name] for one in group]), distance > TOLERANCE_M
+    )
     assert (first.name, first.names, first.explains) == ("nest", NEST, True)
     assert first.statistic == 1.0
     assert [(other.name, other.explains) for other in others] == [("clock pc", False)]
