@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from cellc.compiler.cell.cell import Cell
+from cellc.compiler.cell.frame import Frame
 
 ADJACENT = "Adjacent"
 NEVER = "Never"
@@ -42,17 +43,16 @@ def _adjacent(cell: Cell) -> Iterator[tuple[str, str]]:
 def _rigid(cell: Cell) -> Iterator[tuple[str, str]]:
     """Yield the bodies between which no joint moves, such as a table and the base that is on it."""
     solid = _solid(cell)
+    frames = {frame.name: frame for frame in cell.frames}
     clusters: dict[str, list[str]] = {}
-    for frame in cell.frames:
-        if frame.name in solid:
-            clusters.setdefault(_carrier(cell, frame.name), []).append(frame.name)
+    for name in (frame.name for frame in cell.frames if frame.name in solid):
+        clusters.setdefault(_carrier(frames, name), []).append(name)
     for bodies in clusters.values():
         yield from combinations(bodies, 2)
 
 
-def _carrier(cell: Cell, name: str) -> str:
+def _carrier(frames: Mapping[str, Frame], name: str) -> str:
     """Return the last frame on the way up before one that moves."""
-    frames = {frame.name: frame for frame in cell.frames}
     seen: set[str] = set()
     while name in frames and not frames[name].moving and frames[name].parent and name not in seen:
         seen.add(name)

@@ -67,11 +67,18 @@ def has_body(placed: Placed) -> bool:
     return placed.solid is not None or (link is not None and (link.inertial is not None or bool(link.collisions)))
 
 
-def names(world: Body) -> Iterator[str]:
-    """Yield the name of every body of the file."""
+def welds(world: Body) -> dict[str, str]:
+    """Map every body of the file to the one that a joint moves and that carries it, or to the world.
+
+    MuJoCo looks for no contact between two that are carried by the same one, as no joint moves between them.
+    https://mujoco.readthedocs.io/en/3.3.7/computation/index.html#selection
+    """
+    found: dict[str, str] = {}
     for body in world.all():
-        yield body.name
-        yield from (placed.name for placed in _others(body) if has_body(placed))
+        weld = found.setdefault(body.name, body.name)
+        found |= {placed.name: weld for placed in _others(body) if has_body(placed)}
+        found |= {other.name: weld for other in body.bodies if other.joint is None and other.part is None}
+    return found
 
 
 def fingers(device: Device) -> Iterator[str]:

@@ -11,7 +11,7 @@ from xml.etree.ElementTree import Element
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.device import Device
-from cellc.compiler.formats.mjcf.bodies import Given, fingers, inside, names
+from cellc.compiler.formats.mjcf.bodies import Given, fingers, inside, welds
 from cellc.compiler.formats.mjcf.elements import Meshes, numbers
 from cellc.compiler.formats.mjcf.keyframes import keys
 from cellc.compiler.formats.mjcf.loops import LOOP_RAD_S, Actuator, Loops, driven_joints, unknown_laws
@@ -55,19 +55,24 @@ def scene(graph: CellGraph, pairs: Sequence[tuple[str, str]], unusable: Mapping[
 
 def _sections(cell: Cell, world: Body, given: Given, pairs: Sequence[tuple[str, str]]) -> Iterator[Element]:
     actuators = [actuator for device in cell.devices for actuator in given.loops.actuators(device)]
-    known = frozenset(names(world))
     yield from map(comment, _defaults(cell.devices, world, given, actuators))
     yield element("compiler", _RULES)
     yield element("option", _STEP)
     yield from _filled("visual", _buffer(cell.devices))
     yield from _filled("asset", _assets(given.meshes))
     yield element("worldbody", children=inside(given, world))
-    excluded = (pair for pair in pairs if known.issuperset(pair))
-    yield from _filled("contact", (element("exclude", {"body1": one, "body2": two}) for one, two in excluded))
+    yield from _filled("contact", _without_contact(pairs, welds(world)))
     yield from _filled("equality", _followers(world))
     yield from _filled("actuator", (element("position", actuator.attributes()) for actuator in actuators))
     yield from _filled("sensor", _sensors(cell))
     yield element("keyframe", children=keys(cell, world, actuators))
+
+
+def _without_contact(pairs: Iterable[tuple[str, str]], welds: Mapping[str, str]) -> Iterator[Element]:
+    """Yield pairs of bodies of the file between which a joint moves, and which may touch all the same."""
+    for one, two in pairs:
+        if one in welds and two in welds and welds[one] != welds[two]:
+            yield element("exclude", {"body1": one, "body2": two})
 
 
 def _filled(tag: str, children: Iterable[Element]) -> Iterator[Element]:
