@@ -98,9 +98,15 @@ def activation(node: Node) -> str:
 
 
 def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
+    """Yield the steps on a target, each with the proofs that all of them wait for."""
+    everywhere = tuple(_mocked(cell, target))
+    return (step.model_copy(update={"proof": (*everywhere, *step.proof)}) for step in _own_steps(cell, target))
+
+
+def _own_steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
     """Yield the steps on a target; each waits for what an earlier one made, on whichever host that runs."""
     managed = [node for node in cell.nodes if node.lifecycle and (target == "real" or not node.real_only)]
-    yield from (_configure(cell, node, target) for node in managed)
+    yield from (_configure(node) for node in managed)
     for manager in cell.managers:
         yield from _observe(cell, manager, target)
     activated = [node for node in managed if not asks_for_motion(cell, node) and not is_adapter(cell, node)]
@@ -130,12 +136,12 @@ def _comparisons(cell: Cell) -> Iterator[BringUpStep]:
             yield _step(BringUpPhase.START, name, host, [], asked, [])
 
 
-def _configure(cell: Cell, node: Node, target: Target) -> BringUpStep:
+def _configure(node: Node) -> BringUpStep:
     return _step(
         BringUpPhase.START,
         f"configure_{node.name}",
         node.host,
-        [NodeProof(kind="node", node=node.full_name), *_mocked(cell, target)],
+        [NodeProof(kind="node", node=node.full_name)],
         Transition(kind="transition", node=node.full_name, transition="configure"),
         [_lifecycle(node, "inactive")],
     )
@@ -147,7 +153,6 @@ def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase, relea
         f"activate_{node.name}",
         node.host,
         [
-            *_mocked(cell, target),
             _lifecycle(node, "inactive"),
             *(tf for parent in measured_in(cell, node) for tf in _transforms(cell, target, WORLD, parent)),
         ],
@@ -175,7 +180,6 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
             f"observe_{manager.name}",
             manager.host,
             [
-                *_mocked(cell, target),
                 *components,
                 *(_controller(manager, name, "inactive") for name in spawned),
             ],
@@ -191,7 +195,7 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             BringUpPhase.ACTIVATE,
             f"activate_{device.name}",
             manager.host,
-            [*_mocked(cell, target), *(_silent(cell, device) if target == "real" else ())],
+            [*(_silent(cell, device) if target == "real" else ())],
             HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
             [_hardware(manager, device, "active")],
             device.name,
@@ -206,7 +210,7 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
                 BringUpPhase.ACTIVATE,
                 f"observe_{device.name}_again",
                 manager.host,
-                [*_mocked(cell, target), *(_controller(manager, name, "inactive") for name in reading)],
+                [*(_controller(manager, name, "inactive") for name in reading)],
                 Restart(kind="restart", manager=manager.node, controllers=reading),
                 [_controller(manager, name, "active") for name in reading],
                 device.name,
@@ -228,7 +232,6 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
             f"claim_{manager.name}" if len(claiming) == 1 else f"claim_{manager.name}_of_{released}",
             manager.host,
             [
-                *_mocked(cell, target),
                 *(_hardware(manager, device, "active") for device in components_of(cell, manager, target)),
                 *(_controller(manager, name, "inactive") for name in names),
                 *_joint_states(cell, manager),
@@ -250,7 +253,6 @@ def _claim_by_adapter(cell: Cell, node: Node, target: Target) -> BringUpStep:
         f"claim_by_{node.name}",
         node.host,
         [
-            *_mocked(cell, target),
             _lifecycle(node, "inactive"),
             TopicProof(kind="topic", topic=adapted.state_topic, type=JOINT_STATE_TYPE),
         ],
@@ -270,7 +272,7 @@ def _acknowledge(
                 BringUpPhase.CLAIM,
                 f"acknowledge_{watch.device}",
                 manager.host,
-                [*_mocked(cell, "real"), *watch.while_hold.values(), NodeProof(kind="node", node=CLAIM_WATCH)],
+                [*watch.while_hold.values(), NodeProof(kind="node", node=CLAIM_WATCH)],
                 Acknowledgment(kind="acknowledge", service=watch.acknowledge),
                 [],
                 released,
@@ -301,7 +303,7 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     names = (name for name in asked if name not in adapted)
     actions = (ActionProof(kind="action", action=name) for name in (*(adapted if target == "real" else ()), *names))
     followed = (proof for device in cell.devices for proof in heard(cell, device).values() if target == "real")
-    proof: list[Proof] = [*_mocked(cell, target), *claimed, *adapting, *followed, *actions, *_managed_nodes(cell)]
+    proof: list[Proof] = [*claimed, *adapting, *followed, *actions, *_managed_nodes(cell)]
     return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
 
 

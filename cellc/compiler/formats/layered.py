@@ -80,6 +80,7 @@ class _Drawing:
         self._order: list[list[str]] = [[] for _ in columns.lefts]
         for key, layer in self._layers.items():
             self._order[layer].append(key)
+        self._places = {key: share for keys in self._order for key, share in _shares(keys)}
 
     def layout(self) -> Layout:
         for _ in range(_SWEEPS):
@@ -126,9 +127,10 @@ class _Drawing:
         return self._heights.get(slot, _LANE)
 
     def _sort(self, layer: int) -> None:
-        places = {key: number / max(1, len(keys) - 1) for keys in self._order for number, key in enumerate(keys)}
-        means = {key: _mean([places[text] for text in self._beside(key)], places[key]) for key in self._order[layer]}
-        self._order[layer].sort(key=means.__getitem__)
+        keys, places = self._order[layer], self._places
+        means = {key: _mean([places[text] for text in self._beside(key)], places[key]) for key in keys}
+        keys.sort(key=means.__getitem__)
+        places.update(_shares(keys))
 
     def _beside(self, slot: str) -> Iterable[str]:
         return sorted(text for text in self._near.get(slot, ()) if self._layers[text] != self._layers[slot])
@@ -198,6 +200,11 @@ class _Drawing:
     def _edge(self, slot: str, side: int) -> float:
         left = self._columns.lefts[self._layers[slot]]
         return left if side < 0 else left + self._columns.width
+
+
+def _shares(keys: Sequence[str]) -> Iterator[tuple[str, float]]:
+    """Yield how far down its layer each slot is, 0 to 1."""
+    return ((key, number / max(1, len(keys) - 1)) for number, key in enumerate(keys))
 
 
 def _mean(values: Sequence[float], otherwise: float) -> float:
