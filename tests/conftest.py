@@ -5,8 +5,9 @@ from __future__ import annotations
 import gc
 import os
 import signal
+import zlib
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
@@ -61,6 +62,8 @@ def readme_install(tmp_path_factory: pytest.TempPathFactory) -> Install:
     return installed(Path(_shared(tmp_path_factory, "installed")))
 
 
+_ALWAYS = 4
+"""Cases of a test that a session runs whatever its share is."""
 _LEFT_OUT = pytest.StashKey[frozenset[Path]]()
 
 
@@ -68,6 +71,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addini("long_tests", "files and folders that `pytest` leaves to `pytest --long`", type="args", default=[])
     parser.addoption("--long", action="store_true", help="run the long tests alone")
     parser.addoption("--all", action="store_true", help="run the long tests too, in one session")
+    parser.addoption("--share", type=int, default=1, metavar="N", help="of tests with many cases, run one case in N")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -108,11 +112,28 @@ def pytest_collection(session: pytest.Session) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Let the longest files begin, so that no process waits for another at the end: first the one that runs mypy."""
+    """Let the longest files begin, so that no process waits for another at the end: first the one that runs mypy.
+
+    Of tests with many cases, ``--share`` leaves some out, the same ones in every session.
+    """
+    left_out = set(_beyond_the_share(items, config.option.share))
+    if left_out:
+        config.hook.pytest_deselected(items=[item for item in items if item in left_out])
+        items[:] = [item for item in items if item not in left_out]
     tests = Counter(item.path for item in items)
     long = {config.rootpath / path: place for place, path in enumerate(config.getini("long_tests"))}
     rank = {file: _rank(file, long) for file in tests}
     items.sort(key=lambda item: (rank[item.path], -tests[item.path], str(item.path)))
+
+
+def _beyond_the_share(items: Iterable[pytest.Item], share: int) -> Iterator[pytest.Item]:
+    """Yield the cases that a session leaves out: of each test, all but one in ``share``, and at least some remain."""
+    cases: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    for many in cases.values():
+        many.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
+        yield from many[max(_ALWAYS, -(-len(many) // share)) :]
 
 
 def _rank(file: Path, long: Mapping[Path, int]) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
@@ -37,6 +38,25 @@ def test_long_tests_wait_for_their_command(asked: tuple[str, ...], ran: set[str]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     assert {file.name for file in tmp_path.iterdir()} & {"quick", "slow", "apart"} == ran
+
+
+def test_of_many_cases_a_session_runs_a_share_and_of_few_all(tmp_path: Path) -> None:
+    (tmp_path / "tests").mkdir()
+    many = "@pytest.mark.parametrize('n', range(30))\ndef test_many(n):\n    print('many', n)\n"
+    few = "@pytest.mark.parametrize('n', range(4))\ndef test_few(n):\n    print('few', n)\n"
+    (tmp_path / "tests" / "test_both.py").write_text(f"import pytest\n\n{many}\n{few}", encoding="utf-8")
+    (tmp_path / "pyproject.toml").write_text(_INI, encoding="utf-8")
+    shutil.copy(ROOT / "tests" / "conftest.py", tmp_path / "tests")
+    command = [sys.executable, "-m", "pytest", "-q", "-s", "-p", "no:cacheprovider"]
+    said = [
+        subprocess.run([*command, *share], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
+        for share in ((), ("--share", "3"), ("--share", "3"))
+    ]
+    ran = [set(re.findall(r"(?:many|few) \d+", each)) for each in said]
+    assert [len({each for each in ran[at] if "many" in each}) for at in (0, 1)] == [30, 10]
+    assert [len({each for each in ran[at] if "few" in each}) for at in (0, 1)] == [4, 4]
+    assert ran[1] == ran[2] < ran[0]
+    assert "20 deselected" in said[1]
 
 
 def test_long_tests_are_there(pytestconfig: pytest.Config) -> None:
