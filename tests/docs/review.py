@@ -53,9 +53,11 @@ first; other new findings stand below the line that they follow from. Each line 
 with what it causes under it: the worst first, and of one grade what stops motion or is a matter of safety, then how far
 things get and move, the farthest first, what they carry, how fast they are, accelerations, tolerances, gains. A device
 with another model, or a new one, is before what else changed.
-Several lines with the same values, of several devices, are one heading. Lines that are too long are broken where the
-whole still fits, else cut, never in a quantity nor between the two values of a change. Two lines that exchanged their
-values say so. To know what a line causes, cellc builds the cell with that line alone, or with all but that line. Lines
+Several lines with the same values, of several devices or named poses, are one heading, and so is one bound that the
+action, the rehearsal and the figure repeat. Lines that are too long are broken, and none is cut: where the whole has no
+room, values that are alike are one line, then causes that are not dangerous are. Why a change is dangerous, whose
+consumers it breaks and how nodes find each other always stand there. Two lines that exchanged their values say so.
+To know what a line causes, cellc builds the cell with that line alone, or with all but that line. Lines
 that cannot stand alone, such as a device and its controllers, are listed together; so are those of one part of the spec
 where there are many. Folders have no spec: their changes are listed by area, and names that changed are found in the
 contract. In a pull request the action annotates what is new, and what fails (`cellc check --format github --against
@@ -113,14 +115,18 @@ arm was left; else it is graded `review`. A pin that is UNKNOWN from the start i
 bound of a clock counts where stamps with an age limit are made on it, or are judged on it and it is above a tenth of
 the limit.
 
+What was UNKNOWN and is stated now only makes something known: pins, owners and what else is graded `review` are then
+safe, where no matrix says that they do not work together. A limit or a bound is a figure all the same.
+
 A measured transform changes only with a new measurement: a changed pose of a calibrated frame is dangerous unless
 the calibration has a new revision. So is another model, serial number, mount or day of mounting of a device that a
 calibration measured: the device of the frame, and those that carry it, up to the next joint that moves.
 
 Collision shapes are compared by the room that they take up, those of a device in the frame by which it is mounted.
 One that shrank or lies elsewhere is dangerous, as is one
-that is gone: planning no longer avoids where it was. One that grew is graded `review`. Of an obstacle, pose and size
-count together. A box, also that of a shared area, says what it loses and gains on each side. One arm at a time is in
+that is gone: planning no longer avoids where it was. One that grew is graded `review`. Of an obstacle, pose, parent and
+size count together; it says how far it moved, which room is free now, and how far it is from what it touched. A box,
+also that of a shared area, says what it loses and gains on each side. One arm at a time is in
 a shared area: a larger one keeps arms apart in more room and is graded `review`, for what grants access must be set to
 the same box; one that loses room is dangerous. Of an area that is released to several arms, a larger one is dangerous.
 
@@ -152,7 +158,8 @@ def _areas() -> Iterator[str]:
     yield "in that area and in that of the owners. The owner of the recovery is asked of its states, too. What only"
     yield "follows, such as a tip that moves, asks no owner but that of its cause; a new name asks where"
     yield "consumers may break. Of what is safe, limits and matters of safety are asked."
-    yield "Stiffness and damping of joints are approved by safety and control."
+    yield "Stiffness and damping of joints are approved by safety and control; so is what says how soon motion stops:"
+    yield "watchdogs, times to stop, bounds of rehearsed stops. An owner of what is new who approves nothing is named."
     yield "Gates and layers rest on those before them, so that"
     yield "the evidence from the first one on is no longer valid. Under the same configuration id none is."
     yield ""

@@ -66,7 +66,7 @@ def test_another_model_of_a_robot_is_one_group_whose_first_line_says_what_it_mea
         ("ur5e_pick", "device", "arm", "robot"),
         ("ur5e_pick", "controller", "arm_trajectory", "motion_ctl"),
         ("ur5e_pick", "calibration", "hand_eye", "wrist_eye"),
-        ("ur5e_pick", "frame", "fixture_A", "fixture_B"),
+        ("ur5e_pick", "TF frame", "fixture_A", "fixture_B"),
         ("ur5e_pick", "host", "control_pc", "ipc"),
         ("ur5e_pick", "goal", "place", "place_part"),  # the new name begins with the old one
         ("dual_ur", "device", "loader", "feeder"),

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.compare import changes_between
 from cellc.tools.review.facts import Facts, facts_of
 from tests.cells import compiled, spec_text, written
+from tests.review.edits import changes_between
 
 WHOLE = "commissioning: {velocity: 100 %, acceleration: 100 %}"
 

@@ -11,9 +11,9 @@ import json
 
 import pytest
 
-from cellc.tools.review.compare import changes_between
 from cellc.tools.review.facts import facts_of
 from cellc.tools.review.sides import Package
+from tests.review.edits import changes_between
 from tests.review.revisions import Edit, Repository, changes_of, edited, package_of
 
 ARM = "arm_elbow_joint, arm_shoulder_lift_joint, arm_shoulder_pan_joint, arm_wrist_1_joint, arm_wrist_2_joint, "
@@ -264,7 +264,13 @@ def test_ends_that_connect_no_longer_are_dangerous_and_the_reverse_is_safe(main:
         for sides in ((main.facts, deaf), (deaf, main.facts))
     )
     assert [(*one.subjects, one.before, str(one.grade), one.breaking, one.why) for one in lost] == [
-        ("/object_pose: perception to task", "connected", "dangerous", True, "samples no longer arrive")
+        (
+            "/object_pose: perception to task",
+            "connected",
+            "dangerous",
+            True,
+            "samples no longer arrive (reliability: offered best_effort, requested reliable)",
+        )
     ]
     assert [(*one.subjects, one.after, str(one.grade), one.breaking) for one in back] == [
         ("/object_pose: perception to task", "connected", "safe", False)

@@ -58,7 +58,7 @@ def test_a_frame_and_a_node_with_another_name_are_a_line_each() -> None:
     found = _renamed("ur5e_pick", {"fixture_A": "fixture_B", "task": "picker"})
     assert _titles(found) == [
         "review renamed: node task -> picker",
-        "review renamed: frame fixture_A -> fixture_B (1 name follows)",
+        "review renamed: TF frame fixture_A -> fixture_B (1 name follows)",
     ]
     assert [change.breaking for change in found.changes] == [False, True]
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import yaml
 
-from cellc.tools.review.compare import changes_between
 from cellc.tools.review.facts import facts_of
 from cellc.tools.review.sides import Package, Side, packages
 from tests.cells import generated
+from tests.review.edits import changes_between
 from tests.review.revisions import changes_of, edited, reviewed, told
 
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from cellc.contract.transforms import Pose
-from cellc.tools.review.compare import changes_between
 from cellc.tools.review.facts import facts_of
 from cellc.tools.review.sides import Package, Side, packages
 from cellc.tools.review.units import difference
 from tests.cells import spec_text
 from tests.cli.run import run
 from tests.link.test_packages import CELL, CUBE, DEVICE
+from tests.review.edits import changes_between
 from tests.review.revisions import Edit, Repository, changes_of, edited, new_repository, package_of, reviewed
 
 DUAL = "cells/dual_ur/cell.yaml"
@@ -99,8 +99,8 @@ def test_serial_number_that_was_read_ends_no_calibration(repository: Repository,
     found = reviewed(
         main, package_of(repository, repository.commit(edited(("serial: UNKNOWN", "serial: '20225500001'"))))
     )
-    # The line of a document that follows is safe.
-    assert {str(change.grade) for change in found.changes if change.area != "documents"} == {"review"}
+    # It was as it is, and is known now.
+    assert {str(change.grade) for change in found.changes} == {"safe"}
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ import json
 import pytest
 
 from cellc.contract.gates import GATES
-from cellc.tools.review.compare import changes_between
 from cellc.tools.review.facts import CONTRACT, Facts, FactsError, facts_of
 from tests.cells import generated
+from tests.review.edits import changes_between
 
 _SETTINGS = {
     "robot payload mass": ("payload", "mass", "{} kg"),

@@ -104,7 +104,7 @@ def test_the_first_gate_of_an_area_is_the_one_that_looks_at_it() -> None:
         (Rule.NAMED, "controls", "UNKNOWN", _D),
         (Rule.NAMED, "controls", "robot", _R),
         (Rule.NAMED, "controls", None, _D),
-        (Rule.NAMED, "UNKNOWN", "controls", _R),
+        (Rule.NAMED, "UNKNOWN", "controls", _S),
         (Rule.MATRIX, "OK: known", "UNKNOWN: new", _R),
         (Rule.MATRIX, "OK: known", "INCOMPATIBLE: it crashes", _D),
         (Rule.HEAVIER, 0.3, 0.32, _R),

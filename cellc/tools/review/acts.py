@@ -14,8 +14,11 @@ _MOST = 20
 """Causes that are tried one by one; of more edits, those of one part of the spec are one cause."""
 _TOGETHER = 3
 """Values of one mapping that are listed as one: of a calibration, its revision, its day and its residual."""
-_AS_ONE = ("payload",)
-"""Mappings whose values are listed as one however few they are: a mass and where it is."""
+_AS_ONE = ("payload", "limits", "commissioning")
+"""Mappings whose values are listed as one however few they are: a mass and where it is, velocity and acceleration."""
+_BOUNDS = ("within", "cancel_within", "cancel")
+"""Keys of one bound: of the action, of the rehearsal that checks it, and of the figure that reports it."""
+_NAMED_POSES = ("motion", "poses")
 _POSE = ("xyz", "rpy")
 """Keys of a place: where something is and how it is turned count together."""
 _PLACED_IN = (*_POSE, "parent")
@@ -24,8 +27,8 @@ _ROOMS, _PLACED = ("scene", "areas"), 3
 """Sections whose entries take up room: where it is and how large count together."""
 _OF_MODEL = ("model", "mount", "mounted_on", "serial", "revision", "firmware", "driver", "sdk", "description")
 """What another model of a device brings with it."""
-_END_OF_TOPIC = 5
-"""Parts of the path of what one end of an interface asks or offers."""
+_END_OF_TOPIC, _IN_POSE = 5, 3
+"""Parts of the path of what one end of an interface asks or offers, and of that of a named pose."""
 _LONGEST, _BESIDE = 60, 12
 """Characters of a value that a heading has, and of what is the same before those that differ."""
 
@@ -72,6 +75,10 @@ def _keys(
         keys.append(path[:-1])
     if path[:1] == ("interfaces",) and len(path) == _END_OF_TOPIC:
         keys.append(("ends", path[1], path[-1], *map(str, texts_of(edit))))
+    if path[-1] in _BOUNDS:
+        keys.append(("bound", *map(str, texts_of(edit))))
+    if path[:2] == _NAMED_POSES and len(path) > _IN_POSE:
+        keys.append((*_NAMED_POSES, "=", *path[_IN_POSE:], *map(str, texts_of(edit))))
     keys += _repeating(edit, edits)
     if len(path) > 2 and (not keys or is_model(path)):
         # Lines that are alike, of several devices or interfaces, are one.
@@ -147,14 +154,43 @@ def texts_of(edit: SpecEdit) -> tuple[str | None, str | None]:
 
 
 def described(edit: SpecEdit) -> tuple[str | None, str | None]:
-    """Return what is new or gone in a line: of a device its model, where it sits, and by what it is connected."""
-    if edit.path[:1] != ("devices",) or len(edit.path) != len(("devices", "arm")):
+    """Return what is new or gone in a line: of a part of the spec its main figures, as its author wrote them."""
+    if len(edit.path) != len(("devices", "arm")) or edit.path[0] not in _FACTS:
         return texts_of(edit)
-    was, now = (None if child is None else _of_device(child) for child in (edit.before, edit.after))
+    told = _of_device if edit.path[0] == "devices" else _of_part
+    was, now = (
+        None if child is None else told(child, _FACTS[str(edit.path[0])]) for child in (edit.before, edit.after)
+    )
     return was, now
 
 
-def _of_device(child: Child) -> str:
+_FACTS: Mapping[str, Sequence[str]] = {
+    "devices": ("xyz", "rpy", "calibration"),
+    "calibrations": ("revision", "measured", "residual", "method", "samples", "owner"),
+    "frames": ("parent", "xyz", "rpy", "calibration", "published_by", "rate"),
+    "scene": ("parent", "xyz", "rpy", "box", "cylinder", "sphere", "mesh", "plane"),
+    "areas": ("parent", "xyz", "rpy", "box", "granted_by", "released"),
+    "nodes": ("run", "host", "owner", "lifecycle"),
+    "interfaces": (
+        *("topic", "action", "service", "from", "server", "to", "client", "rate", "max_age", "on_stale", "frame"),
+        *("timeout", "cancel_within"),
+    ),
+    "rehearsals": ("use", "steps", "inject", "expect", "within", "success", "bring_up"),
+}
+"""Keys of the main figures of each part of a spec, in the order in which they are read."""
+_MOST_TOLD = 160
+
+
+def _of_part(child: Child, keys: Sequence[str]) -> str:
+    """Return the main figures of a part of the spec: as many as there is room for, none of them cut."""
+    inner = child.node.children
+    told = [f"{key} {_flow(inner[key])}" for key in keys if key in inner]
+    while len(told) > 1 and len(", ".join(told)) > _MOST_TOLD:
+        told.pop()
+    return ", ".join(told) or _flow(child)
+
+
+def _of_device(child: Child, keys: Sequence[str]) -> str:
     def text(*path: str) -> str:
         node = child.node
         for key in path:
@@ -170,6 +206,7 @@ def _of_device(child: Child) -> str:
         part
         for part in (
             f"{text('model')} on `{parent}`" if parent else text("model"),
+            *(f"{key} {text('mount', key)}" for key in keys if text("mount", key)),
             f"{address} at {card}" if address and card else address or card,
         )
         if part

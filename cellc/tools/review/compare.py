@@ -9,8 +9,7 @@ from dataclasses import replace
 
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.grading import Graded, Rule
-from cellc.contract.review import ReviewChange
-from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
 from cellc.tools.review.carried import is_reaching
 from cellc.tools.review.change import PRESENT, Change, Figures
 from cellc.tools.review.effects import effects
@@ -20,15 +19,23 @@ from cellc.tools.review.grading import ELSEWHERE, grade
 from cellc.tools.review.joint_units import units_of
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
-from cellc.tools.review.order import order_of
-from cellc.tools.review.reasons import as_held
+from cellc.tools.review.reasons import as_held, owner_without_approval
 from cellc.tools.review.repeated import follows, is_covered, is_derived, is_stated, spelled
 from cellc.tools.review.replaced import PAIRS, with_models
-from cellc.tools.review.rooms import box_difference
+from cellc.tools.review.rooms import box_difference, room_difference
 from cellc.tools.review.rows import ROWS
-from cellc.tools.review.rules import APPROVAL, AREA_OF_FILE, HANDED, THINGS, Fit, Row, Thing, fits, quantity_of
+from cellc.tools.review.rules import (
+    AREA_OF_FILE,
+    THINGS,
+    Fit,
+    Row,
+    Thing,
+    fits,
+    is_stop_timing,
+    quantity_of,
+)
 from cellc.tools.review.steps import with_step_names
-from cellc.tools.review.units import shown, unit_in
+from cellc.tools.review.units import difference, shown, unit_in
 
 _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 """A spec that was moved makes the same package: its path is in the head of every file."""
@@ -36,8 +43,6 @@ _MADE_FROM = re.compile(r"\bcellc build (?:'[^']*'|[^\s`]+)")
 _SAID_ELSEWHERE = ("places", "summary", "owners")
 """Of a cell: where its author wrote what, and what its configuration does not rest on."""
 _SHOWN_LINES = 3
-_RECOVERY = "recovery owner"
-"""Who is responsible for what lets motion resume, beside the approver of safety."""
 _IDLE = ("versions", "transition")
 """Kinds of requests that move nothing: they compare, or start a node that is managed."""
 UNCLASSIFIED = "(not classified)"
@@ -47,58 +52,6 @@ WHOLE = "cell"
 _PINNED = ("contract", "version_tuple")
 _SHOWS = ("graph/", "README.md", "sim/")
 """Files that show people and simulators what the others say: they are reported where a hand edited them."""
-
-
-def changes_between(before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
-    """Return every change, the worst first, those that are alike as one."""
-    return merged([(None, change) for change in reported(before, after)], before, after)
-
-
-def merged(found: Sequence[tuple[int | None, Change]], before: Facts, after: Facts) -> tuple[ReviewChange, ...]:
-    """Return changes with the numbers of their causes, the worst first, those of one cause that are alike as one."""
-    owners = _approvers(before, after)
-    alike: dict[tuple[int | None, Change], list[str]] = {}
-    for cause, change in found:
-        alike.setdefault((cause, replace(change, subject="")), []).append(change.subject)
-    changes = [
-        _reviewed(change, cause, tuple(dict.fromkeys(subjects)), owners) for (cause, change), subjects in alike.items()
-    ]
-    return tuple(sorted(changes, key=order_of))
-
-
-def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
-    """Return who approves: who did before the change, so that none chooses whom to ask; who is new beside them."""
-    were, are = before.contract.approvals, after.contract.approvals
-    return {
-        area: " and ".join(dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner))
-        for area in {*were, *are}
-    } | {_RECOVERY: str(before.leaves.get(("spec", "safety", *_RECOVERY.split()), ""))}
-
-
-def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:
-    asked, own = change.approval or APPROVAL[change.area], APPROVAL[change.area]
-    owner, beside = owners.get(asked, ""), own if own != asked else None
-    answers = owners[_RECOVERY] if "recover" in change.quantity else ""
-    if answers and answers not in owner.split(" and "):
-        owner = f"{owner} and {answers}" if owner else answers
-    if change.quantity.startswith(HANDED) and change.before and change.before not in owner.split(" and "):
-        owner = f"{owner} and {change.before}" if owner else change.before
-    return ReviewChange(
-        area=change.area,
-        subjects=tuple(subjects),
-        quantity=change.quantity,
-        before=change.before,
-        after=change.after,
-        delta=change.delta,
-        grade=change.grade,
-        breaking=change.breaking,
-        why=change.why,
-        approval=asked,
-        owner=owner,
-        beside=beside,
-        beside_owner="" if beside is None else owners.get(beside, ""),
-        cause=cause,
-    )
 
 
 def reported(before: Facts, after: Facts) -> list[Change]:
@@ -239,6 +192,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], sides: tuple[Fac
     else:
         removed = thing.removed if held or not thing.holds else Grade.REVIEW
     taken = removed if not added else Grade.REVIEW if idle else thing.added
+    stranger = owner_without_approval(inner, sides) if added else ""
     reaches = added and path[:2] == ("contract", "devices") and is_reaching(sides[1].contract, path[2])
     return Change(
         thing.area,
@@ -248,7 +202,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], sides: tuple[Fac
         value if added else None,
         Grade.DANGEROUS if reaches else taken,
         breaking=thing.breaking and not added,
-        why=ELSEWHERE if reaches else thing.why.format(" ".join(names)) if taken is Grade.DANGEROUS else "",
+        why=ELSEWHERE if reaches else thing.why.format(" ".join(names)) if taken is Grade.DANGEROUS else stranger,
         approval="safety" if reaches else None,
         words=frozenset(word for delta in inner for word in (*words(delta.before), *words(delta.after), *delta.path)),
         names=frozenset(names[-1:]),
@@ -267,7 +221,9 @@ def _with_matrix(change: Change, pins: Mapping[str, Delta], before: Facts, after
     if delta is None:
         return change
     verdict = grade(Rule.MATRIX, delta, before, after)
-    worse = max(change.grade, verdict.grade, key=tuple(Grade).index)
+    # A pin that nobody knew takes nothing away where the matrix does not know it either.
+    is_known_now = change.before == UNKNOWN and verdict.grade is not Grade.DANGEROUS
+    worse = change.grade if is_known_now else max(change.grade, verdict.grade, key=tuple(Grade).index)
     was, now = (shown(leaf, "") or "nothing" for leaf in (delta.before, delta.after))
     said = f"the compatibility matrix says {now}, before {was}"
     known = change.words | {*words(delta.before), *words(delta.after)}
@@ -298,8 +254,13 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         verdict.grade,
         _difference(delta, before, after) or size,
         row.grade.breaking and delta.before is not None,
-        verdict.why or (_why(row, fit, after) if verdict.grade is Grade.DANGEROUS else ""),
-        verdict.approval,
+        verdict.why
+        or (
+            _why(row, fit, after)
+            if verdict.grade is Grade.DANGEROUS
+            else owner_without_approval([delta], (before, after))
+        ),
+        verdict.approval or ("safety" if is_stop_timing(row, delta.path, before.leaves) else None),
         None if _difference(delta, before, after) else figures,
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),
@@ -328,7 +289,11 @@ def _difference(delta: Delta, before: Facts, after: Facts) -> str:
         if isinstance(delta.before, tuple) and isinstance(delta.after, tuple) and len(delta.before) > 1:
             same_ones = sum((Counter(delta.before) & Counter(delta.after)).values())
             return f"{len(delta.before) - same_ones} of {len(delta.before)} replaced by {len(delta.after) - same_ones}"
-    return place_difference(delta.path[1], before, after) if delta.path[:1] == ("placement",) else ""
+    if delta.path[:1] != ("placement",):
+        return ""
+    moved, room = place_difference(delta.path[1], before, after), room_difference(delta.path[1], before, after)
+    stated = difference(delta.before, delta.after, "") if room else ""
+    return "; ".join(part for part in (moved or stated, room) if part)
 
 
 def _of_pair(delta: Delta, row: Row, taken: Grade) -> Change:

@@ -46,22 +46,23 @@ def effects(before: Facts, after: Facts) -> Iterator[Change]:
         yield Change(ReviewArea.QOS, name, quantity, *sides, Grade.REVIEW, breaking=True, why=why)
     for edge in edge_changes(before.contract, after.contract):
         taken = Grade.SAFE if edge.connects else Grade.DANGEROUS
-        why = "" if edge.connects else "samples no longer arrive" if edge.before else "no sample arrives"
+        lost = "samples no longer arrive" if edge.before else "no sample arrives"
+        why = "" if edge.connects else f"{lost} ({edge.after})"
         yield Change(
             ReviewArea.QOS, edge.subject, "edge", edge.before, edge.after, taken, breaking=not edge.connects, why=why
         )
 
 
+_LINK = "link"
+
+
 def _of_measured(each: Measured) -> Change:
     """Return what a model weighs or how far it reaches; a mass that a link lacks on a side has no difference."""
     unit, area = ("kg", ReviewArea.PAYLOAD) if each.quantity == MASS else ("m", ReviewArea.MODEL)
+    is_whole = all(massive == shaped for massive, shaped in each.counted)
     was, now = (
-        f"{shown(value, unit)}{_lacking(bare)}"
-        for value, bare in zip((each.before, each.after), each.weightless, strict=True)
+        f"{shown(value, unit)}{'' if is_whole else f' of {massive} of {count(shaped, _LINK)}'}"
+        for value, (massive, shaped) in zip((each.before, each.after), each.counted, strict=True)
     )
-    delta = "" if any(each.weightless) else difference(each.before, each.after, unit)
+    delta = difference(each.before, each.after, unit) if is_whole else ""
     return Change(area, each.device, each.quantity, was, now, Grade.REVIEW, delta)
-
-
-def _lacking(links: int) -> str:
-    return f" ({count(links, 'link')} {'has' if links == 1 else 'have'} no inertia)" if links else ""

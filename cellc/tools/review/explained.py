@@ -12,14 +12,15 @@ from cellc.contract.vocabulary import Grade
 from cellc.tools.review.acts import Cause, causes_between, flow_of
 from cellc.tools.review.causes import Brought, State, as_cause, attributed, package_of_document, without_lines
 from cellc.tools.review.change import Change, Written, in_units
-from cellc.tools.review.compare import change_of, changes_between, merged, reported
+from cellc.tools.review.compare import change_of, reported
 from cellc.tools.review.device_folders import by_folders, folder_causes
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.folder_names import facts_with_names, renames_between_folders
 from cellc.tools.review.groups import NAME_OF
 from cellc.tools.review.kept import kept_beside
 from cellc.tools.review.leaves import Leaf, Path, Prose, differences, same
-from cellc.tools.review.renames import Names, Rename, names_of, renamed, renames_between
+from cellc.tools.review.merging import merged
+from cellc.tools.review.renames import TF_FRAME, Names, Rename, names_of, renamed, renames_between
 from cellc.tools.review.repeated import follows
 from cellc.tools.review.sides import Package
 from cellc.tools.review.units import units_in
@@ -99,7 +100,8 @@ def _of_folders(before: Package, after: Package) -> Explained:
     renames = renames_between_folders(before.facts.contract, after.facts.contract)
     base = facts_with_names(before, after, renames) if renames else None
     if base is None:
-        return Explained((), changes_between(before.facts, after.facts))
+        bare: list[tuple[int | None, Change]] = [(None, change) for change in reported(before.facts, after.facts)]
+        return Explained((), merged(bare, before.facts, after.facts))
     leading = _leading(renames)
     found: list[tuple[int | None, Change]] = [
         (number, _of_rename(rename, before.facts, base)) for number, rename in enumerate(leading)
@@ -159,7 +161,7 @@ def _of_rename(rename: Rename, before: Facts, after: Facts) -> Change:
         Grade.REVIEW,
         f"{count(len(followed), 'name')} follow{'s' * (len(followed) == 1)}" if followed else "",
         breaking=bool(known),
-        why=f"consumers of {', '.join(told)}{more}" if known else "",
+        why=f"consumers {'that look up' if rename.noun == TF_FRAME else 'of'} {', '.join(told)}{more}" if known else "",
         approval="graph" if known else None,
     )
 

@@ -10,7 +10,7 @@ from typing import Any
 from cellc.contract.contract import Contract
 from cellc.contract.vocabulary import ReviewArea
 from cellc.tools.review.facts import Facts, FactsError, facts_of
-from cellc.tools.review.renames import Names, Rename, names_of, texts_of
+from cellc.tools.review.renames import TF_FRAME, Names, Rename, names_of, texts_of
 from cellc.tools.review.sides import Package
 
 _A = ReviewArea
@@ -22,7 +22,7 @@ _SECTIONS: Sequence[tuple[str, ReviewArea, str]] = (
     ("interfaces", _A.INTERFACES, "interface"),
     ("nodes", _A.CONTROL, "node"),
     ("calibrations", _A.CALIBRATION, "calibration"),
-    ("frames", _A.FRAMES, "frame"),
+    ("frames", _A.FRAMES, TF_FRAME),
     ("groups", _A.MOTION, "planning group"),
     ("poses", _A.MOTION, "named pose"),
     ("goals", _A.MOTION, "goal"),

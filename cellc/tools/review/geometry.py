@@ -66,9 +66,17 @@ def place_difference(frame: str, before: Facts, after: Facts) -> str:
     if was is None or now is None or old is None or new is None or was[0] != now[0]:
         return ""
     in_parent, whole = apart(old, new), apart(was[1], now[1])
+    if _parent(frame, before) != _parent(frame, after):
+        return f"{motion(*whole) or 'stays'} on {was[0]}"
     if max(abs(one - other) for one, other in zip(in_parent, whole, strict=True)) <= _NOTICED:
         return ""
     return f"{motion(*whole) or 'stays'} on {was[0]}; in its parent {motion(*in_parent)}"
+
+
+def _parent(frame: str, facts: Facts) -> str | None:
+    joint = next((each for each in facts.description.joints if each.child == frame), None)
+    stated = facts.contract.frames.get(frame)
+    return joint.parent if joint is not None else None if stated is None else stated.parent
 
 
 def _stated(frame: str, facts: Facts) -> Pose | None:

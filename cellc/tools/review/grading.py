@@ -35,12 +35,29 @@ class Verdict:
 
 def grade(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
     """Return the grade of a change by a rule; what a calibration measured does not change without a new revision."""
-    verdict = _by_rule(rule, delta, before, after)
+    verdict = Verdict(Grade.SAFE) if _is_only_known(rule, delta) else _by_rule(rule, delta, before, after)
     names = unmeasured(delta, before.contract, after.contract)
     if not names or (verdict.why and rule is not Rule.REPLACED):
         return verdict
     area = verdict.area if verdict.grade is Grade.DANGEROUS or rule is Rule.REPLACED else ReviewArea.CALIBRATION
     return Verdict(Grade.DANGEROUS, _unmeasured(names, before.contract), area)
+
+
+_KNOWN = (Rule.REVIEW, Rule.NAMED)
+"""Rules of values that are no hazard by themselves."""
+
+
+_OF_PEOPLE = (("contract", "approvals"), ("contract", "responsibilities"))
+
+
+def _is_only_known(rule: Rule, delta: Delta) -> bool:
+    """Tell whether a value that nobody knew is stated now, and nothing else: what it was is the same."""
+    is_known = rule in _KNOWN or delta.path[:2] in _OF_PEOPLE
+    return is_known and _is_unknown(delta.before) and not _is_unknown(delta.after) and delta.after is not None
+
+
+def _is_unknown(leaf: Leaf | None) -> bool:
+    return leaf is not None and str(leaf).split()[-1:] == [UNKNOWN]
 
 
 def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
@@ -108,7 +125,7 @@ def _back(before: Leaf | None, after: Leaf | None) -> Grade:
 def _named(before: Leaf | None, after: Leaf | None) -> Grade:
     if before is None:
         return Grade.REVIEW
-    return Grade.DANGEROUS if after is None or str(after).split()[-1:] == [UNKNOWN] else Grade.REVIEW
+    return Grade.DANGEROUS if after is None or _is_unknown(after) else Grade.REVIEW
 
 
 def _matrix(before: Leaf | None, after: Leaf | None) -> Grade:

@@ -42,7 +42,7 @@ _FIGURE = re.compile(r"\[?[-+]?[\d.]")
 _PLACES = re.compile(r" \([^():]+:[0-9, ]+\)")
 """Files and lines in a heading."""
 _MODEL = "model"
-_SAID, _HOME = 4, "home"
+_SAID, _HOME, _TIP = 4, "home", "tip"
 _WHOLE = (" added", " removed")
 """How the quantity of what was added or removed as a whole ends."""
 NAME_OF = "name of the "
@@ -150,8 +150,8 @@ class Group:
         if self._is_act:
             said = (*((_MODEL, *_VALUED) if self.is_model else ()), *_OF_MEASUREMENT, *_PLACED)
             return tuple(change for change in self.changes if not change.quantity.startswith(said))
-        said = (_MODEL, *_VALUED) if self.is_model else ()
-        return tuple(change for change in self.changes if change.quantity not in said) or self.changes
+        told = (*((_MODEL, *_VALUED) if self.is_model else ()), *((_TIP,) if self.figures else ()))
+        return tuple(change for change in self.changes if change.quantity not in told) or self.changes
 
     @property
     def _is_act(self) -> bool:
@@ -168,12 +168,14 @@ class Group:
             for change in self.changes
             if change.quantity in valued or (change.delta and change.quantity in _PLACED)
         ]
-        listed = dict[str, None]()
+        listed, tips = dict[str, None](), dict[str, list[str]]()
+        for change in (each for each in sized if each.quantity == _TIP):
+            tips.setdefault(change.delta, []).extend(name.partition(" in ")[2] for name in change.subjects)
         for change in sorted(
             sized, key=lambda change: ((*_VALUED, *_PLACED).index(change.quantity), _HOME not in change.subjects[0])
         ):
             if not (self._is_act and change.quantity.startswith(_OF_MEASUREMENT)):
-                listed[_figure(change)] = None
+                listed[_figure(change, tips)] = None
         return tuple(listed)[: max(_SAID, sum(change.quantity in valued for change in sized))]
 
     @property
@@ -204,13 +206,28 @@ def _asks(change: ReviewChange) -> bool:
 
 
 def asked_of(changes: Sequence[ReviewChange]) -> str:
-    """Return who approves changes: area and owner of each, but for what only follows and for what is safe."""
+    """Return who approves changes, as people read it: each area with its owner."""
+    return _asked_shown(asking_of(changes))
+
+
+def asked_of_all(groups: Sequence[Group]) -> str:
+    """Return who approves all groups: each that one of them asks by itself."""
+    return _asked_shown([change for group in groups for change in asking_of(group.changes)])
+
+
+def _asked_shown(asking: Sequence[ReviewChange]) -> str:
+    asked = {change.beside: change.beside_owner for change in asking if change.beside is not None}
+    for change in asking:
+        owners = [*(asked.get(change.approval, "").split(" and ")), *change.owner.split(" and ")]
+        asked[change.approval] = " and ".join(dict.fromkeys(owner for owner in owners if owner))
+    return ", ".join(f"{area} ({asked[area] or 'no owner'})" for area in _ASKED if area in asked)
+
+
+def asking_of(changes: Sequence[ReviewChange]) -> Sequence[ReviewChange]:
+    """Return the changes whose owners are asked: not what only follows, nor what is safe, where others ask."""
     asking = [change for change in changes if _asks(change)]
     own = [change for change in asking if change.area is not ReviewArea.DOCUMENTS]
-    told = [change for change in own if not change.quantity.startswith(_FOLLOWING)] or own or asking
-    asked = {change.beside: change.beside_owner for change in told if change.beside is not None}
-    asked |= {change.approval: change.owner for change in told}
-    return ", ".join(f"{area} ({asked[area] or 'no owner'})" for area in _ASKED if area in asked)
+    return [change for change in own if not change.quantity.startswith(_FOLLOWING)] or own or asking
 
 
 def broken_by(changes: Sequence[ReviewChange]) -> tuple[str, ...]:
@@ -231,9 +248,16 @@ def values_of(change: ReviewChange) -> str:
     return f"{values} ({change.delta})" if change.delta else values
 
 
-def _figure(change: ReviewChange) -> str:
-    if change.quantity == "tip":
-        return f"tip in {change.subjects[0].partition(' in ')[2]} {change.delta}"
+def _figure(change: ReviewChange, tips: Mapping[str, Sequence[str]]) -> str:
+    """Return how far a quantity of a heading changed.
+
+    Args:
+        tips: named poses in which the tip moves by as much.
+    """
+    if change.quantity == _TIP:
+        names = sorted(dict.fromkeys(tips[change.delta]), key=lambda name: name != _HOME)
+        more = f" and {len(names) - _SAID} more" if len(names) > _SAID else ""
+        return f"tip in {', '.join(names[:_SAID])}{more} {change.delta}"
     if change.quantity in _VALUED:
         return f"{change.quantity} {values_of(change)}"
     return f"{change.subjects[0]} {change.delta.partition('; ')[0]}"

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from cellc.contract.contract import Contract
 from cellc.contract.grading import OTHER_LOAD
-from cellc.contract.vocabulary import Gravity, Loop
+from cellc.contract.vocabulary import UNKNOWN, Gravity, Loop
+from cellc.tools.review.facts import Facts
+from cellc.tools.review.leaves import Delta
 from cellc.tools.review.rules import Row
 
 _REASONS: Mapping[str, str] = {
@@ -101,3 +103,11 @@ def as_held(why: str, device: str, contract: Contract) -> str:
     if law.gravity is Gravity.COMPENSATED:
         return f"{why}: the arm sags, or rises"
     return "the springs of the joints hold another load: the arm droops by another amount"
+
+
+def owner_without_approval(deltas: Sequence[Delta], sides: tuple[Facts, Facts]) -> str:
+    """Return that a new owner approves nothing in the cell, so that changes of it ask somebody else; else nothing."""
+    owners = {str(delta.after) for delta in deltas if delta.path[-1] == "owner" and delta.after not in (None, UNKNOWN)}
+    approving = {owner for side in sides for owner in side.contract.approvals.values()}
+    strangers = sorted(owners - approving)
+    return f"{' and '.join(f'`{name}`' for name in strangers)} approves nothing in this cell" if strangers else ""

@@ -12,6 +12,8 @@ from cellc.contract.diagnostics import YamlPath
 from cellc.contract.vocabulary import ReviewArea
 
 _A = ReviewArea
+TF_FRAME = "TF frame"
+"""What consumers outside the cell look up by its name, without an interface of the cell."""
 SECTIONS: Mapping[tuple[str, ...], tuple[ReviewArea, str]] = {
     ("devices",): (_A.DEVICES, "device"),
     ("managers",): (_A.CONTROL, "controller manager"),
@@ -19,7 +21,7 @@ SECTIONS: Mapping[tuple[str, ...], tuple[ReviewArea, str]] = {
     ("control", "controllers"): (_A.CONTROL, "controller"),
     ("nodes",): (_A.CONTROL, "node"),
     ("interfaces",): (_A.INTERFACES, "interface"),
-    ("frames",): (_A.FRAMES, "frame"),
+    ("frames",): (_A.FRAMES, TF_FRAME),
     ("calibrations",): (_A.CALIBRATION, "calibration"),
     ("scene",): (_A.MODEL, "obstacle"),
     ("areas",): (_A.SAFETY, "shared area"),

@@ -90,14 +90,14 @@ class Measured:
     """What the links of a device with another model weigh in kg, or how far they reach in m.
 
     Attributes:
-        weightless: of a mass, how many links with a shape have no inertia on each side.
+        counted: of a mass, how many of its links have one on each side, and of how many with a shape.
     """
 
     device: str
     quantity: str
     before: float
     after: float
-    weightless: tuple[int, int] = (0, 0)
+    counted: tuple[tuple[int, int], tuple[int, int]] = ((0, 0), (0, 0))
 
 
 def measured_of(before: Facts, after: Facts) -> Iterator[Measured]:
@@ -107,8 +107,8 @@ def measured_of(before: Facts, after: Facts) -> Iterator[Measured]:
         masses = [_mass(facts.description, links) for facts, links in sides]
         lengths = [_length(facts, each.device, links) for facts, links in sides]
         if all(masses) and abs(masses[0] - masses[1]) > _NOTICED:
-            bare = [_weightless(facts.description, links) for facts, links in sides]
-            yield Measured(each.device, MASS, round(masses[0], 3), round(masses[1], 3), (bare[0], bare[1]))
+            counted = [_counted(facts.description, links) for facts, links in sides]
+            yield Measured(each.device, MASS, round(masses[0], 3), round(masses[1], 3), (counted[0], counted[1]))
         is_tool = not is_reaching(before.contract, each.device)
         if is_tool and all(lengths) and abs(lengths[0] - lengths[1]) > _NOTICED:
             yield Measured(each.device, LENGTH, round(lengths[0], 4), round(lengths[1], 4))
@@ -127,9 +127,10 @@ def _mass(body: Description, links: Collection[str]) -> float:
     return sum(link.inertial.mass for link in body.links if link.name in links and link.inertial is not None)
 
 
-def _weightless(body: Description, links: Collection[str]) -> int:
-    shaped = [link for link in body.links if link.name in links and (link.collisions or link.visuals)]
-    return sum(link.inertial is None for link in shaped)
+def _counted(body: Description, links: Collection[str]) -> tuple[int, int]:
+    """Return how many links have a mass, and how many have one or a shape."""
+    solid = [link for link in body.links if link.name in links and (link.inertial or link.collisions or link.visuals)]
+    return sum(link.inertial is not None for link in solid), len(solid)
 
 
 def _length(facts: Facts, device: str, links: Collection[str]) -> float:

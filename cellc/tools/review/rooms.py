@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -11,15 +12,19 @@ from cellc.contract.transforms import Pose, Vector3, apart
 from cellc.robot.description.model import Box, Collision
 from cellc.tools.review.covering import covers, is_obstacle
 from cellc.tools.review.facts import Facts
+from cellc.tools.review.geometry import on_carrier
 from cellc.tools.review.leaves import Path
 from cellc.tools.review.units import length
 
-_NOTICED = 1e-6
-"""m and rad."""
+_NOTICED, _TOUCHING = 1e-6, 1e-3
+"""m and rad; m."""
 
 
 def obstacle_covers(link: str, before: Facts, after: Facts) -> bool | None:
-    """Tell whether an obstacle takes up all the room that it took; None of what is no obstacle in the same parent."""
+    """Tell whether an obstacle takes up all the room that it took, whatever its parent is; None of what is none.
+
+    Both sides are in the nearest link that moves, or in the root; of obstacles on two of these nothing is known.
+    """
     was, now = _room(link, before), _room(link, after)
     if was is None or now is None or was[0] != now[0]:
         return None
@@ -55,9 +60,54 @@ def box_difference(path: Path, before: Facts, after: Facts) -> str:
     return ", ".join(sorted(sides, key=lambda text: not text.startswith("loses")))
 
 
+def room_difference(link: str, before: Facts, after: Facts) -> str:
+    """Return what the room of an obstacle that moved gains and loses, and how far it is from what it touched.
+
+    Empty of what is no obstacle, or of one that is not a box.
+    """
+    was, now = _box(link, before), _box(link, after)
+    if was is None or now is None or was[0] != now[0]:
+        return ""
+    (_, pose, size), (_, new_pose, new_size) = was, now
+    gap = _gap(pose, size, new_pose, new_size)
+    if gap is None:
+        return ""
+    if gap > _NOTICED:
+        told = f"{length(gap)} clear of where it was"
+    else:
+        told = box_difference(("real", "shapes", link), before, after)
+    left = [
+        f"{length(far)} clear of `{other}`, which it touched"
+        for other, (near, far) in _gaps_of(link, was, now, before, after)
+        if abs(near) <= _TOUCHING and far > _TOUCHING
+    ]
+    return "; ".join(part for part in (told, *left) if part)
+
+
 def is_part_of_scene(link: str, facts: Facts) -> bool:
     """Tell whether a link collides and belongs to no device."""
     return is_obstacle(facts.description, link, [device.root_link for device in facts.contract.devices.values()])
+
+
+def _gaps_of(
+    link: str, was: _Placed, now: _Placed, before: Facts, after: Facts
+) -> Iterator[tuple[str, tuple[float, float]]]:
+    """Yield how far an obstacle was and is from each other box on the same carrier, below 0 where they overlap."""
+    for other in (each.name for each in before.description.links if each.name != link):
+        near, far = _box(other, before), _box(other, after)
+        if near is not None and far is not None and near[0] == was[0] == far[0]:
+            gaps = (_gap(*near[1:], *was[1:]), _gap(*far[1:], *now[1:]))
+            if gaps[0] is not None and gaps[1] is not None:
+                yield other, (gaps[0], gaps[1])
+
+
+def _gap(pose: Pose, size: Vector3, other: Pose, other_size: Vector3) -> float | None:
+    """Return how far two boxes are from each other along the axes of both; None of boxes that are turned apart."""
+    if apart(pose, other)[1] > _NOTICED:
+        return None
+    place = (pose.inverse() @ other).position
+    gaps = [abs(at) - (one + two) / 2 for at, one, two in zip(place, size, other_size, strict=True)]
+    return math.hypot(*(gap for gap in gaps if gap > 0.0)) if max(gaps) > 0.0 else max(gaps)
 
 
 _Placed = tuple[str, Pose, Vector3]
@@ -67,11 +117,12 @@ _Placed = tuple[str, Pose, Vector3]
 def _room(link: str, facts: Facts) -> tuple[str, Sequence[Collision]] | None:
     if not is_part_of_scene(link, facts):
         return None
-    joint = next((each for each in facts.description.joints if each.child == link), None)
+    carried = on_carrier(link, facts)
     shapes = next((each.collisions for each in facts.description.links if each.name == link), ())
-    if joint is None:
+    if carried is None:
         return None
-    return joint.parent, tuple(replace(shape, pose=joint.pose @ shape.pose) for shape in shapes)
+    carrier, pose = carried
+    return carrier, tuple(replace(shape, pose=pose @ shape.pose) for shape in shapes)
 
 
 def _box(link: str, facts: Facts) -> _Placed | None:

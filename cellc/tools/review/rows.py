@@ -165,6 +165,7 @@ _ALL: Sequence[Row] = (
     Row("real joint {joint} type", Graded(_A.MODEL, "type", Rule.DANGEROUS)),
     Row("real joint {joint} mimic ...", Graded(_A.MODEL, "mimicked joint", Rule.DANGEROUS)),
     Row("real joint {joint} safety ...", Graded(_A.LIMITS, "soft limit")),
+    Row("real joint {joint} parent", Graded(_A.MODEL, "parent in the description")),
     Row("real joint {joint} dynamics ...", Graded(_A.MODEL, "friction")),
     Row("real shapes {link} ...", Graded(_A.MODEL, "collision shapes", Rule.COVERED, why=UNAVOIDED)),
     Row("real inertia {link} mass", Graded(_A.MODEL, "mass", unit="kg")),

@@ -11,10 +11,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import get_args
 
-from cellc.contract.grading import OTHER_LOAD, Graded
+from cellc.contract.grading import LONGER, OTHER_LOAD, Graded
 from cellc.contract.review import ApprovalArea
-from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
-from cellc.tools.review.leaves import Path
+from cellc.contract.vocabulary import AttemptOutcome, GateCode, Grade, ReviewArea
+from cellc.tools.review.leaves import Leaves, Path
 
 _A = ReviewArea
 
@@ -248,6 +248,18 @@ def approval_of(path: Path) -> ApprovalArea | None:
     if path[:2] == ("contract", "approvals"):
         return next((area for area in get_args(ApprovalArea) if area == path[2]), None)
     return "safety" if path[:2] == ("contract", "devices") and path[3:5] == ("law", "joints") else None
+
+
+_STOPS = (AttemptOutcome.EMERGENCY_STOP, AttemptOutcome.PROTECTIVE_STOP)
+
+
+def is_stop_timing(row: Row, path: Path, leaves: Leaves) -> bool:
+    """Tell whether a value says how soon motion stops: a watchdog, a time to stop, a bound of a rehearsed stop.
+
+    Safety is asked of it, too.
+    """
+    is_bound = path[0] == "rehearsals" and path[2:] == ("within_s",)
+    return row.grade.why == LONGER or (is_bound and leaves.get((*path[:2], "expect")) in _STOPS)
 
 
 _G = GateCode

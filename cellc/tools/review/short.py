@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from cellc.contract.diagnostics import Severity
@@ -12,79 +12,102 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding
 from cellc.contract.vocabulary import Grade
+from cellc.tools.review.alike import alike, as_many_as_fit, fitting, line_of, rest_of
 from cellc.tools.review.carried import ENDS_ELSEWHERE
-from cellc.tools.review.compare import UNCLASSIFIED, WHOLE
-from cellc.tools.review.cutting import WIDTH, broken, cut
+from cellc.tools.review.compare import UNCLASSIFIED
+from cellc.tools.review.cutting import WIDTH, broken
 from cellc.tools.review.grading import UNMEASURED
-from cellc.tools.review.groups import NAME_OF, Group, areas_of, asked_of, broken_by, groups_of, quantities_of, values_of
-from cellc.tools.review.replaced import PAIRS
+from cellc.tools.review.groups import (
+    Group,
+    asked_of_all,
+    broken_by,
+    groups_of,
+)
 from cellc.tools.review.text import STYLES, outcomes, summed_up
 
 MOST_LINES = 25
 _FEW = 4
 _NOTES = 2
-_FEW_PAIRS = 2
-_LONG = 40
-_MOSTLY = 60
+_FINDING = "network."
+"""Lines of the spec by which nodes find each other."""
 _UNBOUNDED = 10_000
 
 _Lines: TypeAlias = list[Line]
-_Fold: TypeAlias = Callable[[str, str], list[str]]
-"""What makes lines of a text, and with what those after the first begin."""
 
 
 class _Folds(NamedTuple):
-    findings: _Fold
-    titles: _Fold
-    values: _Fold
+    """What gives way: lines of values first, then the reasons of each, then findings, then titles."""
+
+    most_findings: int
+    titles: bool
+    """Whether titles are whole."""
+    values: bool
+    """Whether lines of values are whole."""
     whole: Mapping[frozenset[str], str]
     """What several subjects are together, such as all joints of an arm."""
     reasons: bool
-    """Whether each danger has its reason, where a line of values is cut."""
+    """Whether each line of values has its reason; else the dangers of a cause have theirs together."""
 
 
 def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
     """Yield the lines of a review, at most so many, each at most as wide as a terminal.
 
-    Long ones are broken where everything has room then; else values are cut first, then findings, then titles.
+    Where everything has no room, lines of values are shorter, then several causes that are not dangerous are one line.
+    Why a change is dangerous, whose consumers it breaks and how nodes find each other is never left out.
     """
     groups = groups_of(review)
     whole = {
         frozenset(joints): f"all joints of {device}" for device, joints in review.after.joints.items() if joints[1:]
     }
     for folds in (
-        _Folds(broken, broken, broken, whole, reasons=True),
-        _Folds(broken, broken, _cut, whole, reasons=True),
-        _Folds(broken, broken, _cut, whole, reasons=False),
-        _Folds(_cut, broken, _cut, whole, reasons=False),
+        _Folds(_FEW, titles=True, values=True, whole=whole, reasons=True),
+        _Folds(_FEW, titles=True, values=False, whole=whole, reasons=True),
+        _Folds(_FEW, titles=True, values=False, whole=whole, reasons=False),
+        _Folds(_NOTES, titles=True, values=False, whole=whole, reasons=False),
     ):
         lines = _rendered(review, groups, _UNBOUNDED, folds)
         if len(lines) <= most:
             yield from lines
             return
-    yield from _rendered(review, groups, most, _Folds(_cut, _cut, _cut, whole, reasons=False))
+    for least in (_NOTES, 0):
+        folds = _Folds(least, titles=False, values=False, whole=whole, reasons=False)
+        lines = _rendered(review, groups, most, folds)
+        if len([group for group in groups if group.grade is Grade.DANGEROUS]) <= _headings(lines):
+            break
+    yield from lines
+
+
+def _headings(lines: _Lines) -> int:
+    """Return how many causes that are dangerous have a heading."""
+    return sum(_plain(line).startswith(f"{Grade.DANGEROUS.value}  ") for line in lines)
 
 
 def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
     head: _Lines = [summed_up(review), *_sides(review)]
+    if not folds.most_findings and len(one := escaped("; ".join(map(_plain, head[1:])))) <= WIDTH:
+        head = [head[0], one]
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
-    if folds.titles is _cut:
+    new, foot = [*_findings(review, folds.most_findings)], [*_foot(review)]
+    broken_names = broken_by(review.changes)
+    if not folds.titles:
         # Not every cause has room for who is asked, and for what breaks.
-        asked = asked_of(review.changes)
+        asked = asked_of_all(groups)
         head += [(Styled(text, Style.DIM),) for text in broken(f"asks {asked}", "  ") if asked]
-        head += (
-            broken(f"may break consumers of {_first_of(names)}", "  ") if (names := broken_by(review.changes)) else []
-        )
-    new, foot = [*_findings(review, folds.findings)], [*_foot(review)]
-    return [*head, *new, *_of_groups(groups, most - len(head) - len(new) - len(foot), folds), *foot]
+    body = [*_of_groups(groups, most - len(head) - len(new) - len(foot), folds)]
+    if not _are_in(broken_names, body):
+        head += broken(f"may break consumers of {', '.join(broken_names)}", "  ")
+        body = [*_of_groups(groups, most - len(head) - len(new) - len(foot), folds)]
+    return [*head, *new, *body, *foot]
 
 
-def _first_of(names: Sequence[str]) -> str:
-    return ", ".join(names[:_FEW]) + (f" and {len(names) - _FEW} more" if len(names) > _FEW else "")
+def _are_in(names: Sequence[str], lines: _Lines) -> bool:
+    """Tell whether each name is in a line that says that its consumers may break."""
+    said = " ".join(map(_plain, lines))
+    return all(name.rpartition(" of ")[2] in said and said.count("may break") for name in names)
 
 
-def _cut(text: str, _: str) -> list[str]:
-    return [cut(text)]
+def _plain(line: Line) -> str:
+    return line if isinstance(line, str) else "".join(each if isinstance(each, str) else each.text for each in line)
 
 
 def _sides(review: Review) -> Iterator[Line]:
@@ -92,109 +115,166 @@ def _sides(review: Review) -> Iterator[Line]:
         yield f"{word:7} {side.name}, {side.configuration_id}"
 
 
-def _findings(review: Review, fold: _Fold) -> Iterator[Line]:
+def _findings(review: Review, most: int) -> Iterator[Line]:
     """Yield the new findings that fail; others stand below what they follow from."""
     found = [each for each in review.new_findings if each.severity == Severity.ERROR]
     if not found:
         return
-    yield (Styled(f"new findings: {len(found)}", Style.BOLD),)
-    yield from _first_findings(found, fold)
+    codes = [] if most else [f"{each.severity}[{each.code}]" for each in found]
+    head = f"new findings: {len(found)}"
+    yield (Styled(as_many_as_fit(f"{head}, ", [*dict.fromkeys(codes)]) if codes else head, Style.BOLD),)
+    yield from _first_findings(found, most) if most else ()
 
 
-def _first_findings(found: Sequence[ReviewFinding], fold: _Fold, most: int = _FEW) -> Iterator[str]:
-    for each in found[:most]:
-        yield from fold(f"  new {each.severity}[{each.code}]: {each.message}", "    ")
-    if len(found) > most:
-        yield f"  and {len(found) - most} more new findings"
+def _first_findings(found: Sequence[ReviewFinding], most: int) -> Iterator[str]:
+    """Yield the first findings, each once: the same is found in several places, such as both ends of a topic."""
+    told = [*dict.fromkeys(f"  new {each.severity}[{each.code}]: {each.message}" for each in found)]
+    for text in told[:most]:
+        yield from broken(text, "    ")
+    if len(told) > most:
+        yield f"  and {len(told) - most} more new findings"
 
 
 def _foot(review: Review) -> Iterator[Line]:
     left = [each for each in review.new_findings if each.severity != Severity.ERROR and each.cause is None]
-    yield from _first_findings(left, _cut, _NOTES)
+    yield from _first_findings(left, _NOTES)
     if review.gone_findings:
         codes = Counter(f"{each.severity}[{each.code}]" for each in review.gone_findings)
         told = ", ".join(f"{code}{f' {number} times' if number > 1 else ''}" for code, number in codes.items())
-        yield cut(f"resolved findings: {len(review.gone_findings)}, {told}")
+        yield as_many_as_fit(f"resolved findings: {len(review.gone_findings)}, ", told.split(", "))
     differing = [each for each in review.rehearsals if each.before != each.after or each.passed_after is False]
-    yield from (cut(f"rehearsal {outcomes(each)}") for each in differing[:_FEW])
+    yield from (line for each in differing[:_FEW] for line in broken(f"rehearsal {outcomes(each)}", "  "))
     if len(differing) > _FEW:
         yield f"and {len(differing) - _FEW} more rehearsals"
     if review.gates:
-        yield cut(f"gates to repeat: {', '.join(gate.code.value for gate in review.gates)}")
+        yield f"gates to repeat: {', '.join(gate.code.value for gate in review.gates)}"
     if review.changes:
         yield (Styled("--all prints every value, finding and gate", Style.DIM),)
 
 
 def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Line]:
-    """Yield each group with what there is room for: all of them have a line before one has many."""
-    shown = groups if len(groups) <= room else groups[: room - 1]
-    titles = [_title(group, broken) for group in shown]
-    if sum(map(len, titles)) + len(shown) > room:
+    """Yield each group with what there is room for: what must be said of each comes before what else one has."""
+    titles = [_title(group, whole=True) for group in groups]
+    musts = [[*_must(group, folds), *_because(group, folds)] for group in groups]
+    if sum(map(len, (*titles, *musts))) > room:
         # What follows gives way before what a heading says.
-        titles = [_title(group, folds.titles) for group in shown]
-    left = room - sum(map(len, titles)) - (len(shown) < len(groups))
-    is_listed = folds.titles is _cut
-    wanted = [len([*_inner(group, _UNBOUNDED, folds, is_listed=is_listed)]) for group in shown]
-    for number, (group, title) in enumerate(zip(shown, titles, strict=True)):
+        titles = [_title(group, whole=folds.titles) for group in groups]
+    shown = _shown(groups, [len(title) + len(must) for title, must in zip(titles, musts, strict=True)], room)
+    rest = [group for number, group in enumerate(groups) if number not in shown]
+    left = room - sum(len(titles[number]) + len(musts[number]) for number in shown) - bool(rest)
+    wanted = [len([*_inner(groups[number], _UNBOUNDED, folds)]) - len(musts[number]) for number in shown]
+    for place, number in enumerate(shown):
         # What those behind it do not need is there for it.
-        fair = left // (len(shown) - number)
-        spare = sum(max(fair - other, 0) for other in wanted[number + 1 :])
-        share = max(fair + spare, min(left, _FEW))
-        inner = [*_inner(group, share, folds, is_listed=is_listed)]
-        left -= len(inner)
-        yield from title
+        fair = left // (len(shown) - place)
+        spare = sum(max(fair - other, 0) for other in wanted[place + 1 :])
+        share = max(fair + spare, min(left, _FEW), 0)
+        inner = [*_inner(groups[number], share + len(musts[number]), folds)]
+        left -= max(len(inner) - len(musts[number]), 0)
+        yield from titles[number]
         yield from inner
-    if len(shown) < len(groups):
-        rest = groups[len(shown) :]
+    if rest:
         changes = sum(len(group.changes) for group in rest)
-        yield f"and {count(len(rest), 'cause')} more with {count(changes, 'change')}"
+        dangers = sum(group.grade is Grade.DANGEROUS for group in rest)
+        told = f"{count(changes, 'change')}{f', {dangers} dangerous' if dangers else ''}"
+        rest.sort(key=lambda group: group.grade is not Grade.DANGEROUS and not _finds(group))
+        lines = [group.cause.line if group.cause is not None else group.title for group in rest]
+        yield as_many_as_fit(f"and {count(len(rest), 'cause')} more with {told}: ", lines)
 
 
-def _title(group: Group, fold: _Fold) -> _Lines:
+def _shown(groups: Sequence[Group], needed: Sequence[int], room: int) -> list[int]:
+    """Return the groups that have a heading: of those that are no danger, the last give way first."""
+    shown = [*range(len(groups))]
+    optional = [
+        number for number in shown if groups[number].grade is not Grade.DANGEROUS and not _finds(groups[number])
+    ]
+    for number in (*reversed(optional), *reversed(shown)):
+        if sum(needed[each] for each in shown) + (len(shown) < len(groups)) <= room or len(shown) == 1:
+            break
+        if number in shown:
+            shown.remove(number)
+    return shown
+
+
+def _finds(group: Group) -> bool:
+    """Tell whether a group says how nodes find each other."""
+    lines = [] if group.cause is None else [group.cause.line, *(value.line for value in group.cause.values)]
+    return any(line.startswith(_FINDING) or line == _FINDING.rstrip(".") for line in lines)
+
+
+def _must(group: Group, folds: _Folds) -> _Lines:
+    """Return what leads a group, however many there are: what was not measured, how nodes find each other."""
+    lines: _Lines = [line for text in group.unmeasured for line in broken(f"  {text.replace('`', '')}", "    ")]
+    cause = group.cause
+    if cause is not None and len(cause.values) > 1:
+        found = [value for value in cause.values if value.line.startswith(_FINDING)]
+        title = " ".join(map(_plain, _title(group, whole=folds.titles)))
+        told = [f"{value.line}: {value.before or 'not stated'} -> {value.after or 'not stated'}" for value in found]
+        lines += [line for text in told if text not in title for line in broken(f"  {text}", "    ")]
+    return lines
+
+
+def _because(group: Group, folds: _Folds) -> _Lines:
+    """Return why a group is dangerous, where not each of its lines says so."""
+    lines: _Lines = []
+    if not folds.reasons:
+        whys = [_why(change) for change in group.changes if change.grade is Grade.DANGEROUS]
+        said = "; ".join(dict.fromkeys(why for why in whys if why))
+        lines += broken(f"  because {said}", "    ") if said else []
+    return lines
+
+
+def _why(change: ReviewChange) -> str:
+    """Return what a change means, where no other line of its group says it."""
+    if change.why.endswith((UNMEASURED, ENDS_ELSEWHERE)):
+        return ""
+    return change.why.partition(", before ")[0].replace("`", "")
+
+
+def _title(group: Group, *, whole: bool) -> _Lines:
     grade = group.grade.value
     start = f"{grade}  "
-    text = group.title if fold is broken else f"{group.fitting(WIDTH - len(start))}"
-    first, *more = fold(start + text, "  ")
+    text = group.title if whole else f"{group.fitting(WIDTH - len(start))}"
+    first, *more = broken(start + text, "  ")
     return [(Styled(grade, STYLES[group.grade]), first[len(grade) :]), *more]
 
 
-def _inner(group: Group, most: int, folds: _Folds, *, is_listed: bool) -> Iterator[Line]:
-    """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for.
-
-    Args:
-        is_listed: who approves is listed for all groups together.
-    """
+def _inner(group: Group, most: int, folds: _Folds) -> Iterator[Line]:
+    """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for."""
+    is_listed = not folds.titles  # who approves is listed for all groups together
     changes = sorted(group.listed, key=_is_of_lines)
     asked: _Lines = (
         [(Styled(text, Style.DIM),) for text in broken(f"  asks {group.asks}", "    ")]
         if group.asks and not is_listed
         else []
     )
-    figures: _Lines = [line for text in group.unmeasured for line in broken(f"  {text.replace('`', '')}", "    ")]
-    found = [*_first_findings(group.findings, folds.findings, _NOTES)]
-    dangers = len({_said(change) for change in changes if change.grade is Grade.DANGEROUS})
+    lead, reason = _must(group, folds), _because(group, folds)
+    must = len(lead) + len(reason)
+    found = [*_first_findings(group.findings, min(folds.most_findings, _NOTES))]
     # A danger is seen before figures are.
-    lines_left = max(most - len(figures) - len(found) - len(asked) - min(dangers, _FEW) - 1, 1)
-    figures += [(Styled(line, Style.BOLD),) for line in _first_figures(group.figures, lines_left)]
+    lines_left = max(most - must - len(found) - len(asked) - bool(changes) - 1, 1)
+    figures: _Lines = [(Styled(line, Style.BOLD),) for line in _first_figures(group.figures, lines_left)]
     figures += found
     kept = broken(f"  {group.kept}", "    ")
-    figures += kept if len(figures) + len(kept) + len(asked) < most else [cut(f"  {group.kept}")][: len(kept)]
-    worst = _alike([change for change in changes if change.grade is group.grade or change.breaking])
+    whole = must + len(figures) + len(kept) + len(asked) < most
+    if kept:
+        figures += kept if whole else [as_many_as_fit("  ", group.kept.split("; "), "; ")]
+    worst = alike([change for change in changes if change.grade is group.grade or change.breaking])
     others = len(changes) - sum(map(len, worst.values()))
-    room = min(_FEW, most - len(figures) - len(asked) - (others > 0))
+    room = min(_FEW, most - must - len(figures) - len(asked) - (others > 0))
     listed = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
     reasons = set[str]()
-    lines = [*figures]
-    for text in listed:
-        lines += _values(_line(text, worst[text], folds.whole), worst[text], folds, reasons)
-        reasons.add(worst[text][0].why)
-    rest = [change for change in changes if not any(change in worst[text] for text in listed)]
-    if rest:
-        lines.append((Styled(cut(_rest(rest, group, folds.whole, is_whole=not listed)), Style.DIM),))
-    room = max(most - len(asked), 0)
-    if len(lines) > room > 0 and changes:
-        lines = [*lines[: room - 1], (Styled(cut(f"  {_listed(changes, group)}"), Style.DIM),)]
-    yield from (*_with_asks(lines[:room], group, is_listed=is_listed), *asked)[: max(most, 0)]
+    blocks = [_values(line_of(text, worst[text], folds.whole), worst[text], folds, reasons) for text in listed]
+    room = max(most - len(asked) - must, 0)
+    for number in range(len(blocks), -1, -1):
+        # A change is whole or not there.
+        rest = [change for change in changes if not any(change in worst[text] for text in listed[:number])]
+        lines: _Lines = [*figures, *(line for block in blocks[:number] for line in block)]
+        if rest:
+            lines += [(Styled(line, Style.DIM),) for line in rest_of(rest, group, folds.whole, is_whole=not number)]
+        if len(lines) <= room:
+            break
+    whole_lines = [*lead, *lines[:room], *reason]
+    yield from (*_with_asks(whole_lines, group, is_listed=is_listed), *asked)[: max(most, 0)]
 
 
 def _with_asks(lines: _Lines, group: Group, *, is_listed: bool) -> _Lines:
@@ -203,7 +283,7 @@ def _with_asks(lines: _Lines, group: Group, *, is_listed: bool) -> _Lines:
     if not is_listed or not asks or not lines:
         return lines
     last = lines[-1]
-    text = last if isinstance(last, str) else "".join(each if isinstance(each, str) else each.text for each in last)
+    text = _plain(last)
     return (
         [*lines[:-1], (last, asks) if isinstance(last, str) else (*last, asks)] if len(text + asks) <= WIDTH else lines
     )
@@ -224,82 +304,15 @@ def _is_of_lines(change: ReviewChange) -> bool:
     return change.quantity.endswith(UNCLASSIFIED) or change.quantity.startswith("file ")
 
 
-def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds, said: Collection[str]) -> list[str]:
+def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds, said: set[str]) -> list[str]:
     """Return a change with what it means where there is room for that; how much it changed is never cut.
 
     Args:
-        said: what changes above it mean.
+        said: what changes above it mean; what this one means is added.
     """
-    change, fold = changes[0], folds.values
-    why = (
-        ""
-        if change.why in said or change.why.endswith((UNMEASURED, ENDS_ELSEWHERE))
-        else change.why.partition(", before ")[0].replace("`", "")
-    )
-    is_told = folds.reasons and change.grade is not Grade.SAFE and not change.breaking
-    reason = fold(f"    because {why}", "      ") if why and is_told else []
-    if fold is broken:
-        return [*fold(line, "    "), *reason]
-    return [_fitting(line, changes, folds.whole), *reason]
-
-
-def _fitting(line: str, changes: Sequence[ReviewChange], whole: Mapping[frozenset[str], str]) -> str:
-    """Return a change in one line: whole, else by how much, else with its values or its subject, what is shorter."""
     change = changes[0]
-    head = f"{change.area}  {change.quantity}"
-    is_name = change.quantity.startswith(NAME_OF)
-    sized = [_line(f"{head} {change.delta}", changes, whole)] if change.delta and not is_name else []
-    fitting = next((escaped(each) for each in (line, *sized) if len(escaped(each)) <= WIDTH), None)
-    if fitting is not None:
-        return fitting
-    return cut(line if is_name or len(line.partition(": ")[0]) <= _MOSTLY else _line(head, changes, whole))
-
-
-def _rest(rest: Sequence[ReviewChange], group: Group, whole: Mapping[frozenset[str], str], *, is_whole: bool) -> str:
-    """Return what there is no room for: one change itself, of more those of each area, or of one area of each kind."""
-    if len(rest) == 1:
-        return _line(_said(rest[0]), rest, whole)
-    return f"  {_listed(rest, group, count(len(rest), 'change') if is_whole else f'{len(rest)} more')}"
-
-
-def _listed(changes: Sequence[ReviewChange], group: Group, head: str = "") -> str:
-    """Return how many changes there are of each area, or of one area of each kind, as many as a line has room for."""
-    head = head or count(len(changes), "change")
-    kinds = (areas_of(changes) if group.cause is not None else quantities_of(changes)).split(", ")
-    lines = (
-        f"{head}: {', '.join(kinds[:kept])}" + (f" and {len(kinds) - kept} more" if kept < len(kinds) else "")
-        for kept in range(len(kinds), 0, -1)
-    )
-    return next((line for line in lines if len(line) <= WIDTH - 2), f"{head}: {kinds[0]}")
-
-
-def _alike(changes: Sequence[ReviewChange]) -> dict[str, list[ReviewChange]]:
-    """Return changes by what is said of them: those of several subjects that changed by as much are one line."""
-    alike: dict[str, list[ReviewChange]] = {}
-    shares = Counter((change.area, change.quantity, change.delta) for change in changes if change.delta.endswith("%"))
-    for change in changes:
-        is_share = shares[change.area, change.quantity, change.delta] > 1 and not change.breaking
-        said = f"{change.area}  {change.quantity} {change.delta}" if is_share else _said(change)
-        alike.setdefault(said, []).append(change)
-    return alike
-
-
-def _said(change: ReviewChange) -> str:
-    if change.quantity.startswith(NAME_OF):
-        return f"may break {change.why}" if change.breaking else "no consumer outside the cell knows it"
-    breaks = " (may break consumers outside the cell)" if change.breaking else ""
-    if change.quantity == "frame removed":
-        return f"{change.area}  {change.quantity} (its parent was {change.before}){breaks}"
-    values = change.delta if change.delta and len(values_of(change)) > _LONG else values_of(change)
-    return f"{change.area}  {change.quantity} {values}".rstrip() + breaks
-
-
-def _line(text: str, changes: Sequence[ReviewChange], whole: Mapping[frozenset[str], str]) -> str:
-    subjects = [subject for change in changes for subject in change.subjects]
-    more = f" and {len(subjects) - 1} more" if len(subjects) > 1 else ""
-    if changes[0].quantity in PAIRS:
-        first, rest = ", ".join(subjects[:_FEW_PAIRS]), ", ..." * (len(subjects) > _FEW_PAIRS)
-        return f"  {changes[0].area}  {count(len(subjects), 'pair')} {changes[0].quantity}: {first}{rest}"
-    is_named = changes[0].quantity.startswith(NAME_OF) or subjects == [WHOLE]
-    named = whole.get(frozenset(subjects), f"{subjects[0]}{more}")
-    return f"  {text}" if is_named else f"  {text}: {named}"
+    why = "" if change.why in said else _why(change)
+    said.add(change.why)
+    is_told = folds.reasons and change.grade is not Grade.SAFE and not change.breaking
+    reason = broken(f"    because {why}", "      ") if why and is_told else []
+    return [*(broken(line, "    ") if folds.values else fitting(line, changes, folds.whole)), *reason]

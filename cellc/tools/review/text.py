@@ -8,7 +8,7 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding, ReviewGate, ReviewRehearsal
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.groups import groups_of, values_of
+from cellc.tools.review.groups import asking_of, groups_of, values_of
 
 STYLES = {Grade.DANGEROUS: Style.RED, Grade.REVIEW: Style.YELLOW, Grade.SAFE: Style.GREEN}
 _FEW = 4
@@ -25,8 +25,9 @@ def render_review(review: Review) -> Iterator[Line]:
     for group in groups_of(review):
         yield ""
         yield (Styled(group.grade.value, STYLES[group.grade]), "  ", Styled(group.title, Style.BOLD))
+        asking = asking_of(group.changes)
         for change in group.changes:
-            yield from _change(change)
+            yield from _change(change, is_asking=change in asking)
     yield from finding_lines("resolved findings", review.gone_findings)
     if review.rehearsals:
         yield ""
@@ -78,19 +79,17 @@ def gate_line(gate: ReviewGate) -> str:
 
 
 def approved_by(change: ReviewChange) -> str:
-    """Return whose approval a change needs; empty for one that is safe."""
-    if change.grade is Grade.SAFE:
-        return ""
+    """Return whose approval a change needs."""
     beside = "" if change.beside is None else f", {change.beside}: {change.beside_owner or 'no owner'}"
     return f"approval {change.approval}: {change.owner or 'no owner'}{beside}"
 
 
-def _change(change: ReviewChange) -> Iterator[Line]:
+def _change(change: ReviewChange, *, is_asking: bool) -> Iterator[Line]:
     breaking: tuple[str | Styled, ...] = ("  ", Styled("may break consumers", Style.RED)) if change.breaking else ()
     grade = Styled(change.grade.value, STYLES[change.grade])
     yield ("  ", grade, f" {change.area}  {subjects_of(change)}: {change.quantity}", *breaking)
     yield from (f"      {values}" for values in [values_of(change)] if values)
-    said = "; ".join(part for part in (change.why, approved_by(change)) if part)
+    said = "; ".join(part for part in (change.why, approved_by(change) if is_asking else "") if part)
     if said:
         yield ("      ", Styled(said, Style.DIM))
 

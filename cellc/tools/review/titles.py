@@ -9,6 +9,8 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewCause, ReviewChange, ReviewValue
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.headings import Deltas, Quote, is_act, parts_of, plain
+from cellc.tools.review.leaves import Prose
+from cellc.tools.review.units import difference
 
 _MOST = 6
 """Values of one cause that a heading names."""
@@ -86,12 +88,22 @@ def _first_parts(parts: Sequence[str], width: int) -> str:
 
 
 def _sized(value: ReviewValue, deltas: Deltas) -> str:
-    delta = deltas.get(plain(value.before, value.after))
+    delta = deltas.get(plain(value.before, value.after)) or _share(value)
     return f" ({delta})" if delta else ""
+
+
+def _share(value: ReviewValue) -> str:
+    """Return the share by which a quantity changed, where no change under the heading has its two values."""
+    if value.before is None or value.after is None:
+        return ""
+    share = difference(Prose(value.before), Prose(value.after), "")
+    return share if share.endswith("%") else ""
 
 
 def _of_several(cause: ReviewCause, line: str, quote: Quote, deltas: Deltas) -> str:
     values, where = cause.values, _places(cause.values)
+    if line == WHOLE_SPEC and len({(value.before, value.after) for value in values}) == 1 and len(values) <= _MOST:
+        return f"{', '.join(value.line for value in values)}{_change(values[0], quote)} ({where})"
     if line == WHOLE_SPEC:
         leading = f"{values[0].line}{_change(values[0], quote)} ({where_of(values[0].place)})"
         return f"{leading} and {count(len(values) - 1, 'line')} ({_places(values[1:])})"
