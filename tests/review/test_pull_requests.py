@@ -288,3 +288,15 @@ def test_a_new_name_of_a_frame_says_that_consumers_look_it_up() -> None:
     (group,) = groups_of(found)
     assert group.title.startswith("renamed: TF frame fixture_A -> nest_A (")
     assert "consumers that look up fixture_A" in _text(found)
+
+
+def test_figures_that_are_round_in_radians_are_told_in_radians() -> None:
+    # The vendor's MoveIt configuration has 5 rad/s^2 for each joint, and 180 deg/s.
+    changes = {change.quantity: change for change in review_of("ur5e_pick", _FASTER).changes}
+    assert (changes["acceleration"].before, changes["acceleration"].after) == ("2.5 rad/s^2", "3.5 rad/s^2")
+    assert (changes["velocity"].before, changes["velocity"].after) == ("90 deg/s", "108 deg/s")
+
+
+def test_nobody_is_asked_who_is_not_known() -> None:
+    (group,) = groups_of(review_of("ur5e_pick", ("network: network,", "network: UNKNOWN,")))
+    assert group.asks == "network (network), graph (integration)"

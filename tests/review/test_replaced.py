@@ -50,7 +50,7 @@ def test_another_camera_begins_with_what_it_sees() -> None:
 
 def test_a_mass_without_the_inertia_of_a_link_has_no_difference() -> None:
     told = _of_measured(Measured("arm", MASS, 21.7, 8.571, ((7, 7), (4, 7))))
-    assert (told.before, told.after, told.delta) == ("21.7 kg of 7 of 7 links", "8.571 kg of 4 of 7 links", "")
+    assert (told.before, told.after, told.delta) == ("21.7 kg (7 of 7 links)", "8.571 kg (4 of 7 links)", "")
     assert _of_measured(Measured("arm", MASS, 20.0, 25.0)).delta == "+25 %"
 
 

@@ -61,7 +61,7 @@ def _of_measured(each: Measured) -> Change:
     unit, area = ("kg", ReviewArea.PAYLOAD) if each.quantity == MASS else ("m", ReviewArea.MODEL)
     is_whole = all(massive == shaped for massive, shaped in each.counted)
     was, now = (
-        f"{shown(value, unit)}{'' if is_whole else f' of {massive} of {count(shaped, _LINK)}'}"
+        f"{shown(value, unit)}{'' if is_whole else f' ({massive} of {count(shaped, _LINK)})'}"
         for value, (massive, shaped) in zip((each.before, each.after), each.counted, strict=True)
     )
     delta = difference(each.before, each.after, unit) if is_whole else ""

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from cellc.contract.review import ReviewChange
+from cellc.contract.vocabulary import UNKNOWN
 from cellc.tools.review.change import Change
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.order import order_of
@@ -31,7 +32,9 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     """Return who approves: who did before the change, so that none chooses whom to ask; who is new beside them."""
     were, are = before.contract.approvals, after.contract.approvals
     return {
-        area: " and ".join(dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner))
+        area: " and ".join(
+            dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner not in ("", UNKNOWN))
+        )
         for area in {*were, *are}
     } | {_RECOVERY: str(before.leaves.get(("spec", "safety", *_RECOVERY.split()), ""))}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 from cellc.contract.transforms import Pose, apart
 from cellc.tools.review.leaves import Leaf, Prose, said
@@ -25,13 +25,34 @@ def shown_both(
     wanted: tuple[Collection[str], Collection[str]] = ((), ()),
 ) -> tuple[str | None, str | None]:
     """Return two values with their units, each as a person wrote it, with few digits where these tell them apart."""
+    in_unit = [
+        _as_written(leaves, unit, each)
+        for leaves, unit, each in zip(((before, after),) * 2, units, wanted, strict=True)
+    ]
     few, all_digits = (
-        (shown(before, units[0], wanted[0], digits), shown(after, units[1], wanted[1], digits))
+        (shown(before, units[0], in_unit[0], digits), shown(after, units[1], in_unit[1], digits))
         for digits in (_LEGIBLE, _EVERY)
     )
     return all_digits if few[0] == few[1] else few
 
 
+def _as_written(leaves: Sequence[Leaf | None], unit: str, wanted: Collection[str]) -> Collection[str]:
+    """Return the units that are wanted, with that of SI where figures are round in it alone: so a vendor has them."""
+    figures = [float(leaf) for leaf in leaves if isinstance(leaf, (int, float)) and not isinstance(leaf, bool)]
+    if (
+        unit not in _OF_TURNS
+        or not figures
+        or any(UNITS[each][0] == UNITS[unit][0] for each in wanted if each in UNITS)
+    ):
+        return wanted
+    is_round = all(math.isclose(_rounded(figure), figure, rel_tol=1e-9) for figure in figures)
+    degrees = map(math.degrees, figures)
+    return (
+        wanted if not is_round or all(math.isclose(_rounded(f), f, rel_tol=1e-9) for f in degrees) else {*wanted, unit}
+    )
+
+
+_OF_TURNS = ("rad/s", "rad/s^2", "rad/s^3")
 _LEGIBLE, _EVERY = 5, 7
 """Digits of a figure that people compare, and of any other."""
 
