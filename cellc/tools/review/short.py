@@ -24,6 +24,7 @@ from cellc.tools.review.groups import (
     groups_of,
 )
 from cellc.tools.review.text import STYLES, outcomes, summed_up
+from cellc.tools.review.titles import WHOLE_SPEC
 
 MOST_LINES = 25
 _FEW = 4
@@ -159,9 +160,10 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
     if sum(map(len, (*titles, *musts))) > room:
         # What follows gives way before what a heading says.
         titles = [_title(group, whole=folds.titles) for group in groups]
-    shown = _shown(groups, [len(title) + len(must) for title, must in zip(titles, musts, strict=True)], room)
-    rest = [group for number, group in enumerate(groups) if number not in shown]
-    left = room - sum(len(titles[number]) + len(musts[number]) for number in shown) - bool(rest)
+    needed = [len(title) + len(must) for title, must in zip(titles, musts, strict=True)]
+    shown = _shown(groups, needed, room)
+    rest = _rest_of([group for number, group in enumerate(groups) if number not in shown])
+    left = room - sum(len(titles[number]) + len(musts[number]) for number in shown) - len(rest)
     wanted = [len([*_inner(groups[number], _UNBOUNDED, folds)]) - len(musts[number]) for number in shown]
     for place, number in enumerate(shown):
         # What those behind it do not need is there for it.
@@ -172,13 +174,38 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
         left -= max(len(inner) - len(musts[number]), 0)
         yield from titles[number]
         yield from inner
-    if rest:
-        changes = sum(len(group.changes) for group in rest)
-        dangers = sum(group.grade is Grade.DANGEROUS for group in rest)
-        told = f"{count(changes, 'change')}{f', {dangers} dangerous' if dangers else ''}"
-        rest.sort(key=lambda group: group.grade is not Grade.DANGEROUS and not _finds(group))
-        lines = [group.cause.line if group.cause is not None else group.title for group in rest]
-        yield as_many_as_fit(f"and {count(len(rest), 'cause')} more with {told}: ", lines)
+    yield from rest
+
+
+def _rest_of(groups: Sequence[Group]) -> Sequence[str]:
+    """Return groups that have no heading: why each is dangerous, how nodes find each other, and the names of others."""
+    dangers = [group for group in groups if group.grade is Grade.DANGEROUS]
+    finding = [group for group in groups if group not in dangers and _finds(group)]
+    others = [group for group in groups if group not in (*dangers, *finding)]
+    lines = list[str]()
+    if dangers:
+        told = [f"{_named(group)}: {'; '.join(_whys(group)) or group.fitting(WIDTH)}" for group in dangers]
+        lines += broken(f"{Grade.DANGEROUS.value}  also {'; '.join(told)}", "  ")
+    if finding:
+        lines += broken(f"also {'; '.join(group.fitting(WIDTH) for group in finding)}", "  ")
+    if others:
+        changes = count(sum(len(group.changes) for group in others), "change")
+        head = f"and {count(len(others), 'cause')} more with {changes}: "
+        lines.append(as_many_as_fit(head, [*map(_named, others)]))
+    return lines
+
+
+def _named(group: Group) -> str:
+    """Return the line of a group; of lines that have nothing in common, the first."""
+    if group.cause is None:
+        return group.title
+    return group.cause.values[0].line if group.cause.line == WHOLE_SPEC else group.cause.line
+
+
+def _whys(group: Group) -> Sequence[str]:
+    """Return why a group is dangerous, each reason once."""
+    whys = [*group.unmeasured, *(_why(change) for change in group.changes if change.grade is Grade.DANGEROUS)]
+    return tuple(dict.fromkeys(why.replace("`", "") for why in whys if why))
 
 
 def _shown(groups: Sequence[Group], needed: Sequence[int], room: int) -> list[int]:
@@ -188,7 +215,8 @@ def _shown(groups: Sequence[Group], needed: Sequence[int], room: int) -> list[in
         number for number in shown if groups[number].grade is not Grade.DANGEROUS and not _finds(groups[number])
     ]
     for number in (*reversed(optional), *reversed(shown)):
-        if sum(needed[each] for each in shown) + (len(shown) < len(groups)) <= room or len(shown) == 1:
+        rest = _rest_of([group for each, group in enumerate(groups) if each not in shown])
+        if sum(needed[each] for each in shown) + len(rest) <= room or len(shown) == 1:
             break
         if number in shown:
             shown.remove(number)
