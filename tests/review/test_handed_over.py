@@ -19,7 +19,7 @@ def _told(found: Review) -> set[tuple[str, str]]:
 
 def test_owner_of_the_recovery_is_told_beside_an_approver_who_goes_to_the_same_people() -> None:
     found = review_of("ur5e_pick", APPROVER, ("owner: safety, observer", "owner: integration, observer"))
-    assert _told(found) == {("dangerous", "approver of safety changes"), ("review", "recovery owner")}
+    assert _told(found) == {("dangerous", "approver of safety changes"), ("review", "owner of the recovery")}
 
 
 @pytest.mark.parametrize("name", ["physical_stop", "vendor_safety"])

@@ -15,7 +15,7 @@ from cellc.tools.review.replaced import PAIRS
 
 _LONG = 40
 _LINES = 3
-"""Lines that a change may take that breaks nobody."""
+"""Lines that a change may take that breaks no consumer."""
 
 
 def as_many_as_fit(head: str, items: Sequence[str], joint: str = ", ") -> str:

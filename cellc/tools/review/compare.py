@@ -221,7 +221,7 @@ def _with_matrix(change: Change, pins: Mapping[str, Delta], before: Facts, after
     if delta is None:
         return change
     verdict = grade(Rule.MATRIX, delta, before, after)
-    # A pin that nobody knew takes nothing away where the matrix does not know it either.
+    # A pin that was not known takes nothing away where the matrix does not know it either.
     is_known_now = change.before == UNKNOWN and verdict.grade is not Grade.DANGEROUS
     worse = change.grade if is_known_now else max(change.grade, verdict.grade, key=tuple(Grade).index)
     was, now = (shown(leaf, "") or "nothing" for leaf in (delta.before, delta.after))

@@ -51,7 +51,7 @@ _OF_PEOPLE = (("contract", "approvals"), ("contract", "responsibilities"))
 
 
 def _is_only_known(rule: Rule, delta: Delta) -> bool:
-    """Tell whether a value that nobody knew is stated now, and nothing else: what it was is the same."""
+    """Tell whether a value that was not known is stated now, and nothing else: what it was is the same."""
     is_known = rule in _KNOWN or delta.path[:2] in _OF_PEOPLE
     return is_known and _is_unknown(delta.before) and not _is_unknown(delta.after) and delta.after is not None
 

@@ -105,9 +105,13 @@ def as_held(why: str, device: str, contract: Contract) -> str:
     return "the springs of the joints hold another load: the arm droops by another amount"
 
 
+_RESPONSIBLE = ("contract", "responsibilities")
+
+
 def owner_without_approval(deltas: Sequence[Delta], sides: tuple[Facts, Facts]) -> str:
     """Return that a new owner approves nothing in the cell, so that changes of it ask somebody else; else nothing."""
-    owners = {str(delta.after) for delta in deltas if delta.path[-1] == "owner" and delta.after not in (None, UNKNOWN)}
+    named = [delta for delta in deltas if delta.path[-1] == "owner" or delta.path[:2] == _RESPONSIBLE]
+    owners = {str(delta.after) for delta in named if delta.after not in (None, UNKNOWN)}
     approving = {owner for side in sides for owner in side.contract.approvals.values()}
     strangers = sorted(owners - approving)
     return f"{' and '.join(f'`{name}`' for name in strangers)} approves nothing in this cell" if strangers else ""

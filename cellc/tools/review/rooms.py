@@ -21,7 +21,7 @@ _NOTICED, _TOUCHING = 1e-6, 1e-3
 
 
 def obstacle_covers(link: str, before: Facts, after: Facts) -> bool | None:
-    """Tell whether an obstacle takes up all the room that it took, whatever its parent is; None of what is none.
+    """Tell whether an obstacle takes up all the room that it took, whatever its parent is; None of anything else.
 
     Both sides are in the nearest link that moves, or in the root; of obstacles on two of these nothing is known.
     """

@@ -116,7 +116,7 @@ _ALL: Sequence[Row] = (
         )
     ),
     Row("spec safety recovery states", Graded(_A.SAFETY, "states that need recovery", Rule.LOST, ordered=False)),
-    Row("spec safety recovery owner", Graded(_A.SAFETY, "recovery owner", Rule.NAMED)),
+    Row("spec safety recovery owner", Graded(_A.SAFETY, f"{HANDED}the recovery", Rule.NAMED)),
     Row("spec safety recovery observer", Graded(_A.SAFETY, "recovery observer", Rule.NAMED)),
     *_DECLARED,
     # What stops, and what happens then.
