@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from cellc.compiler.pipeline import check
@@ -10,6 +12,7 @@ from cellc.contract.review import Review
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.groups import groups_of
 from cellc.tools.review.leaves import Leaves
+from cellc.tools.review.markdown import render_markdown
 from cellc.tools.review.review import review
 from cellc.tools.review.short import MOST_LINES, render_short
 from cellc.tools.review.sides import package_of
@@ -300,3 +303,16 @@ def test_figures_that_are_round_in_radians_are_told_in_radians() -> None:
 def test_nobody_is_asked_who_is_not_known() -> None:
     (group,) = groups_of(review_of("ur5e_pick", ("network: network,", "network: UNKNOWN,")))
     assert group.asks == "network (network), graph (integration)"
+
+
+def test_a_comment_shows_each_danger_with_its_reason_and_who_is_broken_unfolded() -> None:
+    found = review_of("ur5e_pick", *_MANY)
+    unfolded = re.sub(r"<details>.*?</details>", "", render_markdown(found).replace("`", ""), flags=re.DOTALL)
+    dangers = [group for group in groups_of(found) if group.grade is Grade.DANGEROUS]
+    assert len(dangers) > 6
+    assert unfolded.count("**dangerous**") == len(dangers)
+    for group in dangers:
+        assert all(why in unfolded for why in group.whys), group.title
+    assert "may break consumers of /object_pose" in unfolded
+    (summary,) = re.findall(r"<summary>(\d+ causes more with .*)</summary>", render_markdown(found))
+    assert ": `network.discovery`, " in summary

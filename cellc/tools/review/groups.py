@@ -16,7 +16,7 @@ from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.headings import Deltas, Quote, farthest, is_act, moves_of, plain
 from cellc.tools.review.order import order_of
 from cellc.tools.review.replaced import LENGTH, MASS, PAIRS
-from cellc.tools.review.titles import leading_first, shortest_of, title_of, where_of
+from cellc.tools.review.titles import WHOLE_SPEC, leading_first, shortest_of, title_of, where_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
 _SEEN = tuple(f"{what} of {of}" for of in ("depth", "color") for what in ("range", "field of view", "resolution"))
@@ -140,6 +140,25 @@ class Group:
         return tuple(dict.fromkeys(told))
 
     @property
+    def whys(self) -> tuple[str, ...]:
+        """Why it is dangerous, each reason once, beside what was not measured."""
+        told = [why_of(change) for change in self.changes if change.grade is Grade.DANGEROUS]
+        return tuple(dict.fromkeys(why for why in told if why))
+
+    @property
+    def finds(self) -> bool:
+        """Whether it says how nodes find each other."""
+        lines = [] if self.cause is None else [self.cause.line, *(value.line for value in self.cause.values)]
+        return any(line.startswith(FINDING) for line in lines)
+
+    @property
+    def name(self) -> str:
+        """The line of the spec, of lines that have nothing in common the first; or the area."""
+        if self.cause is None:
+            return self.title
+        return self.cause.values[0].line if self.cause.line == WHOLE_SPEC else self.cause.line
+
+    @property
     def kept(self) -> str:
         """What the spec states for the model before, and was left as it was."""
         return "" if self.cause is None or not self.cause.kept else f"left as it was: {'; '.join(self.cause.kept)}"
@@ -197,6 +216,17 @@ _FOLLOWING = (
 """What only follows from another change, whose owner is asked."""
 _ASKED_OF_SAFE = (ReviewArea.LIMITS, ReviewArea.SAFETY)
 """What has an owner to ask even where it is stricter than it was."""
+
+
+FINDING = "network"
+"""How the lines of a spec begin by which nodes find each other."""
+
+
+def why_of(change: ReviewChange) -> str:
+    """Return what a change means, where no other line of its group says it."""
+    if change.why.endswith((UNMEASURED, ENDS_ELSEWHERE)):
+        return ""
+    return change.why.partition(", before ")[0].replace("`", "")
 
 
 def _asks(change: ReviewChange) -> bool:

@@ -16,14 +16,14 @@ from cellc.contract.diagnostics.unsafe_text import harmless_line
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import Review, ReviewChange, ReviewFinding
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.groups import Group, grades_of, groups_of
+from cellc.tools.review.groups import Group, broken_by, grades_of, groups_of
 from cellc.tools.review.text import gate_line, outcomes, subjects_of, summed_up
 
 LONGEST = 65_000
 _LONGEST_CELL = 300
 _OPEN_GROUPS = 6
 """Groups that have a line of their own; the others fold up under one, so that 25 lines show the comment."""
-_OPEN_FINDINGS = 4
+_OPEN_FINDINGS = _NAMED = 4
 _PLAIN = re.compile(r"[-+]?[0-9]{1,6}(?:[.-][0-9]{1,6})*%?|[A-Za-z]{1,30}|->|[-+%]|")
 """Words that no reader of Markdown takes for anything else."""
 _CODE = re.compile(r"(?<![^\s(])`([^`\s][^`]*)`(?![^\s.,;:)])")
@@ -39,22 +39,28 @@ def render_markdown(review: Review, longest: int = LONGEST) -> str:
     head, tail = [*_head(review)], [*_tail(review)]
     room = longest - _length(head) - _length(tail) - 300
     groups = groups_of(review)
+    # The worst are first: none of those that are dangerous folds up.
+    opened = max(_OPEN_GROUPS, sum(group.grade is Grade.DANGEROUS for group in groups))
     shown, left = list[str](), 0
     for number, group in enumerate(groups):
-        if number == _OPEN_GROUPS:
-            rest = sum(len(each.changes) for each in groups[number:])
-            shown += [
-                f"<details><summary>{count(len(groups) - number, 'cause')} more with {count(rest, 'change')}</summary>",
-                "",
-            ]
+        if number == opened:
+            shown += [f"<details><summary>{_more(groups[number:])}</summary>", ""]
         section, over = _of_group(group, room - _length(shown))
         shown += section
         left += over
-    shown += ["</details>", ""] if len(groups) > _OPEN_GROUPS else []
+    shown += ["</details>", ""] if len(groups) > opened else []
     note = [f"**{left} more changes do not fit into a comment; `cellc diff --all` prints them.**", ""] if left else []
     text = "\n".join([*head, *shown, *note, *tail]).rstrip("\n") + "\n"
     # A line is whole or not there: what is cut off in the middle of code is no code any more.
     return text if len(text) <= longest else text[: text.rfind("\n", 0, longest) + 1]
+
+
+def _more(groups: Sequence[Group]) -> str:
+    """Return how many groups fold up, with the names of some: first of those by which nodes find each other."""
+    changes = count(sum(len(group.changes) for group in groups), "change")
+    names = [group.name for group in sorted(groups, key=lambda group: not group.finds)]
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    return f"{count(len(groups), 'cause')} more with {changes}: {', '.join(map(as_code, names[:_NAMED]))}{more}"
 
 
 def _length(lines: Iterable[str]) -> int:
@@ -67,6 +73,9 @@ def _head(review: Review) -> Iterator[str]:
     yield f"{as_code(review.before.name)} ({as_code(review.before.configuration_id)}) → "
     yield f"{as_code(review.after.name)} ({as_code(review.after.configuration_id)})"
     yield ""
+    if broken := broken_by(review.changes):
+        yield f"may break consumers of {', '.join(map(as_prose, broken))}"
+        yield ""
     yield from _found(
         "New findings that fail", [each for each in review.new_findings if each.severity == Severity.ERROR]
     )
@@ -84,9 +93,10 @@ def _of_group(group: Group, room: int) -> tuple[list[str], int]:
     """Return the lines of a group, and how many of its changes have no room."""
     unmeasured = "".join(f"; **{as_prose(told)}**" for told in group.unmeasured)
     figures = f": {as_prose('; '.join(group.figures))}" if group.figures else ""
+    why = f"; because {as_prose('; '.join(group.whys))}" if group.whys else ""
     asks = f"; asks {as_prose(group.asks)}" if group.asks else ""
     lines = [
-        f"**{group.grade}** {as_prose(group.marked)}{unmeasured}{figures}",
+        f"**{group.grade}** {as_prose(group.marked)}{unmeasured}{figures}{why}",
         f"<details><summary>{', '.join(grades_of(group.changes))}</summary>",
         "",
         *([asks[2:], ""] if asks else []),

@@ -13,24 +13,14 @@ from cellc.contract.printing import Line, Style, Styled
 from cellc.contract.review import Review, ReviewChange, ReviewFinding
 from cellc.contract.vocabulary import Grade
 from cellc.tools.review.alike import alike, as_many_as_fit, fitting, line_of, rest_of
-from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.compare import UNCLASSIFIED
 from cellc.tools.review.cutting import WIDTH, broken
-from cellc.tools.review.grading import UNMEASURED
-from cellc.tools.review.groups import (
-    Group,
-    asked_of_all,
-    broken_by,
-    groups_of,
-)
+from cellc.tools.review.groups import FINDING, Group, asked_of_all, broken_by, groups_of, why_of
 from cellc.tools.review.text import STYLES, outcomes, summed_up
-from cellc.tools.review.titles import WHOLE_SPEC
 
 MOST_LINES = 25
 _FEW = 4
 _NOTES = 2
-_FINDING = "network."
-"""Lines of the spec by which nodes find each other."""
 _UNBOUNDED = 10_000
 
 _Lines: TypeAlias = list[Line]
@@ -180,40 +170,26 @@ def _of_groups(groups: Sequence[Group], room: int, folds: _Folds) -> Iterator[Li
 def _rest_of(groups: Sequence[Group]) -> Sequence[str]:
     """Return groups that have no heading: why each is dangerous, how nodes find each other, and the names of others."""
     dangers = [group for group in groups if group.grade is Grade.DANGEROUS]
-    finding = [group for group in groups if group not in dangers and _finds(group)]
+    finding = [group for group in groups if group not in dangers and group.finds]
     others = [group for group in groups if group not in (*dangers, *finding)]
     lines = list[str]()
     if dangers:
-        told = [f"{_named(group)}: {'; '.join(_whys(group)) or group.fitting(WIDTH)}" for group in dangers]
+        whys = [(*(text.replace("`", "") for text in group.unmeasured), *group.whys) for group in dangers]
+        told = [f"{group.name}: {'; '.join(why)}" for group, why in zip(dangers, whys, strict=True)]
         lines += broken(f"{Grade.DANGEROUS.value}  also {'; '.join(told)}", "  ")
     if finding:
         lines += broken(f"also {'; '.join(group.fitting(WIDTH) for group in finding)}", "  ")
     if others:
         changes = count(sum(len(group.changes) for group in others), "change")
         head = f"and {count(len(others), 'cause')} more with {changes}: "
-        lines.append(as_many_as_fit(head, [*map(_named, others)]))
+        lines.append(as_many_as_fit(head, [group.name for group in others]))
     return lines
-
-
-def _named(group: Group) -> str:
-    """Return the line of a group; of lines that have nothing in common, the first."""
-    if group.cause is None:
-        return group.title
-    return group.cause.values[0].line if group.cause.line == WHOLE_SPEC else group.cause.line
-
-
-def _whys(group: Group) -> Sequence[str]:
-    """Return why a group is dangerous, each reason once."""
-    whys = [*group.unmeasured, *(_why(change) for change in group.changes if change.grade is Grade.DANGEROUS)]
-    return tuple(dict.fromkeys(why.replace("`", "") for why in whys if why))
 
 
 def _shown(groups: Sequence[Group], needed: Sequence[int], room: int) -> list[int]:
     """Return the groups that have a heading: of those that are no danger, the last give way first."""
     shown = [*range(len(groups))]
-    optional = [
-        number for number in shown if groups[number].grade is not Grade.DANGEROUS and not _finds(groups[number])
-    ]
+    optional = [number for number in shown if groups[number].grade is not Grade.DANGEROUS and not groups[number].finds]
     for number in (*reversed(optional), *reversed(shown)):
         rest = _rest_of([group for each, group in enumerate(groups) if each not in shown])
         if sum(needed[each] for each in shown) + len(rest) <= room or len(shown) == 1:
@@ -223,18 +199,12 @@ def _shown(groups: Sequence[Group], needed: Sequence[int], room: int) -> list[in
     return shown
 
 
-def _finds(group: Group) -> bool:
-    """Tell whether a group says how nodes find each other."""
-    lines = [] if group.cause is None else [group.cause.line, *(value.line for value in group.cause.values)]
-    return any(line.startswith(_FINDING) or line == _FINDING.rstrip(".") for line in lines)
-
-
 def _must(group: Group, folds: _Folds) -> _Lines:
     """Return what leads a group, however many there are: what was not measured, how nodes find each other."""
     lines: _Lines = [line for text in group.unmeasured for line in broken(f"  {text.replace('`', '')}", "    ")]
     cause = group.cause
     if cause is not None and len(cause.values) > 1:
-        found = [value for value in cause.values if value.line.startswith(_FINDING)]
+        found = [value for value in cause.values if value.line.startswith(FINDING)]
         title = " ".join(map(_plain, _title(group, whole=folds.titles)))
         told = [f"{value.line}: {value.before or 'not stated'} -> {value.after or 'not stated'}" for value in found]
         lines += [line for text in told if text not in title for line in broken(f"  {text}", "    ")]
@@ -243,19 +213,7 @@ def _must(group: Group, folds: _Folds) -> _Lines:
 
 def _because(group: Group, folds: _Folds) -> _Lines:
     """Return why a group is dangerous, where not each of its lines says so."""
-    lines: _Lines = []
-    if not folds.reasons:
-        whys = [_why(change) for change in group.changes if change.grade is Grade.DANGEROUS]
-        said = "; ".join(dict.fromkeys(why for why in whys if why))
-        lines += broken(f"  because {said}", "    ") if said else []
-    return lines
-
-
-def _why(change: ReviewChange) -> str:
-    """Return what a change means, where no other line of its group says it."""
-    if change.why.endswith((UNMEASURED, ENDS_ELSEWHERE)):
-        return ""
-    return change.why.partition(", before ")[0].replace("`", "")
+    return [] if folds.reasons or not group.whys else [*broken(f"  because {'; '.join(group.whys)}", "    ")]
 
 
 def _title(group: Group, *, whole: bool) -> _Lines:
@@ -339,7 +297,7 @@ def _values(line: str, changes: Sequence[ReviewChange], folds: _Folds, said: set
         said: what changes above it mean; what this one means is added.
     """
     change = changes[0]
-    why = "" if change.why in said else _why(change)
+    why = "" if change.why in said else why_of(change)
     said.add(change.why)
     is_told = folds.reasons and change.grade is not Grade.SAFE and not change.breaking
     reason = broken(f"    because {why}", "      ") if why and is_told else []
