@@ -316,3 +316,15 @@ def test_a_comment_shows_each_danger_with_its_reason_and_who_is_broken_unfolded(
     assert "may break consumers of /object_pose" in unfolded
     (summary,) = re.findall(r"<summary>(\d+ causes more with .*)</summary>", render_markdown(found))
     assert ": `network.discovery`, " in summary
+
+
+def test_a_danger_that_is_in_its_heading_alone_has_its_reason() -> None:
+    found = review_of("ur5e_pick", ("samples: 8, residual: 0.4 mm", "samples: 8, residual: 0.9 mm"))
+    assert found.worst() is Grade.DANGEROUS
+    assert "  because the same measurement is said to be less exact" in _screen(found)
+
+
+def test_versions_that_do_not_work_together_are_not_said_to_be_unknown() -> None:
+    whys = {change.why for change in review_of_any("ur5e_pick", ("ros: jazzy", "ros: kilted")).changes if change.why}
+    assert "the matrix says that these versions do not work together" in whys
+    assert not [why for why in whys if "nothing says any more" in why]

@@ -74,6 +74,8 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return Verdict(_compared(delta, after))
     if rule is Rule.MEASURED:
         return _of_measurement(delta, before, after)
+    if rule is Rule.MATRIX and (taken := _matrix(delta.before, delta.after)) is Grade.DANGEROUS:
+        return Verdict(taken, "the matrix says that these versions do not work together")
     if rule in _OF_BOTH_SIDES:
         return _OF_BOTH_SIDES[rule](delta, before, after)
     return Verdict(_GRADES[rule](delta.before, delta.after), approval=approval_of(delta.path))

@@ -259,8 +259,15 @@ def _inner(group: Group, most: int, folds: _Folds) -> Iterator[Line]:
             lines += [(Styled(line, Style.DIM),) for line in rest_of(rest, group, folds.whole, is_whole=not number)]
         if len(lines) <= room:
             break
-    whole_lines = [*lead, *lines[:room], *reason]
+    whole_lines = [*lead, *lines[:room], *(reason or _unsaid(group, lines))]
     yield from (*_with_asks(whole_lines, group, is_listed=is_listed), *asked)[: max(most, 0)]
+
+
+def _unsaid(group: Group, lines: _Lines) -> Sequence[str]:
+    """Return why a group is dangerous where no line says so: what changed is in its heading, or one of many."""
+    said = " ".join(_plain(line).strip() for line in lines)
+    whys = [why for why in group.whys if escaped(why) not in said]
+    return broken(f"  because {'; '.join(whys)}", "    ") if whys else []
 
 
 def _with_asks(lines: _Lines, group: Group, *, is_listed: bool) -> _Lines:
