@@ -310,8 +310,9 @@ def test_a_comment_shows_each_danger_with_its_reason_and_who_is_broken_unfolded(
     unfolded = re.sub(r"<details>.*?</details>", "", render_markdown(found).replace("`", ""), flags=re.DOTALL)
     dangers = [group for group in groups_of(found) if group.grade is Grade.DANGEROUS]
     assert len(dangers) > 6
-    assert unfolded.count("**dangerous**") == len(dangers)
+    assert len([line for line in unfolded.splitlines() if line]) <= MOST_LINES
     for group in dangers:
+        assert group.name in unfolded
         assert all(why in unfolded for why in group.whys), group.title
     assert "may break consumers of /object_pose" in unfolded
     (summary,) = re.findall(r"<summary>(\d+ causes more with .*)</summary>", render_markdown(found))

@@ -39,20 +39,31 @@ def render_markdown(review: Review, longest: int = LONGEST) -> str:
     head, tail = [*_head(review)], [*_tail(review)]
     room = longest - _length(head) - _length(tail) - 300
     groups = groups_of(review)
-    # The worst are first: none of those that are dangerous folds up.
-    opened = max(_OPEN_GROUPS, sum(group.grade is Grade.DANGEROUS for group in groups))
     shown, left = list[str](), 0
     for number, group in enumerate(groups):
-        if number == opened:
+        if number == _OPEN_GROUPS:
+            shown += _dangers(groups[number:])
             shown += [f"<details><summary>{_more(groups[number:])}</summary>", ""]
         section, over = _of_group(group, room - _length(shown))
         shown += section
         left += over
-    shown += ["</details>", ""] if len(groups) > opened else []
+    shown += ["</details>", ""] if len(groups) > _OPEN_GROUPS else []
     note = [f"**{left} more changes do not fit into a comment; `cellc diff --all` prints them.**", ""] if left else []
     text = "\n".join([*head, *shown, *note, *tail]).rstrip("\n") + "\n"
     # A line is whole or not there: what is cut off in the middle of code is no code any more.
     return text if len(text) <= longest else text[: text.rfind("\n", 0, longest) + 1]
+
+
+def _dangers(groups: Sequence[Group]) -> Iterator[str]:
+    """Yield why groups are dangerous that fold up: that is always seen."""
+    told = [
+        f"{as_code(group.name)}: {'; '.join(map(as_prose, (*group.unmeasured, *group.whys)))}"
+        for group in groups
+        if group.grade is Grade.DANGEROUS
+    ]
+    if told:
+        yield f"**{Grade.DANGEROUS}** also {'; '.join(told)}"
+        yield ""
 
 
 def _more(groups: Sequence[Group]) -> str:

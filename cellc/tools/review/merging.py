@@ -33,8 +33,9 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
     were, are = before.contract.approvals, after.contract.approvals
     return {
         area: " and ".join(
-            dict.fromkeys(owner for owner in (were.get(area, ""), are.get(area, "")) if owner not in ("", UNKNOWN))
+            owner for owner in dict.fromkeys((were.get(area, ""), are.get(area, ""))) if owner and owner != UNKNOWN
         )
+        or were.get(area, "")
         for area in {*were, *are}
     } | {_RECOVERY: str(before.leaves.get(("spec", "safety", *_RECOVERY.split()), ""))}
 
