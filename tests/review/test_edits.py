@@ -137,7 +137,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz -133.3 491.9 1114.9 mm, rpy 180 0 -90 deg | moves 721 mm, turns 90 deg",
             "review network | control_pc | ROS_DOMAIN_ID | 42 -> 43 | breaks",
-            f"safe limits | {ARM} | acceleration | 143.24 deg/s^2 -> 114.59 deg/s^2 | -20 %",
+            f"safe limits | {ARM} | acceleration | 2.5 rad/s^2 -> 2 rad/s^2 | -20 %",
         ],
     ),
     "what it is made of": (
