@@ -71,6 +71,7 @@ class Plant:
         cameras: by device.
         perceptions: by the dynamic frame that they publish.
         arrivals: at goals, with how near each really was.
+        lifecycles: states of managed nodes by full name, as far as a bring-up has asked them for transitions.
     """
 
     contract: Contract
@@ -93,6 +94,7 @@ class Plant:
     cameras: dict[str, Camera] = field(default_factory=dict)
     perceptions: dict[str, Perception] = field(default_factory=dict)
     arrivals: list[Arrival] = field(default_factory=list)
+    lifecycles: dict[str, str] = field(default_factory=dict)
 
     @property
     def now_ns(self) -> int:

@@ -37,7 +37,7 @@ class Proofs:
     def __init__(self, plant: Plant) -> None:
         """Bind the plant; every managed node is unconfigured."""
         self._plant = plant
-        self._states: dict[str, str] = {}
+        self._states = plant.lifecycles
         contract = plant.contract
         self.managers = {f"{entry.namespace}/controller_manager": name for name, entry in contract.managers.items()}
         self._plugins = frozenset(

@@ -53,7 +53,7 @@ def replay_runs(options: ReplayOptions) -> int:
     """Run some runs of a campaign alone; they end as they did in it, to the last bit."""
 
     def named_runs(plan: CampaignPlan) -> Sequence[CampaignRun]:
-        return [_found(plan, identifier) for identifier in dict.fromkeys(options.runs)]
+        return [_found(cell, plan, identifier) for identifier in dict.fromkeys(options.runs)]
 
     cell = load_seeded(options)
     campaign = _conduct(cell, named_runs, replace(options, fan=Fan(jobs=1)))
@@ -145,10 +145,14 @@ def _seen(cell: MockCell, runs: Sequence[CampaignRun], asked: AmongNodes | None)
     return [run for run in runs if any(concerns(contract, without, fault) for fault in run.entry.faults)]
 
 
-def _found(plan: CampaignPlan, identifier: str) -> CampaignRun:
+def _found(cell: MockCell, plan: CampaignPlan, identifier: str) -> CampaignRun:
     run = plan.find(identifier)
     if run is not None:
         return run
+    name = identifier.partition("/")[0]
+    plain = {entry.name for entry in cell.entries if entry.is_plain}
+    if name in plain - {entry.name for entry in plan.rehearsals}:
+        raise MockError("", f"`{name}` does not end as it must without a fault, so that it has no runs with one")
     known = [run.identifier for run in plan.singles()]
     close = ", ".join(f"`{name}`" for name in nearest(identifier, known))
     hint = f"; the nearest are {close}" if close else "; `cellc campaign --list` prints all"

@@ -198,10 +198,19 @@ class ControlStack:
         """Tell ``watcher`` from now on what is published and asked for."""
         self._watchers.append(watcher)
 
-    def send_goal(self, controller: str, goal: TrajectoryGoal | GripperGoal, uuid: str | None = None) -> GoalResponse:
-        """Send a goal, under the id of its client, to the action of a controller of the contract."""
+    def send_goal(
+        self, controller: str, goal: TrajectoryGoal | GripperGoal, uuid: str | None = None, *, feedback: bool = False
+    ) -> GoalResponse:
+        """Send a goal, under the id of its client, to the action of a controller of the contract.
+
+        Args:
+            feedback: whether a controller tells how far the goal has come; an adapter never does.
+        """
         server = self.server_of(controller)
-        response = server.send_goal(controller, goal)
+        if isinstance(server, ControllerManager):
+            response = server.send_goal(controller, goal, feedback)
+        else:
+            response = server.send_goal(controller, goal)
         for watcher in self._watchers:
             watcher.goal_sent(GoalSent(server.now_ns, controller, goal, response, uuid))
         if response.accepted:

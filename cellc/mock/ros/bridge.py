@@ -141,6 +141,10 @@ class Bridge:
         """Return the subscriptions of a topic that the bridge does not play."""
         return tuple(GraphEnd(**end) for end in self._ask({"ask": "ends", "topic": topic, "publishers": False})["ends"])
 
+    def open_node(self, node: str, parameters: Mapping[str, object]) -> None:
+        """Put a node on the graph; one with parameters has the services of parameters, as `ros2 param` asks them."""
+        self._ask({"ask": "node", "node": node, "parameters": dict(parameters)})
+
     def open_publisher(self, channel: int, node: str, topic: str, kind: str, qos: Qos) -> None:
         """Open a publisher of a node.
 

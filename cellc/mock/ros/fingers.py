@@ -42,14 +42,22 @@ class Fingers:
             if facts.gripper is not None and facts.gripper.controller is not None
         }
 
-    def begin(self, controller: str, goal: GripperGoal) -> None:
-        """Look what is between the fingers before they move."""
+    def aim(self, controller: str, goal: GripperGoal) -> tuple[str, bool] | None:
+        """Return the gripper that a goal drives, and whether it closes it; None where no gripper is driven."""
         device = self._devices.get(controller)
         facts = None if device is None else self._plant.contract.devices[device].gripper
         if device is None or facts is None or not goal.position:
+            return None
+        to = goal.position[0]
+        return device, abs(to - facts.closed) <= abs(to - facts.open)
+
+    def begin(self, controller: str, goal: GripperGoal) -> None:
+        """Look what is between the fingers before they move."""
+        aim = self.aim(controller, goal)
+        if aim is None:
             return
-        parts, now_ns, to = self._plant.parts, self._plant.now_ns, goal.position[0]
-        closes = abs(to - facts.closed) <= abs(to - facts.open)
+        device, closes = aim
+        parts, now_ns = self._plant.parts, self._plant.now_ns
         between = parts.between(device, tip_link(self._plant, device), now_ns) if closes else None
         if between is not None:
             parts.stop_fingers(device, between)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from functools import partial
 
 from cellc.contract.contract import Contract
@@ -13,6 +13,7 @@ from cellc.mock.errors import MockError
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.topics import CLOCK_TOPIC
 from cellc.mock.ros.bridge import Bridge
+from cellc.mock.ros.parameters import Parameters
 
 MOCK = "/cellc_mock"
 """The node that publishes what no node of the contract does, such as `/clock`."""
@@ -34,13 +35,20 @@ class Graph:
     """Publishes what the played nodes do; what nodes under test publish is left to them."""
 
     def __init__(
-        self, bridge: Bridge, contract: Contract, tested: Collection[str], clock: Clock, simulation: Simulation
+        self,
+        bridge: Bridge,
+        contract: Contract,
+        tested: Collection[str],
+        clock: Clock,
+        simulation: Simulation,
+        parameters: Mapping[str, Parameters],
     ) -> None:
         """Bind the graph.
 
         Args:
             tested: full names of the nodes that are not played.
             clock: that they read, with its error; `/clock` has it.
+            parameters: of the nodes that are played, by full name.
         """
         self._simulation = simulation
         self._time = clock
@@ -50,6 +58,8 @@ class Graph:
         self._channels: dict[str, int] = {}
         self._latched: set[int] = set()
         self._heard: frozenset[int] = frozenset()
+        for node in sorted((full_names(contract) | set(parameters)) - self._tested):
+            bridge.open_node(node, parameters.get(node, {}))
         self._clock = self.declare(CLOCK_TOPIC.name, CLOCK_TOPIC.kind, CLOCK_TOPIC.qos)
 
     def declare(self, topic: str, kind: str, qos: Qos) -> int:

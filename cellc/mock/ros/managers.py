@@ -22,6 +22,7 @@ from cellc.mock.ros.graph import Graph
 
 _KINDS = {
     "list_controllers": "ListControllers",
+    "list_controller_types": "ListControllerTypes",
     "list_hardware_components": "ListHardwareComponents",
     "list_hardware_interfaces": "ListHardwareInterfaces",
     "load_controller": "LoadController",
@@ -33,6 +34,8 @@ _KINDS = {
 """By the names of the services: https://control.ros.org/jazzy/doc/ros2_control/controller_manager/doc/userdoc.html"""
 _STATES = {"unconfigured": 1, "inactive": 2, "active": 3, "finalized": 4}
 """Numbers of lifecycle_msgs/msg/State."""
+_BASES = ("controller_interface::ControllerInterface", "controller_interface::ChainableControllerInterface")
+"""Of a type whose controllers cannot be chained, and of one whose can."""
 Answer = Mapping[str, object]
 """Fields of a response."""
 
@@ -73,9 +76,12 @@ class _Served:
         match self.service:
             case "list_controllers":
                 return {"controller": [self._named(asdict(each)) for each in self.control.list_controllers()]}
+            case "list_controller_types":
+                found = {each.type: each.is_chainable for each in self.control.list_controllers()}
+                return {"types": list(found), "base_classes": [_BASES[chained] for chained in found.values()]}
             case "list_hardware_components":
                 listed = self.control.list_hardware_components()
-                return {"component": [{**asdict(each), "state": _state(each.state)} for each in listed]}
+                return {"component": [{**asdict(each), "state": state_message(each.state)} for each in listed]}
             case "list_hardware_interfaces":
                 return asdict(self.control.list_hardware_interfaces())
             case "load_controller":
@@ -93,7 +99,7 @@ class _Served:
                 wanted = next((label for label, number in _STATES.items() if number == asked.target_state.id), "")
                 state = wanted or asked.target_state.label
                 response = self.control.set_hardware_component_state(asked.name, state)
-                return {"ok": response.ok, "state": _state(response.state)}
+                return {"ok": response.ok, "state": state_message(response.state)}
 
     def _key(self, name: str) -> str:
         return self.keys.get(name, name)
@@ -151,5 +157,6 @@ def _ended(response: ServiceResponse) -> Answer:
     return {"ok": response.ok, "message": response.message}
 
 
-def _state(label: str) -> Answer:
+def state_message(label: str) -> Answer:
+    """Return the fields of a lifecycle_msgs/msg/State."""
     return {"id": _STATES.get(label, 0), "label": label or "unknown"}

@@ -1,4 +1,4 @@
-"""The actions that a task under test is a client of: served by the cell that is played, with goals of its own clients.
+"""The actions of the cell that is played, with goals of clients on the graph.
 
 A goal of a controller is sent to it unchanged. A goal of the planner is planned, then sent to the controller of its
 group, as move_group does; codes are those of moveit_msgs/MoveItErrorCodes.
@@ -42,6 +42,7 @@ from cellc.mock.ros.requests import (
 from cellc.mock.task.context import AttemptError, current_state
 from cellc.mock.task.execute import SentGoal, joints_of
 from cellc.mock.task.move import trajectory_goal
+from cellc.mock.task_status import ForeignGoal
 from cellc.mock.tf.buffer import Transform
 from cellc.robot.planning import PlanFailure, TimedTrajectory
 from cellc.robot.planning import TrajectoryPoint as PlannedPoint
@@ -50,6 +51,7 @@ SERVED = (MOVE_GROUP, FOLLOW_JOINT_TRAJECTORY, GRIPPER_COMMAND, PARALLEL_GRIPPER
 _SUCCESS, _PLANNING_FAILED, _CONTROL_FAILED, _PREEMPTED = 1, -1, -4, -7
 _INVALID_GROUP, _INVALID_GOAL, _INVALID_LINK, _NO_TRANSFORM = -15, -16, -18, -21
 _LOOK_S = 0.02
+_CLIENT = "a client on the graph"
 _ACCEPTED = 0
 """Of action_msgs/srv/CancelGoal."""
 
@@ -104,12 +106,13 @@ class ActionServers:
     """
 
     def __init__(
-        self, plant: Plant, graph: Graph, bridge: Bridge, node: str, judge: Callable[[ServedGoal], None]
+        self, plant: Plant, graph: Graph, bridge: Bridge, judge: Callable[[ServedGoal], None] | None = None
     ) -> None:
-        """Bind the servers of what a node is a client of; nothing is offered yet.
+        """Bind the servers of the contract's actions; nothing is offered yet.
 
         Args:
-            judge: called with each goal as it arrives, before it is answered.
+            judge: called with each goal as it arrives, before it is answered; None where the task is played, and each
+                goal is one of another client.
         """
         self._judge = judge
         self.goals: list[ServedGoal] = []
@@ -121,7 +124,7 @@ class ActionServers:
         self._actions = [
             (name, interface)
             for name, interface in plant.contract.interfaces.items()
-            if interface.kind == "action" and any(sink.node == node for sink in interface.sinks)
+            if interface.kind == "action" and interface.sources and interface.type in SERVED
         ]
         plant.control.listen(self._hear)
 
@@ -131,10 +134,10 @@ class ActionServers:
             source = interface.sources[0]
             self._channels[self._graph.act(source.full_name, name, interface.type)] = name, source.node
 
-    def await_client(self, full: str, within_s: float) -> None:
-        """Let the host's time pass until a node has found the actions: time of the run would pass without its goals."""
+    def await_client(self, node: str, full: str, within_s: float) -> None:
+        """Let the host's time pass until a node has found its actions: time of the run would pass without its goals."""
         until_s = monotonic() + within_s
-        for name, _ in self._actions:
+        for name in (name for name, each in self._actions if any(sink.node == node for sink in each.sinks)):
             topic = f"{name}/_action/status"
             while all(end.node != full for end in self._bridge.subscriptions(topic)) and monotonic() < until_s:
                 sleep(_LOOK_S)
@@ -164,7 +167,8 @@ class ActionServers:
         except MalformedMessageError:
             self._bridge.answer(number, value=False)
             raise
-        goal = ServedGoal(name, kind, said["end"], server, now_ns, asked)
+        controller = "" if isinstance(asked, MoveRequest) else self._controller_of[name]
+        goal = ServedGoal(name, kind, said["end"], server, now_ns, asked, controller)
         simulation.at(now_ns, partial(self._begin, number, goal))
         return True
 
@@ -173,7 +177,8 @@ class ActionServers:
     def _begin(self, number: int, goal: ServedGoal) -> None:
         """Answer a goal, unless its server answers no client."""
         self.goals.append(goal)
-        self._judge(goal)
+        if self._judge is not None:
+            self._judge(goal)
         if self._plant.network.answers(goal.server):
             if isinstance(goal.asked, MoveRequest):
                 goal.accepted = True
@@ -182,7 +187,6 @@ class ActionServers:
                 due_ns = self._plant.now_ns + round(PLANNING_LATENCY_S * 1e9)
                 self._plant.simulation.at(due_ns, partial(self._plan, goal, goal.asked))
             else:
-                goal.controller = self._controller_of[goal.action]
                 self._send(goal, goal.asked)
                 self._bridge.answer(number, value=bool(goal.accepted))
         self.changed.fire(self._plant.now_ns)
@@ -192,14 +196,17 @@ class ActionServers:
         control, actions = self._plant.control, self._plant.task.actions
         if isinstance(asked, GripperGoal):
             self.fingers.begin(goal.controller, asked)
-        response = control.send_goal(goal.controller, asked)
+        response = control.send_goal(goal.controller, asked, feedback=goal.kind == FOLLOW_JOINT_TRAJECTORY)
         goal.accepted = goal.accepted or response.accepted
         if not response.accepted:
             goal.failure = AttemptError(AttemptOutcome.GOAL_REJECTION, response.log_reason)
             return response.log_reason
         joints = joints_of(self._plant, goal.controller)
         goal.sent = SentGoal(goal.controller, response.goal_id, joints, self._plant.now_ns)
-        actions.note_started(goal.controller)
+        if self._judge is None:
+            actions.note_foreign(ForeignGoal(goal.controller, response.goal_id, _CLIENT), self._plant.now_ns)
+        else:
+            actions.note_started(goal.controller)
         return ""
 
     def _cancel(self, number: int, end: int) -> None:
@@ -246,7 +253,7 @@ class ActionServers:
     def _end(self, goal: ServedGoal, status: GoalStatus, result: Mapping[str, object]) -> None:
         now_ns = self._plant.now_ns
         goal.ended_ns, goal.status = now_ns, status
-        if goal.sent is not None:
+        if goal.sent is not None and self._judge is not None:
             self._plant.task.actions.note_ended(goal.controller)
         self._bridge.end_goal(goal.end, int(status), result)
         self.changed.fire(now_ns)

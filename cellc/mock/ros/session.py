@@ -31,8 +31,11 @@ from cellc.mock.ros.asked import AmongNodes
 from cellc.mock.ros.bridge import Bridge, GraphEnd
 from cellc.mock.ros.graph import Graph, refuse_others
 from cellc.mock.ros.judgment import Judgment, Violation
+from cellc.mock.ros.lifecycles import LifecycleServices
 from cellc.mock.ros.managers import ManagerServices
+from cellc.mock.ros.parameters import played_parameters
 from cellc.mock.ros.perception import PerceptionUnderTest
+from cellc.mock.ros.servers import ActionServers
 from cellc.mock.ros.task import TaskUnderTest, can_be_left_out, not_followed
 from cellc.mock.task.task import EXECUTED
 
@@ -42,6 +45,9 @@ that was there for 10 s was seen after 3 s, the period at which participants of 
 https://docs.ros.org/en/rolling/p/fastdds/generated/classeprosima_1_1fastdds_1_1rtps_1_1DiscoverySettings.html"""
 _AGAIN_S = 1.0
 """Of the host: the same before a later run of this process."""
+_MEET_S = 2.0
+"""Of the host: how long nodes under test may take to find each other, which only they themselves see: a pose that is
+published before the task has found the perception is lost, and half of the runs of a loaded host ended so."""
 _looked_at: set[int] = set()
 """Domains on which this process has played."""
 _LOOK_S = 0.1
@@ -93,6 +99,17 @@ def _needs(contract: Contract, node: str) -> Iterator[tuple[str, bool]]:
                 yield name, False
             if any(end.node == node for end in interface.sources):
                 yield name, True
+
+
+def _talk(contract: Contract, tested: Collection[str]) -> bool:
+    """Tell whether a node under test hears another one."""
+    topics = (each for each in contract.interfaces.values() if each.kind == "topic")
+    return any(
+        source.node in tested and sink.node in tested and source.node != sink.node
+        for each in topics
+        for source in each.sources
+        for sink in each.sinks
+    )
 
 
 def _observers(contract: Contract) -> set[str]:
@@ -149,7 +166,8 @@ def rehearse_among(
         _looked_at.add(asked.domain)
         around = _Around(cell, bridge, tested, asked)
         if asked.launch:
-            bridge.start(_words(asked.launch.replace("{rehearsal}", entry.name)))
+            rehearsal, _, _ = entry.name.partition("/")  # a run of a campaign is named `rehearsal/fault`
+            bridge.start(_words(asked.launch.replace("{rehearsal}", rehearsal)))
         result = cell.rehearse(entry, seed=seed, watch=partial(_both, watch, around.begin), steps=around.steps)
         around.end()
     return Judged(replace(result, violations=around.judgment.lines()), tuple(around.notes))
@@ -243,7 +261,8 @@ class _Around:
         plant.simulation.run_process(_idle(_IDLE_NS))
         self._plant = plant
         clock = plant.clocks.of(next(iter(self._tested)))
-        graph = Graph(self._bridge, plant.contract, self._tested.values(), clock, plant.simulation)
+        parameters = played_parameters(self._cell.folder)
+        graph = Graph(self._bridge, plant.contract, self._tested.values(), clock, plant.simulation, parameters)
         plant.simulation.heard_outside = True
         self._graph = graph
         bag = RunBag(graph, plant)
@@ -260,16 +279,25 @@ class _Around:
         ]
         if self._task is not None:
             self._task.begin(plant, graph)
+        else:
+            servers = ActionServers(plant, graph, self._bridge)
+            servers.offer()
+            self._arrivals.go_to(NODE_NAME, servers.take)
         managers = ManagerServices(plant, self._bridge)
         if missing := managers.offer(graph):
             self.notes.append(missing)
         self._arrivals.go_to(NODE_NAME, managers.take)
+        lifecycles = LifecycleServices(plant, self._bridge, self._tested.values())
+        lifecycles.offer(graph)
+        self._arrivals.go_to(NODE_NAME, lifecycles.take)
         graph.tick(plant.now_ns)
         for name, full in self._tested.items():
             self._await_node(full)
             self._bring_up(plant, full)
             for topic, publishes in _needs(plant.contract, name):
                 self._await_end(plant.contract, name, topic, publishes=publishes)
+        if _talk(plant.contract, self._tested):
+            sleep(_MEET_S)
         graph.look()
         if self._asked.timing.pace is not None:
             self._keep_pace(plant, _Pacer(self._asked.timing.pace))

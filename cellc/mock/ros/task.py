@@ -17,7 +17,7 @@ from cellc.contract.rehearsals import StepEntry
 from cellc.contract.steps import StepKind
 from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import AttemptOutcome
-from cellc.mock.control import GoalStatus
+from cellc.mock.control import GoalStatus, GripperGoal
 from cellc.mock.engine.process import Wait, Waiting
 from cellc.mock.evidence.bag import messages
 from cellc.mock.evidence.topics import pose_topic
@@ -100,7 +100,7 @@ class TaskUnderTest:
     def begin(self, plant: Plant, graph: Graph) -> None:
         """Bind the plant; the actions are offered when the cell is up."""
         self._conduct = Conduct(plant, self._full, self._judgment)
-        self._servers = ActionServers(plant, graph, self._bridge, self._node, self._conduct.judge)
+        self._servers = ActionServers(plant, graph, self._bridge, self._conduct.judge)
         self._arrivals.go_to(self._node, self._servers.take)
         plant.simulation.every(plant.now_ns, _TICK_HZ, partial(self._tick, plant, graph))
 
@@ -170,7 +170,7 @@ class TaskUnderTest:
             self._offered = True
             servers.offer()
             if self._timing.pace is None:
-                servers.await_client(self._full, min(_FOUND_S, self._timing.patience_s))
+                servers.await_client(self._node, self._full, min(_FOUND_S, self._timing.patience_s))
         try:
             yield from step_of(context, attempt, step)
         except AttemptError as failure:
@@ -237,8 +237,8 @@ class TaskUnderTest:
         servers, _ = self._bound()
         closes = (step.command or "close") == "close"
         goal = yield from self._next(context, step)
-        last = servers.fingers.last.get(goal.controller)
-        if not goal.is_grip or last is None or (last.device, last.closes) != (step.target, closes):
+        aim = servers.fingers.aim(goal.controller, goal.asked) if isinstance(goal.asked, GripperGoal) else None
+        if aim != (step.target, closes):
             text = f"`{self._full}` sent a goal to `{goal.action}`, expected one that {step.title}"
             self._judgment.note(Violation.UNEXPECTED_GOAL, step.title, text)
             return
@@ -246,8 +246,8 @@ class TaskUnderTest:
         if not closes:
             context.bands.pop(step.target, None)
         yield from self._executed(context, attempt, "grip", goal)
-        facts = context.contract.devices[step.target].gripper
-        if facts is None or goal.sent is None:
+        facts, last = context.contract.devices[step.target].gripper, servers.fingers.last.get(goal.controller)
+        if facts is None or goal.sent is None or last is None:
             return
         state = yield from state_since(context, context.ended[goal.sent.key].decided_ns)
         parts = context.plant.parts

@@ -48,6 +48,9 @@ class Graph:
             **changes.get("ends", {}),
         }
         self.services: dict[str, int] = {}
+        self.actions: dict[str, int] = {}
+        self.parameters: dict[str, dict[str, object]] = {}
+        """Of each node that is played."""
         self.code: int | None = changes.get("code")
         self._topics: dict[int, str] = {}
         self._channels: dict[str, int] = {}
@@ -74,11 +77,17 @@ class Graph:
     def heard(self) -> frozenset[int]:
         return frozenset(self._topics)
 
+    def open_node(self, node: str, parameters: Mapping[str, object]) -> None:
+        self.parameters[node] = dict(parameters)
+
     def open_publisher(self, channel: int, node: str, topic: str, kind: str, qos: Qos) -> None:
         self._topics[channel] = topic
 
     def open_subscription(self, channel: int, node: str, topic: str, kind: str, qos: Qos) -> None:
         self._channels[topic] = channel
+
+    def open_action(self, channel: int, node: str, action: str, kind: str) -> None:
+        self.actions[action] = channel
 
     def open_service(self, channel: int, node: str, service: str, kind: str) -> None:
         self.services[service] = channel
@@ -142,7 +151,7 @@ def run(
     monkeypatch.setattr(session._Around, "begin", watched)
     monkeypatch.setattr(session, "Bridge", lambda *_: graph)
     monkeypatch.setattr(Photographer, "message", lambda _, topic, shot: messages.clock(shot.stamp_ns))  # draws nothing
-    for wait in ("_DISCOVERY_S", "_AGAIN_S", "_LOOK_S"):
+    for wait in ("_DISCOVERY_S", "_AGAIN_S", "_LOOK_S", "_MEET_S"):
         monkeypatch.setattr(session, wait, 0.0)
     monkeypatch.setattr("cellc.mock.ros.perception._CLOCK_S", 0.0)
     asked = AmongNodes(("perception",), "python3", Timing(None), launch=launch, appear_s=0.0)

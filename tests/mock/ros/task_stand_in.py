@@ -55,7 +55,6 @@ class TaskGraph(Graph):
         self.wrong = wrong
         self.rehearsal = ""
         self.canceled = self.acknowledged = False
-        self.actions: dict[str, int] = {}
         self.channel_of: dict[int, int] = {}
         self.rejected: list[int] = []
         self.feedback: list[Mapping[str, object]] = []
@@ -74,9 +73,6 @@ class TaskGraph(Graph):
 
     def publishers(self, topic: str) -> Sequence[GraphEnd]:
         return ()
-
-    def open_action(self, channel: int, node: str, action: str, kind: str) -> None:
-        self.actions[action] = channel
 
     def answer(self, number: int, value: Any) -> None:
         if number in self._asked and not value:
@@ -195,7 +191,7 @@ def stand_in(monkeypatch: pytest.MonkeyPatch, cell: MockCell, graph_of: Callable
 
     monkeypatch.setattr(session._Around, "begin", watched)
     monkeypatch.setattr(session, "Bridge", lambda *_: graph_of())
-    for wait in ("_DISCOVERY_S", "_AGAIN_S", "_LOOK_S"):
+    for wait in ("_DISCOVERY_S", "_AGAIN_S", "_LOOK_S", "_MEET_S"):
         monkeypatch.setattr(session, wait, 0.0)
 
 

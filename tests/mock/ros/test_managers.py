@@ -54,12 +54,13 @@ def _states(listed: Any) -> dict[str, str]:
 
 
 def test_controllers_hardware_and_interfaces_are_listed(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
-    _, (listed, components, interfaces) = _asked(
+    _, (listed, components, interfaces, types) = _asked(
         cell,
         monkeypatch,
         ("list_controllers", {}),
         ("list_hardware_components", {}),
         ("list_hardware_interfaces", {}),
+        ("list_controller_types", {}),
     )
     states = _states(listed)
     assert (states["arm_trajectory"], states["gripper_action"]) == ("active", "active")
@@ -75,6 +76,8 @@ def test_controllers_hardware_and_interfaces_are_listed(cell: MockCell, monkeypa
         "is_available": True,
         "is_claimed": True,
     }
+    bases = dict(zip(types["types"], types["base_classes"], strict=True))
+    assert bases["joint_state_broadcaster/JointStateBroadcaster"] == "controller_interface::ControllerInterface"
 
 
 def test_controllers_and_hardware_change_as_asked(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -124,7 +127,9 @@ class _Without(TaskGraph):
     """An environment without the messages of the controller manager."""
 
     def open_service(self, channel: int, node: str, service: str, kind: str) -> None:
-        raise MockError("", f"`{service}` of type `{kind}` cannot be offered: No module")
+        if kind.startswith("controller_manager_msgs/"):
+            raise MockError("", f"`{service}` of type `{kind}` cannot be offered: No module")
+        super().open_service(channel, node, service, kind)
 
 
 def test_an_environment_without_their_messages_is_told(cell: MockCell, monkeypatch: pytest.MonkeyPatch) -> None:

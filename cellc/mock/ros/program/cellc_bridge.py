@@ -37,6 +37,7 @@ from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.task import Future
 
@@ -128,7 +129,7 @@ class Bridge:
         self._started: subprocess.Popen[bytes] | None = None
         self._numbers = itertools.count(1)
         self._awaited: dict[int, Future] = {}
-        self._requests: dict[int, int] = {}
+        self._requests: dict[int, tuple[int, Future]] = {}
         self._handles: dict[int, Any] = {}
         self._clients: dict[str, Any] = {}
         self._looking = self._node("/cellc_mock")
@@ -183,7 +184,7 @@ class Bridge:
             answer = {"error": f"{type(error).__name__}: {error}"}
         self._send(JSON, json.dumps(answer).encode())
 
-    def _node(self, name: str) -> Node:
+    def _node(self, name: str, parameters: dict[str, Any] | None = None) -> Node:
         if name not in self._nodes:
             namespace, _, bare = name.rpartition("/")
             node = Node(
@@ -192,7 +193,9 @@ class Bridge:
                 context=self._context,
                 use_global_arguments=False,
                 enable_rosout=False,
-                start_parameter_services=False,
+                start_parameter_services=bool(parameters),
+                parameter_overrides=[Parameter(key, value=value) for key, value in (parameters or {}).items()],
+                automatically_declare_parameters_from_overrides=True,
             )
             self._nodes[name] = node
             self._executor.add_node(node)
@@ -232,6 +235,11 @@ class Bridge:
         """Name the channels whose topics somebody subscribes to."""
         return {"channels": [number for number, each in self._publishers.items() if each.get_subscription_count()]}
 
+    def on_node(self, node: str, parameters: dict[str, Any]) -> dict[str, Any]:
+        """Put a node on the graph; one with parameters has their services."""
+        self._node(node, parameters)
+        return {}
+
     def on_publish(self, channel: int, node: str, topic: str, kind: str, qos: dict[str, Any]) -> dict[str, Any]:
         """Open a publisher of a node."""
         self._publishers[channel] = self._node(node).create_publisher(imported(kind), topic, profile(qos))
@@ -261,8 +269,22 @@ class Bridge:
 
     def on_answer(self, number: int, value: Any) -> dict[str, Any]:
         """Take an answer."""
-        self._executor.create_task(self._awaited.pop(number).set_result, value)
+        answer = self._awaited.pop(number)
+
+        def give() -> None:
+            answer.set_result(value)
+            self._look_again()
+
+        self._executor.create_task(give)
         return {}
+
+    def _look_again(self) -> None:
+        """Let the executor look at its tasks once more before it waits: it does not see by itself that one may go on.
+
+        A task that awaits a future is asked in the order in which it was created, before the future has its result:
+        rclpy/executors.py, _wait_for_ready_callbacks.
+        """
+        self._executor.create_task(lambda: None)
 
     def on_serve(self, channel: int, node: str, name: str, kind: str) -> dict[str, Any]:
         """Offer a service of a node; each request is asked for."""
@@ -279,18 +301,19 @@ class Bridge:
         made = imported(kind)
 
         async def decide(request: Any) -> GoalResponse:
-            end, _ = self._await()
+            end, ended = self._await()
             if await self._inquire(channel, {"goal": plain(request), "end": end}):
-                self._requests[id(request)] = end
+                self._requests[id(request)] = end, ended
                 return GoalResponse.ACCEPT
             self._awaited.pop(end)
             return GoalResponse.REJECT
 
         async def execute(handle: Any) -> Any:
-            end = self._requests.pop(id(handle.request))
+            end, awaited = self._requests.pop(id(handle.request))
             self._handles[end] = handle
-            ended = await self._awaited[end]
+            ended = await awaited
             while ended["status"] == 5 and handle.status == 2:  # the request to cancel is still being answered
+                self._look_again()
                 await Turn()
             getattr(handle, ENDS[ended["status"]])()
             del self._handles[end]
