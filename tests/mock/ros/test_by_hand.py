@@ -120,7 +120,7 @@ def test_a_goal_of_the_controller_itself_has_feedback(cell: MockCell, monkeypatc
     judged = task_stand_in.run(cell, monkeypatch, graph=graph)
     assert judged.result.outcome == AttemptOutcome.SUCCEEDED
     told = [each for each in graph.feedback if "actual" in each]
-    assert told[0]["joint_names"] == list(cell.contract.groups["arm"].joints)
+    assert told[0]["joint_names"] == list(cell.contract.groups[cell.contract.poses["home"][0].group].joints)
     assert len(told) > 40  # action_monitor_rate of the folder is 20 Hz, and two moves of 3 s go home
 
 
