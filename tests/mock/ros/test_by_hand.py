@@ -15,6 +15,8 @@ from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock import MockCell
 from cellc.mock.cell import cell_of
 from cellc.mock.plant import Plant
+from cellc.mock.ros import session
+from cellc.mock.ros.bridge import Received
 from tests.mock.ros import stand_in, task_stand_in
 from tests.mock.ros.stand_in import Graph, right
 from tests.mock.ros.task_stand_in import TaskGraph
@@ -35,7 +37,7 @@ class _Client(Graph):
     def send(self, plant: Plant) -> None:
         """Send the goal when the cell has been up for a while."""
         said = {"goal": self._goal, "end": 1, "number": 2}
-        received = stand_in.Received(self.actions[self._action], json.dumps(said).encode())
+        received = Received(self.actions[self._action], json.dumps(said).encode())
         plant.simulation.at(plant.now_ns + 3_000_000_000, partial(self._said.append, received))
 
     def answer(self, number: int, value: Any) -> None:
@@ -52,13 +54,13 @@ def test_a_goal_beside_that_of_the_played_task_has_another_owner(
     cell: MockCell, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     graph = _Client(_GRIP, {"command": {"name": [_KNUCKLE], "position": [0.1]}})
-    begin = stand_in.session._Around.begin
+    begin = session._Around.begin
 
     def begun(around: Any, plant: Plant) -> None:
         begin(around, plant)
         graph.send(plant)
 
-    monkeypatch.setattr(stand_in.session._Around, "begin", begun)
+    monkeypatch.setattr(session._Around, "begin", begun)
     result = stand_in.run(cell, monkeypatch, graph).result
     assert graph.answers == [True]
     assert result.outcome == AttemptOutcome.WRONG_OWNER
