@@ -15,7 +15,7 @@ _GET_STATE = "lifecycle_msgs/srv/GetState"
 
 
 class LifecycleServices:
-    """Answers for the managed nodes of a plant that the bring-up asks for transitions."""
+    """Says in which state the managed nodes are that the bring-up asks for transitions."""
 
     def __init__(self, plant: Plant, bridge: Bridge, tested: Collection[str]) -> None:
         """Bind the nodes; nothing is offered yet.
