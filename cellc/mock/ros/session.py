@@ -277,6 +277,21 @@ class _Around:
             for name in self._tested
             if name in _observers(plant.contract)
         ]
+        self._serve(plant, graph)
+        graph.tick(plant.now_ns)
+        for name, full in self._tested.items():
+            self._await_node(full)
+            self._bring_up(plant, full)
+            for topic, publishes in _needs(plant.contract, name):
+                self._await_end(plant.contract, name, topic, publishes=publishes)
+        if _talk(plant.contract, self._tested):
+            sleep(_MEET_S)
+        graph.look()
+        if self._asked.timing.pace is not None:
+            self._keep_pace(plant, _Pacer(self._asked.timing.pace))
+
+    def _serve(self, plant: Plant, graph: Graph) -> None:
+        """Offer actions and services; those of a task under test are offered when the cell is up."""
         if self._task is not None:
             self._task.begin(plant, graph)
         else:
@@ -290,17 +305,6 @@ class _Around:
         lifecycles = LifecycleServices(plant, self._bridge, self._tested.values())
         lifecycles.offer(graph)
         self._arrivals.go_to(NODE_NAME, lifecycles.take)
-        graph.tick(plant.now_ns)
-        for name, full in self._tested.items():
-            self._await_node(full)
-            self._bring_up(plant, full)
-            for topic, publishes in _needs(plant.contract, name):
-                self._await_end(plant.contract, name, topic, publishes=publishes)
-        if _talk(plant.contract, self._tested):
-            sleep(_MEET_S)
-        graph.look()
-        if self._asked.timing.pace is not None:
-            self._keep_pace(plant, _Pacer(self._asked.timing.pace))
 
     def end(self) -> None:
         """Publish what is left, and note who has ended and how the host kept up."""

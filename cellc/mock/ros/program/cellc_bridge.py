@@ -279,11 +279,7 @@ class Bridge:
         return {}
 
     def _look_again(self) -> None:
-        """Let the executor look at its tasks once more before it waits: it does not see by itself that one may go on.
-
-        A task that awaits a future is asked in the order in which it was created, before the future has its result:
-        rclpy/executors.py, _wait_for_ready_callbacks.
-        """
+        """Let the executor ask its tasks again before it waits: one that awaits a result was asked before it came."""
         self._executor.create_task(lambda: None)
 
     def on_serve(self, channel: int, node: str, name: str, kind: str) -> dict[str, Any]:
@@ -348,36 +344,35 @@ class Bridge:
         It is asked twice: what it sent before its second answer has arrived here.
         """
         for _ in range(2):
-            answer = self._call(f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters", within_s)
-            if "error" in answer:
-                return answer
+            error, _ = self._call(f"{node}/get_parameters", "rcl_interfaces/srv/GetParameters", within_s)
+            if error:
+                return {"error": error}
         return {}
 
     def on_trigger(self, service: str, within_s: float) -> dict[str, Any]:
         """Call a service that has no arguments."""
-        return self._call(service, "std_srvs/srv/Trigger", within_s)
+        error, _ = self._call(service, "std_srvs/srv/Trigger", within_s)
+        return {"error": error} if error else {}
 
-    def _call(self, service: str, kind: str, within_s: float) -> dict[str, Any]:
+    def _call(self, service: str, kind: str, within_s: float, request: Any = None) -> tuple[str, Any]:
+        """Call a service; return why it was not answered, or nothing, and the response."""
         made = imported(kind)
         if service not in self._clients:
             self._clients[service] = self._looking.create_client(made, service)
         client, until = self._clients[service], time.monotonic() + within_s
         if not client.service_is_ready() and not client.wait_for_service(timeout_sec=within_s):
-            return {"error": f"{service} does not exist"}
+            return f"{service} does not exist", None
         answered = threading.Event()
-        future = client.call_async(made.Request())
+        future = client.call_async(made.Request() if request is None else request)
         future.add_done_callback(lambda _: answered.set())
         if not answered.wait(max(0.0, until - time.monotonic())):
             client.remove_pending_request(future)
-            return {"error": f"{service} did not answer within {within_s:g} s"}
-        return {}
+            return f"{service} did not answer within {within_s:g} s", None
+        return "", future.result()
 
     def on_start(self, command: list[str]) -> dict[str, Any]:
         """Start a command; what it prints goes where this program's output goes."""
-        out = 1
-        self._started = subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=out, stderr=out, start_new_session=True
-        )
+        self._started = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=1, stderr=1, start_new_session=True)
         return {"group": self._started.pid}
 
     def on_ended(self) -> dict[str, Any]:
@@ -386,21 +381,11 @@ class Bridge:
 
     def on_transition(self, node: str, name: str, within_s: float) -> dict[str, Any]:
         """Ask a lifecycle node for a transition, ``configure`` or ``activate``."""
-        service, state = imported("lifecycle_msgs/srv/ChangeState"), imported("lifecycle_msgs/msg/Transition")
-        client = self._looking.create_client(service, f"{node}/change_state")
-        until = time.monotonic() + within_s
-        try:
-            if not client.wait_for_service(timeout_sec=within_s):
-                return {"error": f"{node}/change_state does not exist"}
-            number = {"configure": state.TRANSITION_CONFIGURE, "activate": state.TRANSITION_ACTIVATE}[name]
-            future = client.call_async(service.Request(transition=state(id=number)))
-            while not future.done() and time.monotonic() < until:
-                time.sleep(0.005)
-            if not future.done():
-                return {"error": f"{node}/change_state did not answer within {within_s:g} s"}
-            return {} if future.result().success else {"error": f"{node} refused to {name}"}
-        finally:
-            self._looking.destroy_client(client)
+        kind, state = "lifecycle_msgs/srv/ChangeState", imported("lifecycle_msgs/msg/Transition")
+        number = {"configure": state.TRANSITION_CONFIGURE, "activate": state.TRANSITION_ACTIVATE}[name]
+        request = imported(kind).Request(transition=state(id=number))
+        error, response = self._call(f"{node}/change_state", kind, within_s, request)
+        return {"error": error or f"{node} refused to {name}"} if error or not response.success else {}
 
 
 def main() -> None:
