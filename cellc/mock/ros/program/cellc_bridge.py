@@ -279,7 +279,7 @@ class Bridge:
         return {}
 
     def _look_again(self) -> None:
-        """Let the executor ask its tasks again before it waits: one that awaits a result was asked before it came."""
+        """Let the executor ask its tasks again before it waits: one that awaits a result was asked too early."""
         self._executor.create_task(lambda: None)
 
     def on_serve(self, channel: int, node: str, name: str, kind: str) -> dict[str, Any]:
