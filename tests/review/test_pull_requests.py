@@ -329,3 +329,12 @@ def test_versions_that_do_not_work_together_are_not_said_to_be_unknown() -> None
     whys = {change.why for change in review_of_any("ur5e_pick", ("ros: jazzy", "ros: kilted")).changes if change.why}
     assert "the matrix says that these versions do not work together" in whys
     assert not [why for why in whys if "nothing says any more" in why]
+
+
+def test_another_prefix_of_every_link_fits_on_a_screen_with_its_reasons() -> None:
+    found = review_of_any("gen3_2f", ('prefix: ""', "prefix: arm"))
+    screen, text = _screen(found), _text(found)
+    assert len(screen) <= MOST_LINES
+    assert 'devices.arm.prefix: "" -> arm (' in text
+    assert re.search(r"planning no longer avoids \w+, \w+, \w+, \w+ and \d+ more", text)
+    assert re.search(r"frame removed of base_link, bracelet_link, .*shoulder_link", text)

@@ -226,7 +226,7 @@ def _flow(child: Child) -> str:
     """Return a value in one line, as YAML has it in flow style."""
     node = child.node
     if not node.is_collection:
-        return node.text
+        return node.text or '""'
     inner = [_flow(each) for each in node.children.values()]
     if isinstance(node.data, list):
         return f"[{', '.join(inner)}]"

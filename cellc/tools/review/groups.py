@@ -143,7 +143,11 @@ class Group:
     def whys(self) -> tuple[str, ...]:
         """Why it is dangerous, each reason once, beside what was not measured."""
         told = [why_of(change) for change in self.changes if change.grade is Grade.DANGEROUS]
-        return tuple(dict.fromkeys(why for why in told if why))
+        alike = dict[str, dict[str, None]]()
+        for why in filter(None, told):
+            start, _, last = why.rpartition(" ")
+            alike.setdefault(start, {})[last] = None
+        return tuple(f"{start} {_few_of([*names])}" for start, names in alike.items())
 
     @property
     def finds(self) -> bool:
@@ -218,6 +222,11 @@ _ASKED_OF_SAFE = (ReviewArea.LIMITS, ReviewArea.SAFETY)
 """What has an owner to ask even where it is stricter than it was."""
 
 
+def _few_of(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _SAID} more" if len(names) > _SAID else ""
+    return ", ".join(names[:_SAID]) + more
+
+
 FINDING = "network"
 """How the lines of a spec begin by which nodes find each other."""
 
@@ -268,6 +277,15 @@ def broken_by(changes: Sequence[ReviewChange]) -> tuple[str, ...]:
         if change.breaking
     ]
     return tuple(dict.fromkeys(told))
+
+
+def broken_shown(names: Sequence[str]) -> str:
+    """Return what consumers know otherwise, each name of them, those of one quantity together."""
+    together = dict[str, list[str]]()
+    for name in names:
+        quantity, of, subject = name.rpartition(" of ")
+        together.setdefault(quantity + of, []).append(subject)
+    return ", ".join(quantity + ", ".join(subjects) for quantity, subjects in together.items())
 
 
 def values_of(change: ReviewChange) -> str:

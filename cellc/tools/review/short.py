@@ -15,7 +15,7 @@ from cellc.contract.vocabulary import Grade
 from cellc.tools.review.alike import alike, as_many_as_fit, fitting, line_of, rest_of
 from cellc.tools.review.compare import UNCLASSIFIED
 from cellc.tools.review.cutting import WIDTH, broken
-from cellc.tools.review.groups import FINDING, Group, asked_of_all, broken_by, groups_of, why_of
+from cellc.tools.review.groups import FINDING, Group, asked_of_all, broken_by, broken_shown, groups_of, why_of
 from cellc.tools.review.text import STYLES, outcomes, summed_up
 
 MOST_LINES = 25
@@ -86,7 +86,7 @@ def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds)
         head += [(Styled(text, Style.DIM),) for text in broken(f"asks {asked}", "  ") if asked]
     body = [*_of_groups(groups, most - len(head) - len(new) - len(foot), folds)]
     if not _are_in(broken_names, body):
-        head += broken(f"may break consumers of {', '.join(broken_names)}", "  ")
+        head += broken(f"may break consumers of {broken_shown(broken_names)}", "  ")
         body = [*_of_groups(groups, most - len(head) - len(new) - len(foot), folds)]
     return [*head, *new, *body, *foot]
 
