@@ -8,7 +8,7 @@ from pydantic import Field
 from cellc.contract.base import ContractModel
 from cellc.contract.control_law import ControlLaw
 from cellc.contract.entities import HardwareState
-from cellc.contract.grading import DEVIATES, HARDER, LONGER, SECOND_CLIENT, UNSEEN, Graded, Rule
+from cellc.contract.grading import DEVIATES, FASTER, HARDER, LONGER, SECOND_CLIENT, UNSEEN, Graded, Rule
 from cellc.contract.quantities import (
     Coordinate,
     Magnitude,
@@ -35,7 +35,8 @@ class ContractGripper(ContractModel):
         description="Largest effort, N or Nm."
     )
     max_velocity: Annotated[
-        PositiveMagnitude | None, Graded(ReviewArea.LIMITS, "speed of the jaws' joint", unit="joint/s")
+        PositiveMagnitude | None,
+        Graded(ReviewArea.LIMITS, "speed of the jaws' joint", Rule.MORE, "joint/s", why=FASTER),
     ] = Field(None, description="Speed of the joint as the jaws move, rad/s or m/s; null where it is not stated.")
     goal_tolerance: Magnitude = Field(0.0, description="How far the joint may end from its goal, rad or m.")
     stroke_m: Annotated[Magnitude, Graded(ReviewArea.DEVICES, "stroke")] = Field(

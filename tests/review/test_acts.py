@@ -136,6 +136,53 @@ def test_a_new_sensor_is_not_dangerous_for_pins_that_nobody_knows_yet() -> None:
     assert not [change for change in changes if change.quantity.startswith("can ")]
 
 
+_WRENCH = (
+    (
+        "\ncalibrations:",
+        f"\n{_SENSOR.replace('arm/tool0', 'arm/flange').replace('nic: robot', 'nic: cell')}\ncalibrations:",
+    ),
+    (
+        "    gripper_action: {type: parallel",
+        "    wrench: {type: force_torque_sensor_broadcaster, device: sensor}\n    gripper_action: {type: parallel",
+    ),
+)
+_MORE_OPEN = (
+    "fittings: {open: {person: integration, date: 2026-12-15}}",
+    "fittings: {open: {person: integration, date: 2027-01-29}}",
+)
+
+
+@pytest.mark.parametrize(
+    ("cell", "edits", "quantity", "grade"),
+    [
+        # A broadcaster claims nothing: that more of them are activated moves no hardware.
+        ("hybrid_sdk", _WRENCH, "controllers that only read hardware", "review"),
+        ("dual_ur", (_MORE_OPEN,), "open question on the surroundings", "review"),
+        (
+            "fr3_hand",
+            (("grip: {force: 20 N}", "grip: {speed: 30 mm/s, force: 20 N}"),),
+            "speed of the jaws' joint",
+            "safe",
+        ),
+    ],
+)
+def test_what_moves_nothing_faster_and_protects_no_less_is_not_dangerous(
+    cell: str, edits: tuple[Edit, ...], quantity: str, grade: str
+) -> None:
+    file = spec_of(cell).as_posix()
+    changes = reported(
+        package_before(cell).facts, package_of("after", check(file, {file: edited(*edits, cell=cell)})).facts
+    )
+    assert "dangerous" not in {str(change.grade) for change in changes}
+    assert {str(change.grade) for change in changes if change.quantity.startswith(quantity)} == {grade}
+
+
+def test_a_controller_that_claims_makes_its_step_dangerous() -> None:
+    facts = package_before("fr3_hand").facts
+    steps = {path[3] for path in facts.leaves if path[:2] == ("step", "real") and path[4:] == ("controllers",)}
+    assert steps == {"observed", "request"}
+
+
 @pytest.mark.parametrize(
     ("what", "before", "after", "told"),
     [

@@ -53,7 +53,7 @@ def test_another_model_of_a_robot_is_one_group_whose_first_line_says_what_it_mea
     at = lines.index(next(line for line in lines if line.startswith("dangerous")))
     assert lines[at].startswith("dangerous  devices.arm.model: ur5e -> ur10e (cell.yaml:")
     # docs.universal-robots.com, technical specifications: UR5e 850 mm and 5 kg, UR10e 1300 mm and 12.5 kg.
-    assert lines[at + 1] == "  hand_eye (revision 4), tcp_2f (revision 1) were not measured again"
+    assert lines[at + 1] == "  hand_eye (revision 4), tcp_2f (revision 1) have no new revision"
     assert lines[at + 2].startswith("  reach 850 mm -> 1300 mm (+450 mm); largest payload 5 kg -> 12.5 kg (+7.5 kg);")
     assert sum(line.startswith(("dangerous", "review", "safe")) for line in lines) == 1
     assert len(lines) <= MOST_LINES

@@ -46,6 +46,14 @@ def test_larger_cap_is_dangerous_and_a_smaller_one_is_safe_but_that_of_a_grip_is
     assert {change.grade for change in shrunk if change.quantity == "grip force"} <= {Grade.REVIEW}
 
 
+def test_a_slower_stage_before_the_others_is_safe(tmp_path: Path) -> None:
+    whole = facts(tmp_path / "a", "{velocity: 50 %, acceleration: 50 %}", with_spec=True)
+    more = facts(tmp_path / "b", "{velocity: 50 %, acceleration: 50 %, stages: 5 10 25 50 100 %}", with_spec=True)
+    added = [change for change in changes_between(whole, more) if change.area.value == "limits"]
+    assert {change.grade for change in added} == {Grade.SAFE}
+    assert "stages of commissioning" in {change.quantity for change in added}
+
+
 def test_stage_that_is_gone_is_dangerous(tmp_path: Path) -> None:
     whole = facts(tmp_path / "a", "{velocity: 50 %, acceleration: 50 %}", with_spec=True)
     fewer = facts(tmp_path / "b", "{velocity: 50 %, acceleration: 50 %, stages: 10 100 %}", with_spec=True)

@@ -87,12 +87,12 @@ def test_device_that_a_calibration_measured_is_not_replaced_without_a_new_one(
     after = package_of(repository, repository.commit(edited(edit)))
     again = package_of(repository, repository.commit(edited(edit, *newly_measured)))
     without = {
-        "tcp_2f": "`tcp_2f` (revision 1) was not measured again",
-        "hand_eye": "`hand_eye` (revision 4) was not measured again",
-        "hand_eye`, `tcp_2f": "`hand_eye` (revision 4), `tcp_2f` (revision 1) were not measured again",
+        "tcp_2f": "`tcp_2f` (revision 1) has no new revision",
+        "hand_eye": "`hand_eye` (revision 4) has no new revision",
+        "hand_eye`, `tcp_2f": "`hand_eye` (revision 4), `tcp_2f` (revision 1) have no new revision",
     }[measured]
     assert [change.subjects for change in reviewed(before, after).changes if change.why == without]
-    assert not [change for change in reviewed(before, again).changes if "not measured again" in change.why]
+    assert not [change for change in reviewed(before, again).changes if "no new revision" in change.why]
 
 
 def test_serial_number_that_was_read_ends_no_calibration(repository: Repository, main: Package) -> None:

@@ -88,8 +88,8 @@ def test_what_was_measured_with_it_stands_under_the_heading() -> None:
     found = review_of("hybrid_sdk", ("xyz: 0 0 11 mm", "xyz: 0 0 14 mm"))
     lines = _lines(found)
     at = next(number for number, line in enumerate(lines) if line.startswith("dangerous"))
-    assert lines[at + 1] == "  tcp_2f (revision 1) was not measured again"
-    assert "; **`tcp_2f` (revision 1) was not measured again**" in render_markdown(found)
+    assert lines[at + 1] == "  tcp_2f (revision 1) has no new revision"
+    assert "; **`tcp_2f` (revision 1) has no new revision**" in render_markdown(found)
 
 
 def test_a_moved_base_is_asked_of_safety_and_of_who_measures_and_no_line_is_cut() -> None:

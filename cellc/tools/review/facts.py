@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from cellc.compiler.cell.cell import Cell
 from cellc.contract.base import Json
-from cellc.contract.bring_up import BringUp
+from cellc.contract.bring_up import Activation, BringUp
 from cellc.contract.contract import Contract
 from cellc.contract.diagnostics import Diagnostic
 from cellc.contract.entities import TARGETS, ContractInterface
@@ -33,7 +33,7 @@ from cellc.tools.review.cameras import of_cameras, without_images
 from cellc.tools.review.graded import graded_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.tools.review.rights import COMMON, POLICY, of_checklist, rights
-from cellc.tools.review.steps import CALLED
+from cellc.tools.review.steps import CALLED, OBSERVED
 from cellc.tools.review.units import shown
 
 CONTRACT, MANIFEST, OBSERVATION = "contract.json", "manifest.json", "config/observe.json"
@@ -113,7 +113,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         _of_description("real", real),
         flatten(as_json(mock.hardware), ("mock", "hardware")),
         flatten(_dumped(_model(files, named.rehearsals, Rehearsals))["rehearsals"], ("rehearsals",)),
-        _of_bring_up(_model(files, named.bring_up, BringUp)),
+        _of_bring_up(_model(files, named.bring_up, BringUp), contract),
         () if gates is None else (*of_checklist(files), *_of_gates(gates, contract.cell)),
         _of_middleware(files),
         _of_pairs(files, named.srdf),
@@ -278,13 +278,18 @@ def _shape(collision: Collision) -> str:
     return text if collision.pose == identity() else f"{text} at {shown(collision.pose, '')}"
 
 
-def _of_bring_up(plan: BringUp) -> Iterator[tuple[Path, Leaf]]:
+def _of_bring_up(plan: BringUp, contract: Contract) -> Iterator[tuple[Path, Leaf]]:
     """Yield each step with what it waits for; of the order, what steps before one leave behind for its proof."""
+    controllers = (named for manager in contract.managers.values() for named in manager.controllers.items())
+    claiming = {name for name, each in controllers if each.command_interfaces or each.real_command_interfaces}
     for target in TARGETS:
         steps = plan.steps(target)
         for number, step in enumerate(steps):
             path = ("step", target, step.name)
-            yield from flatten({**_dumped(step), "name": None, CALLED: step.name}, path)
+            asked = _dumped(step)
+            if isinstance(step.request, Activation) and claiming.isdisjoint(step.request.controllers):
+                asked[OBSERVED] = asked.pop("request")
+            yield from flatten({**asked, "name": None, CALLED: step.name}, path)
             feeding = (before for before in steps[:number] if any(proof in step.proof for proof in before.effect))
             earlier = tuple(sorted(before.name for before in feeding))
             if earlier:

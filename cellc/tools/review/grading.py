@@ -81,13 +81,13 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
     return Verdict(_GRADES[rule](delta.before, delta.after), approval=approval_of(delta.path))
 
 
-UNMEASURED = "not measured again"
-"""How a reason ends that rests on calibrations that were not renewed."""
+UNMEASURED = "no new revision"
+"""How a reason ends that rests on calibrations that keep their revision."""
 
 
 def _unmeasured(names: Sequence[str], before: Contract) -> str:
     told = ", ".join(f"`{name}` (revision {before.calibrations[name].revision})" for name in names)
-    return f"{told} {'was' if len(names) == 1 else 'were'} {UNMEASURED}"
+    return f"{told} {'has' if len(names) == 1 else 'have'} {UNMEASURED}"
 
 
 _FIXED = {Rule.SAFE: Grade.SAFE, Rule.REVIEW: Grade.REVIEW, Rule.DANGEROUS: Grade.DANGEROUS}

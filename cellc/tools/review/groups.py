@@ -135,7 +135,7 @@ class Group:
 
     @property
     def unmeasured(self) -> tuple[str, ...]:
-        """What was not measured again since a part changed, and which link of an arm is another."""
+        """Which measurement has no new revision since a part changed, and which link of an arm is another."""
         told = [change.why for change in self.changes if change.why.endswith((UNMEASURED, ENDS_ELSEWHERE))]
         return tuple(dict.fromkeys(told))
 

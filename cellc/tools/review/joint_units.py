@@ -31,7 +31,9 @@ def _unit(unit: str, joints: Collection[Joint]) -> str:
 
 def _joints(names: Sequence[str], facts: Facts) -> Collection[Joint]:
     groups = [facts.contract.groups[name] for name in names if name in facts.contract.groups]
+    devices = [facts.contract.devices[name] for name in names if name in facts.contract.devices]
     wanted = {*names, *(joint for group in groups for joint in group.joints)}
+    wanted |= {device.gripper.joint for device in devices if device.gripper is not None}
     parts = [facts.contract.frames[name].grasp for name in names if name in facts.contract.frames]
     wanted |= {band.joint for part in parts if part is not None for of, band in part.bands.items() if of in names}
     return [joint for joint in facts.description.joints if joint.name in wanted]

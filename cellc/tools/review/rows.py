@@ -135,6 +135,7 @@ _ALL: Sequence[Row] = (
     Row("spec program {device} mode", Graded(_A.SAFETY, "mode for the program", Rule.DANGEROUS, why=_STARTS)),
     Row("spec program {device} played_by", Graded(_A.SAFETY, "who starts the program", Rule.DANGEROUS, why=_STARTS)),
     Row("spec surroundings {part} none", Graded(_A.SAFETY, "reason why there is nothing", Rule.DANGEROUS)),
+    Row("spec surroundings {part} open {what}", Graded(_A.SAFETY, "open question on the surroundings")),
     Row("spec surroundings {part} ...", Graded(_A.SAFETY, "what is stated around the arms", Rule.LOST, ordered=False)),
     # What a camera sees.
     Row("camera {device} range {what}", Graded(_A.DEVICES, "range of")),
@@ -250,9 +251,14 @@ _ALL: Sequence[Row] = (
         "step real {step} request controllers",
         Graded(_A.START_ORDER, "controllers to activate on hardware", Rule.DANGEROUS, ordered=False),
     ),
+    Row(
+        "step real {step} observed controllers",
+        Graded(_A.START_ORDER, "controllers that only read hardware", Rule.LOST, ordered=False),
+    ),
+    Row("step real {step} observed ...", Graded(_A.START_ORDER, "activation of controllers that only read hardware")),
     Row("step real {step} ...", Graded(_A.START_ORDER, "request on hardware", Rule.DANGEROUS, ordered=False)),
     Row("step mock {step} ...", Graded(_A.START_ORDER, "step on the mock", ordered=False)),
-    Row("spec bringup commissioning stages", Graded(_A.LIMITS, "stages of commissioning", Rule.DANGEROUS)),
+    Row("spec bringup commissioning stages", Graded(_A.LIMITS, "stages of commissioning", Rule.KEPT, ordered=False)),
     Row("spec bringup commissioning {what}", Graded(_A.LIMITS, "commissioning", Rule.MORE, "ratio", why=FASTER)),
     Row("stage {stage} {joint} velocity", Graded(_A.LIMITS, "share of its velocity", Rule.MORE, "ratio", why=FASTER)),
     Row(
@@ -334,6 +340,7 @@ FOLLOWS: Sequence[str] = (
     "step real {step} proof",
     "step real {step} effect",
     "step real {step} request controllers",
+    "step real {step} observed controllers",
     "contract clock_of ...",
     "parameters nodes {node} ros__parameters qos_overrides ...",
     "file config/recording_qos.yaml ...",

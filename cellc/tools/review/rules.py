@@ -107,7 +107,7 @@ THINGS: Sequence[Thing] = (
     Thing("contract devices {device}", _A.DEVICES, "device", _R, _R, shown="model"),
     Thing("contract adapters {device}", _A.CONTROL, "adapter", _R, _D, why="nothing bounds the commands of the device"),
     Thing("contract joint_limits {joint}", _A.LIMITS, "limits", _R, _D, why="the joint no longer has limits"),
-    Thing("stage {stage}", _A.LIMITS, "stage of commissioning", _R, _D, why="planned motion has one stage fewer"),
+    Thing("stage {stage}", _A.LIMITS, "stage of commissioning", _S, _D, why="planned motion has one stage fewer"),
     Thing("contract groups {group}", _A.MOTION, "planning group", _R, _R),
     Thing("contract poses {pose}", _A.MOTION, "named pose", _S, _R),
     Thing("contract goals {goal}", _A.MOTION, "goal", _S, _R),

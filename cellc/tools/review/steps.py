@@ -8,7 +8,9 @@ from typing import TypeAlias
 from cellc.tools.review.leaves import Leaf, Leaves, Path
 
 _STEP = "step"
-_DOES = ("phase", "proof", "request", "effect")
+OBSERVED = "observed"
+"""Request of a step for controllers that claim nothing, which move no hardware."""
+_DOES = ("phase", "proof", "request", OBSERVED, "effect")
 """What tells a step from others; its computer, its time and what comes before it may change."""
 _ALIKE = 0.6
 """Share of equal values from which a step that was removed and one that was added are one."""
