@@ -349,7 +349,7 @@ class Contract(ContractModel):
         dict[str, str], Graded(ReviewArea.OWNERS, "owner of the approval", Rule.NAMED, each="area")
     ] = Field(description="Owner of each approval area.")
     safety: ContractSafety = Field(description="Safety boundary.")
-    kpis: Annotated[Kpis, Graded(ReviewArea.FIGURES, "target figure", each="figure")] = Field(
+    kpis: Annotated[Kpis, Graded(ReviewArea.FIGURES, "target figure", Rule.STRICTER, each="figure")] = Field(
         description="Target figures."
     )
     attempt_fields: Annotated[

@@ -24,6 +24,7 @@ class Rule(Enum):
     HEAVIER = "dangerous where it is heavier by more than a tenth, else review"
     MEASURED = "dangerous where it grew by more than 5 % or vanished without a new revision, else review"
     FEWER = "dangerous where it shrank or vanished, else review"
+    STRICTER = "safe where it is stated and allows less, else review"
     BACK = "dangerous where it is lower, else review"
     NAMED = "dangerous where it was stated and became UNKNOWN or vanished, else review"
     MATRIX = "dangerous where it became incompatible, safe where it became OK, else review"

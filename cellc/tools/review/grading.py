@@ -120,6 +120,10 @@ def _heavier(before: Leaf | None, after: Leaf | None) -> Grade:
     return Grade.DANGEROUS if before is not None and _greater(after, allowed) else Grade.REVIEW
 
 
+def _stricter(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.SAFE if after is not None and (before is None or _greater(before, after)) else Grade.REVIEW
+
+
 def _back(before: Leaf | None, after: Leaf | None) -> Grade:
     return Grade.DANGEROUS if after is None or _greater(before, after) else Grade.REVIEW
 
@@ -156,6 +160,7 @@ _GRADES = {
     Rule.LOOSER: _looser,
     Rule.HEAVIER: _heavier,
     Rule.FEWER: _back,
+    Rule.STRICTER: _stricter,
     Rule.BACK: _back,
     Rule.NAMED: _named,
     Rule.MATRIX: _matrix,
