@@ -187,11 +187,7 @@ class Kpis:
     plan_to_execute_s: Annotated[Seconds | None, Field(description="Longest time from plan to execution.")] = None
     cancel_s: Annotated[Seconds | None, Field(description="Longest time from cancel to hold.")] = None
     missed_cycles: Annotated[Count | None, Field(description="Missed cycles allowed in a run.")] = None
-    stale_state_rejection: Annotated[
-        Share | None,
-        Field(description="Share of stale samples rejected, 0 to 1."),
-        Graded(ReviewArea.FIGURES, "share of stale states that is rejected"),
-    ] = None
+    stale_state_rejection: Annotated[Share | None, Field(description="Share of stale samples rejected, 0 to 1.")] = None
     protective_stops: Annotated[Count | None, Field(description="Protective stops allowed in a shift.")] = None
     recovery_time_s: Annotated[Seconds | None, Field(description="Longest time from stop to ready.")] = None
     wrong_owner_events: Annotated[Count | None, Field(description="Commands of a wrong owner allowed.")] = None

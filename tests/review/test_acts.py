@@ -158,7 +158,8 @@ _MORE_OPEN = (
         # A broadcaster claims nothing: that more of them are activated moves no hardware.
         ("hybrid_sdk", _WRENCH, "controllers that only read hardware", "review"),
         ("dual_ur", (_MORE_OPEN,), "open question on the surroundings", "review"),
-        ("dual_ur", (("stale_state_rejection: 100 %", "stale_state_rejection: 99 %"),), "share of stale", "review"),
+        ("dual_ur", (("recovery_time: 300 s", "recovery_time: 240 s"),), "target figure", "safe"),
+        ("dual_ur", (("recovery_time: 300 s", "recovery_time: 360 s"),), "target figure", "review"),
         (
             "fr3_hand",
             (("grip: {force: 20 N}", "grip: {speed: 30 mm/s, force: 20 N}"),),
