@@ -33,6 +33,7 @@ class Rule(Enum):
     APART = "dangerous where arms may meet in more room than before, else review"
     CLAIM = "dangerous where another claims it than before, else review"
     LOST = "dangerous where something of it is lost, else review"
+    ADDED = "safe where nothing of it is lost, else review"
     KEPT = "dangerous where something of it is lost, else safe"
     COMPARED = "dangerous where something of it is compared nowhere any more, else review"
     LOAD = (

@@ -64,7 +64,7 @@ def test_no_two_rows_have_one_pattern() -> None:
 
 
 def test_every_danger_has_its_reason() -> None:
-    never = (Rule.SAFE, Rule.REVIEW, Rule.STRICTER, Rule.PLACED)  # of a place the verdict says why
+    never = (Rule.SAFE, Rule.REVIEW, Rule.STRICTER, Rule.ADDED, Rule.PLACED)  # of a place the verdict says why
     assert not [row.pattern for row in ROWS if row.grade.rule not in never and not row.grade.why]
     assert not [thing.pattern for thing in THINGS if _D in (thing.added, thing.removed) and not thing.why]
 
@@ -101,6 +101,10 @@ def test_the_first_gate_of_an_area_is_the_one_that_looks_at_it() -> None:
         (Rule.LOOSER, "a", "b", _D),
         (Rule.BACK, 3, 2, _D),
         (Rule.BACK, 3, 4, _R),
+        (Rule.ADDED, ("/a",), ("/a", "/b"), _S),
+        (Rule.ADDED, None, ("/a",), _S),
+        (Rule.ADDED, ("/a", "/b"), ("/a",), _R),
+        (Rule.ADDED, ("/a",), None, _R),
         (Rule.STRICTER, 300.0, 240.0, _S),
         (Rule.STRICTER, None, 240.0, _S),
         (Rule.STRICTER, 300.0, 301.0, _R),

@@ -153,6 +153,10 @@ def _kept(before: Leaf | None, after: Leaf | None) -> Grade:
     return Grade.DANGEROUS if _entries(before) - _entries(after) else Grade.SAFE
 
 
+def _added(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.REVIEW if _entries(before) - _entries(after) else Grade.SAFE
+
+
 _FIGURE = re.compile(r"-?[0-9]+(?:\.[0-9]+)?(?:e[-+][0-9]+)?")
 _GRADES = {
     Rule.MORE: _more,
@@ -167,6 +171,7 @@ _GRADES = {
     Rule.CLAIM: _claim,
     Rule.LOST: _lost,
     Rule.KEPT: _kept,
+    Rule.ADDED: _added,
 }
 
 

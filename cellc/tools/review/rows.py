@@ -161,6 +161,7 @@ _ALL: Sequence[Row] = (
         for end, rule in (("lower", Rule.LESS), ("upper", Rule.MORE))
     ),
     Row("real joint {joint} limit velocity", Graded(_A.LIMITS, "velocity", Rule.MORE, "joint/s", why=FASTER)),
+    Row("spec recording topics", Graded(_A.FIGURES, "recording topics", Rule.ADDED, ordered=False)),
     Row("spec recording ...", Graded(_A.FIGURES, "recording")),
     Row("real joint {joint} axis", Graded(_A.MODEL, "axis", Rule.DANGEROUS, why="the joint turns about another axis")),
     Row("real joint {joint} type", Graded(_A.MODEL, "type", Rule.DANGEROUS)),

@@ -77,7 +77,10 @@ def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds)
     sides = [*_sides(review)]
     if not folds.most_findings and len(one := escaped("; ".join(map(_plain, sides)))) <= WIDTH:
         sides = [one]
-    head: _Lines = [*broken(summed_up(review), "  "), *sides]
+    summary = summed_up(review)
+    if len(escaped(summary)) > WIDTH:  # whose consumers break is said below
+        summary = summed_up(review, breaking=False)
+    head: _Lines = [*broken(summary, "  "), *sides]
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
     new, foot = [*_findings(review, folds.most_findings)], [*_foot(review)]
     broken_names = broken_by(review.changes)
