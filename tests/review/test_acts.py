@@ -179,6 +179,17 @@ def test_what_moves_nothing_faster_and_protects_no_less_is_not_dangerous(
     assert {str(change.grade) for change in changes if change.quantity.startswith(quantity)} == {grade}
 
 
+def test_a_first_motion_and_the_speed_of_jaws_have_the_unit_of_their_joint() -> None:
+    rail = review_of("rail_arm", ("max_delta: 20 mm, velocity: 10 mm/s", "max_delta: 50 mm, velocity: 15 mm/s"))
+    told = {(change.quantity, change.before, change.after) for change in rail.changes}
+    assert {("first motion largest move", "20 mm", "50 mm"), ("first motion velocity", "10 mm/s", "15 mm/s")} <= told
+    arm = review_of("rail_arm", ("max_delta: 5 deg, velocity: 5 deg/s", "max_delta: 4 deg, velocity: 5 deg/s"))
+    assert ("first motion largest move", "5 deg", "4 deg") in {(c.quantity, c.before, c.after) for c in arm.changes}
+    hand = review_of("fr3_hand", ("grip: {force: 20 N}", "grip: {speed: 30 mm/s, force: 20 N}"))
+    # Each of two fingers that slide goes half as fast as the jaws.
+    assert "15 mm/s" in {change.after for change in hand.changes}
+
+
 def test_a_controller_that_claims_makes_its_step_dangerous() -> None:
     facts = package_before("fr3_hand").facts
     steps = {path[3] for path in facts.leaves if path[:2] == ("step", "real") and path[4:] == ("controllers",)}

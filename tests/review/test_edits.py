@@ -74,8 +74,8 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous safety | walls | reason why there is nothing | the nearest is 3 m away -> "
             "the nearest is 2 m away",
             "dangerous safety | floor | what is stated around the arms shapes | floor -> ",
-            "review safety | floor | what is stated around the arms open.date | None -> 2027-01-01",
-            "review safety | floor | what is stated around the arms open.person | None -> safety",
+            "review safety | floor | open question on the surroundings date | None -> 2027-01-01",
+            "review safety | floor | open question on the surroundings person | None -> safety",
             "dangerous model | table | collision shapes | box 900 1200 40 mm -> cylinder of radius 700 mm, "
             "length 40 mm",
         ],

@@ -34,6 +34,12 @@ def _joints(names: Sequence[str], facts: Facts) -> Collection[Joint]:
     devices = [facts.contract.devices[name] for name in names if name in facts.contract.devices]
     wanted = {*names, *(joint for group in groups for joint in group.joints)}
     wanted |= {device.gripper.joint for device in devices if device.gripper is not None}
+    motions = () if facts.cell is None else facts.cell.bringup.first_motions
+    wanted |= {
+        f"{facts.contract.devices[first.device].prefix}{first.local_joint}"
+        for first in motions
+        if not {first.device, first.name}.isdisjoint(names)
+    }
     parts = [facts.contract.frames[name].grasp for name in names if name in facts.contract.frames]
     wanted |= {band.joint for part in parts if part is not None for of, band in part.bands.items() if of in names}
     return [joint for joint in facts.description.joints if joint.name in wanted]

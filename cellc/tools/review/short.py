@@ -74,13 +74,9 @@ def _headings(lines: _Lines) -> int:
 
 
 def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
-    sides = [*_sides(review)]
-    if not folds.most_findings and len(one := escaped("; ".join(map(_plain, sides)))) <= WIDTH:
-        sides = [one]
-    summary = summed_up(review)
-    if len(escaped(summary)) > WIDTH:  # whose consumers break is said below
-        summary = summed_up(review, breaking=False)
-    head: _Lines = [*broken(summary, "  "), *sides]
+    head: _Lines = [summed_up(review), *_sides(review)]
+    if not folds.most_findings and len(one := escaped("; ".join(map(_plain, head[1:])))) <= WIDTH:
+        head = [head[0], one]
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
     new, foot = [*_findings(review, folds.most_findings)], [*_foot(review)]
     broken_names = broken_by(review.changes)

@@ -39,12 +39,8 @@ def render_review(review: Review) -> Iterator[Line]:
         yield from (f"  {gate_line(gate)}" for gate in review.gates)
 
 
-def summed_up(review: Review, *, breaking: bool = True) -> str:
-    """Return one line: how many headings have each grade, and how many changes stand under them.
-
-    Args:
-        breaking: whether it says how many of these may break consumers.
-    """
+def summed_up(review: Review) -> str:
+    """Return one line: how many headings have each grade, and how many changes stand under them."""
     if not review.changes:
         differing = len(review.files)
         text = f"; {differing} files differ only in order or spelling" if differing else ""
@@ -53,8 +49,8 @@ def summed_up(review: Review, *, breaking: bool = True) -> str:
     counts = ((sum(group.grade is grade for group in groups), grade) for grade in reversed(Grade))
     listed = ", ".join(f"{number} {grade}" for number, grade in counts if number)
     noun = "cause" if review.causes else "area"
-    told = count(len(review.changes), "change") + (_breaking(review.changes) if breaking else "")
-    return f"{review.after.name}: {count(len(groups), noun)} ({listed}), {told}"
+    told = count(len(review.changes), "change")
+    return f"{review.after.name}: {count(len(groups), noun)} ({listed}), {told}{_breaking(review.changes)}"
 
 
 def _breaking(changes: Sequence[ReviewChange]) -> str:
