@@ -156,12 +156,14 @@ def test_versions_are_the_first_thing_that_the_real_target_asks_and_the_mock_doe
 
 
 def test_each_computer_compares_what_runs_on_it() -> None:
-    first, second = plan("fr3_hand", "humble")["real"][:2]
-    assert first["host"] == "control_pc"
-    parts = dict(part.split("=") for part in first["request"]["parts"])
-    assert {"kernel", "ros2_control", "arm.driver"} <= set(parts)
-    assert "moveit" not in parts  # it runs on the other computer, which takes no step
-    assert second["name"].startswith("observe_")
+    first, second, third = plan("fr3_hand", "humble")["real"][:3]
+    assert (first["host"], second["host"]) == ("control_pc", "planner_pc")
+    driving, planning = ({part.partition("=")[0] for part in step["request"]["parts"]} for step in (first, second))
+    assert {"kernel", "ros2_control", "arm.driver"} <= driving
+    assert "moveit" not in driving  # it runs on the other computer, whose only step compares
+    assert "moveit" in planning
+    assert not planning & {"ros2_control", "arm.driver"}
+    assert third["name"].startswith("observe_")
 
 
 def test_launch_ends_with_a_required_program_but_not_when_it_was_asked_to_end(tmp_path: Path) -> None:
