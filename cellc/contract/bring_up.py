@@ -3,9 +3,11 @@
 Read by ``lib/<package>/bring_up`` on the robot's computers and by the mock, so that what is rehearsed is what is done.
 """
 
-from typing import Annotated, Literal
+from collections.abc import Iterator, Mapping
+from itertools import chain
+from typing import Annotated, Literal, get_args
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from cellc.contract.base import ContractModel
 from cellc.contract.entities import HardwareState, LaunchTarget
@@ -98,7 +100,7 @@ class AloneProof(ContractModel):
     nodes: tuple[str, ...] = Field(description="Full names of nodes, none of which may be there twice.")
 
 
-Proof = (
+SingleProof = (
     NodeProof
     | LifecycleProof
     | ControllerProof
@@ -109,6 +111,16 @@ Proof = (
     | MockProof
     | AloneProof
 )
+
+
+class SharedProof(ContractModel):
+    """Every proof of a list holds: several steps of a target wait for them."""
+
+    kind: Literal["shared"]
+    list: str = Field(description="Name of the list in `shared` of the target.")
+
+
+Proof = SingleProof | SharedProof
 
 
 class Transition(ContractModel):
@@ -181,11 +193,21 @@ class BringUpStep(ContractModel):
     )
     request: Request | None = Field(None, description="What is asked for; null where only the proof counts.")
     effect: Annotated[
-        tuple[Proof, ...], Graded(ReviewArea.START_ORDER, "expected effect", Rule.LOST, ordered=False)
+        tuple[SingleProof, ...], Graded(ReviewArea.START_ORDER, "expected effect", Rule.LOST, ordered=False)
     ] = Field((), description="What must show after it; checked when the proof holds, too.")
     deadline_s: Annotated[float, Graded(ReviewArea.START_ORDER)] = Field(
         description="Time until the proof, and again until the effect.", gt=0.0
     )
+
+    def waits_for(self) -> Iterator[str]:
+        """Yield the names of the lists of proofs that it waits for."""
+        return (proof.list for proof in self.proof if isinstance(proof, SharedProof))
+
+    def with_lists(self, lists: Mapping[str, tuple[SingleProof, ...]]) -> "BringUpStep":
+        """Return it with the proofs of these lists in the place of their names."""
+        listed = (lists.get(proof.list) if isinstance(proof, SharedProof) else None for proof in self.proof)
+        proofs = ((proof,) if found is None else found for proof, found in zip(self.proof, listed, strict=True))
+        return self.model_copy(update={"proof": tuple(chain(*proofs))})
 
 
 class Watch(ContractModel):
@@ -205,14 +227,29 @@ class Watch(ContractModel):
 class BringUp(ContractModel):
     """The whole plan."""
 
-    format: Literal[1] = Field(description="Format of this file.")
+    format: Literal[2] = Field(description="Format of this file.")
     cell: str = Field(description="Name of the cell.")
     enclave: str = Field(description="SROS2 enclave of what asks.")
+    shared: dict[LaunchTarget, dict[str, tuple[SingleProof, ...]]] = Field(
+        description="Proofs that several steps of a target wait for, by the name of their list."
+    )
     mock: tuple[BringUpStep, ...] = Field(description="Steps on the mock, in order.")
     sim: tuple[BringUpStep, ...] = Field((), description="Steps on the simulator, where the spec asks for it.")
     real: tuple[BringUpStep, ...] = Field(description="Steps on the real target, in order.")
     watches: tuple[Watch, ...] = Field((), description="What the stopper watches on the real target.")
 
+    @model_validator(mode="after")
+    def _every_list_is_there(self) -> "BringUp":
+        for target in get_args(LaunchTarget):
+            for step in self.steps(target):
+                if absent := [name for name in step.waits_for() if name not in self.shared.get(target, {})]:
+                    raise ValueError(f"step {step.name} must wait for lists of `shared.{target}`, got {absent[0]}")
+        return self
+
     def steps(self, target: LaunchTarget) -> tuple[BringUpStep, ...]:
-        """Return the steps on a target."""
+        """Return the steps on a target; what several of them wait for is named."""
         return {"mock": self.mock, "sim": self.sim, "real": self.real}[target]
+
+    def proven_steps(self, target: LaunchTarget) -> tuple[BringUpStep, ...]:
+        """Return the steps on a target, each with every proof that it waits for."""
+        return tuple(step.with_lists(self.shared.get(target, {})) for step in self.steps(target))

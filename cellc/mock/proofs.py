@@ -17,6 +17,7 @@ from cellc.contract.bring_up import (
     MockProof,
     NodeProof,
     Proof,
+    SharedProof,
     TopicProof,
     TransformProof,
     Transition,
@@ -95,7 +96,9 @@ class Proofs:
         if isinstance(proof, TransformProof):
             connected = self._connected(proof.parent) & self._connected(proof.child)
             return "" if connected else f"no transform from {proof.parent} to {proof.child}"
-        return self._mock(proof) if isinstance(proof, MockProof) else ""  # two cells never run in one mock
+        if isinstance(proof, MockProof):
+            return self._mock(proof)
+        return f"no list {proof.list}" if isinstance(proof, SharedProof) else ""  # two cells never run in one mock
 
     def _has_node(self, node: str) -> bool:
         """Tell whether the contract has a node; it calls one by its bare name where no other is called so."""

@@ -15,7 +15,7 @@ from typing import Any
 from xml.etree.ElementTree import fromstring, tostring
 
 from tests.consumers.matrix import Build
-from tests.consumers.starting import plan
+from tests.consumers.starting import plan, proven
 
 DOMAIN = "96"
 ROOT = Path(__file__).resolve().parents[2]
@@ -167,8 +167,8 @@ def _node(full_name: str, lifecycle: bool = False) -> Node:
 
 
 def _proofs(built: Build) -> Iterator[Any]:
-    for step in plan(built.cell, built.distro)["mock"]:
-        yield from (*step.get("proof", ()), *step.get("effect", ()))
+    for step in proven(plan(built.cell, built.distro), "mock"):
+        yield from (*step["proof"], *step.get("effect", ()))
 
 
 def world(built: Build) -> dict[str, Any]:

@@ -101,6 +101,16 @@ def plan(cell: str, distro: str) -> Any:
     return json.loads(build(cell, distro).texts["config/bring_up.json"])
 
 
+def proven(plan: Any, target: str) -> list[Any]:
+    """Return the steps of a target, each with the proofs of the lists that it names."""
+    lists = plan["shared"].get(target, {})
+    steps = [dict(step) for step in plan.get(target, ())]
+    for step in steps:
+        named = [lists[one["list"]] if one["kind"] == "shared" else [one] for one in step["proof"]]
+        step["proof"] = [one for proofs in named for one in proofs]
+    return steps
+
+
 def activated(cell: str, distro: str, target: str, manager: str) -> list[str]:
     """Return the controllers that the steps of a target activate for the first time, by the node of their manager."""
     requests = (step.get("request") or {} for step in plan(cell, distro)[target])

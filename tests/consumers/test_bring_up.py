@@ -26,6 +26,7 @@ from tests.consumers.starting import (
     moves,
     plan,
     processes,
+    proven,
     written,
     written_managers,
 )
@@ -43,7 +44,7 @@ _SPEED = "/arm_speed/speed_scaling"
 def every_proof(cell: str, distro: str) -> Iterator[Any]:
     """Yield all proofs and effects of both targets."""
     for target in TARGETS:
-        for step in plan(cell, distro)[target]:
+        for step in proven(plan(cell, distro), target):
             yield from (*step["proof"], *step.get("effect", ()))
 
 
@@ -152,11 +153,12 @@ def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, 
     managers = [namespace for namespace, _ in written_managers(cell, distro)]
     alone = f"/{'robot_state' if len(managers) == 1 else 'description'}_publisher"
     asked = "/controller_manager" if distro == "humble" else alone
-    moving = [step for step in plan(cell, distro)["mock"] if step["phase"] == "move"]
+    steps = proven(plan(cell, distro), "mock")
+    moving = [step for step in steps if step["phase"] == "move"]
     looked = [proof["node"] for step in moving for proof in step["proof"] if proof["kind"] == "mock"]
     assert looked == ([f"{manager}{asked}" for manager in managers] if moving else [])
     # Nor does the mock ask anything of a real cell that waits in the same domain.
-    for step in plan(cell, distro)["mock"]:
+    for step in steps:
         if step.get("request") is not None:
             looked = [proof for proof in step["proof"] if proof["kind"] == "mock"]
             assert [proof["node"] for proof in looked] == [f"{manager}{asked}" for manager in managers]
@@ -166,7 +168,7 @@ def test_mover_of_the_mock_looks_at_the_description_of_every_manager(cell: str, 
 def test_nothing_is_asked_where_a_second_cell_would_hear_it(cell: str, distro: str) -> None:
     # A mock that nobody ended has the names of the real cell, and answers in its place.
     for target in TARGETS:
-        for step in plan(cell, distro)[target]:
+        for step in proven(plan(cell, distro), target):
             to = step["request"] if step.get("request") is not None else {}
             if to.get("kind") == "versions":  # it reads what is installed, and asks no node
                 assert "proof" not in step or not step["proof"]
@@ -532,7 +534,7 @@ def test_exit_status_of_the_mover_is_passed_on(graph: StandIn, tmp_path: Path) -
 
 def test_fingers_run_while_no_program_plays_and_a_claim_waits_for_what_takes_it_back() -> None:
     # ros2_control 4.46.0, resource_manager.cpp:2376: a component that is activated holds up all others for seconds.
-    steps = {step["name"]: step["proof"] for step in plan("ur5e_pick", "jazzy")["real"]}
+    steps = {step["name"]: step["proof"] for step in proven(plan("ur5e_pick", "jazzy"), "real")}
     told = {"kind": "topic", "topic": _RUNNING, "type": "std_msgs/msg/Bool", "field": "data"}
     assert {**told, "values": [False], "unsaid": True} in steps["activate_gripper"]
     assert {**told, "values": [True]} in steps["claim_control"]

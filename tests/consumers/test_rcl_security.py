@@ -21,7 +21,7 @@ import pytest
 
 from tests.consumers.matrix import HERE, build
 from tests.consumers.permissions import Permissions, Right, permissions
-from tests.consumers.starting import plan
+from tests.consumers.starting import plan, proven
 from tests.emit.cells import contract_data
 
 pytestmark = pytest.mark.skipif(
@@ -60,7 +60,7 @@ def opened(cell: str) -> dict[str, list[tuple[Right, str]]]:
     phases = {step["phase"] for target in ("mock", "real") for step in steps[target]}
     job = {
         "program": build(cell, _DISTRO).texts["scripts/bring_up"],
-        "plan": steps,
+        "plan": {**steps, **{target: proven(steps, target) for target in ("mock", "real")}},
         "phases": sorted(phases),
         "watch": build(cell, _DISTRO).texts.get("scripts/claim_watch", ""),
         "nodes": [

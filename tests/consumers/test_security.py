@@ -9,7 +9,7 @@ import pytest
 
 from tests.consumers.matrix import build, every_build
 from tests.consumers.permissions import Permissions, Right, permissions, policy_of
-from tests.consumers.starting import node_name, plan, processes, written_managers
+from tests.consumers.starting import node_name, plan, processes, proven, written_managers
 from tests.consumers.test_walk import commands, sections
 from tests.emit.cells import contract_data
 
@@ -243,7 +243,7 @@ _REQUESTED_BY_BRING_UP: dict[str, tuple[str, ...]] = {
 def test_bring_up_may_call_what_its_steps_ask(cell: str, distro: str) -> None:
     steps, asked = plan(cell, distro), set()
     may = permissions(build(cell, distro).texts)[steps["enclave"]]
-    for step in (*steps["mock"], *steps["real"]):
+    for step in (*proven(steps, "mock"), *proven(steps, "real")):
         proofs = (*step["proof"], *step.get("effect", ()))
         ends = [(proof, _CALLED_BY_BRING_UP.get(proof["kind"], ())) for proof in proofs]
         if "request" in step:

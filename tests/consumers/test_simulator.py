@@ -23,7 +23,7 @@ from tests.consumers.matrix import HERE, SPECS, Build, build
 from tests.consumers.mujoco_plugin import Plugin, started
 from tests.consumers.parameter_files import sections, told
 from tests.consumers.refused_parameters import claimed, read
-from tests.consumers.starting import launched
+from tests.consumers.starting import launched, proven
 from tests.emit.cells import contract_data, emitted_graph
 
 SIMULATED = tuple(cell for cell in EVERY_CELL if "targets: {sim:" in spec_text(cell))
@@ -162,7 +162,7 @@ def test_steps_ask_for_what_is_spawned_and_for_the_one_component(cell: str, dist
     plan = json.loads(whole.texts["config/bring_up.json"])
     (spawner,) = [process for process in _processes(cell, distro) if process.executable == "spawner"]
     spawned = set(spawner.arguments[: spawner.arguments.index("-c")])
-    proofs = [proof for step in plan["sim"] for proof in (*step["proof"], *step.get("effect", ()))]
+    proofs = [proof for step in proven(plan, "sim") for proof in (*step["proof"], *step.get("effect", ()))]
     assert {proof["controller"] for proof in proofs if proof["kind"] == "controller"} == spawned
     assert {proof["component"] for proof in proofs if proof["kind"] == "hardware"} == {"simulator"}
     assert {plugin for proof in proofs if proof["kind"] == "mock" for plugin in proof["plugins"]} == {

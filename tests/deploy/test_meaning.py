@@ -62,8 +62,7 @@ def test_other_subjects_of_the_complete_cell_are_empty() -> None:
 
 @pytest.mark.parametrize(("spec", "target"), STEPS_MEANT)
 def test_steps_of_the_bring_up(spec: str, target: str) -> None:
-    plan = bring_up(_graph(spec).cell)
-    steps = plan.mock if target == "mock" else plan.real
+    steps = bring_up(_graph(spec).cell).proven_steps("mock" if target == "mock" else "real")
     assert [_line(step) for step in steps] == MEANT[spec]["steps"][target]
 
 

@@ -79,7 +79,7 @@ def test_move_group_asks_the_adapter_by_its_action(texts: dict[str, str]) -> Non
 def test_the_mock_waits_for_no_transform_over_joints_that_nobody_drives_there(cell: Cell) -> None:
     waited: dict[str, set[str]] = {target: set() for target in TARGETS}
     for target in TARGETS:
-        proofs = (proof for step in bring_up(cell).steps(target) for proof in step.proof)
+        proofs = (proof for step in bring_up(cell).proven_steps(target) for proof in step.proof)
         waited[target] |= {proof.child for proof in proofs if proof.kind == "transform"}
     assert waited == {"mock": set(), "real": {"tcp"}}
 

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from cellc.mock import MockCell, load
+from cellc.mock.errors import MockError
 from cellc.mock.result import RehearsalResult
 
 
@@ -114,6 +115,26 @@ def test_what_can_never_show_stops_the_plan_at_its_step(
     result = plan_with(folder, "claim_control", lambda step: step["proof"].append({"kind": kind, **fields}))
     assert result.outcome == "bringup_failure"
     assert problems(result) == f"step `claim_control`: {missing}"
+
+
+@pytest.mark.parametrize("step", ["configure_perception", "activate_gripper", "claim_control", "move"])
+def test_a_step_waits_for_every_proof_of_a_list_that_it_names(step: str, folder: Path) -> None:
+    file = folder / "config/bring_up.json"
+    plan = json.loads(file.read_text())
+    plan["shared"]["mock"]["mine"] = [{"kind": "node", "node": "/task"}, {"kind": "action", "action": "/x"}]
+    next(one for one in plan["mock"] if one["name"] == step)["proof"][0] = {"kind": "shared", "list": "mine"}
+    file.write_text(json.dumps(plan))
+    assert problems(load(folder, edited=True).run("pick_and_place")) == f"step `{step}`: no server for /x"
+
+
+def test_a_step_of_any_target_names_a_list_that_its_target_has(folder: Path) -> None:
+    file = folder / "config/bring_up.json"
+    plan = json.loads(file.read_text())
+    del plan["shared"]["real"]["every_step"]
+    file.write_text(json.dumps(plan))
+    with pytest.raises(MockError) as refused:
+        load(folder, edited=True)
+    assert "step configure_perception must wait for lists of `shared.real`, got every_step" in str(refused.value)
 
 
 def test_an_effect_that_does_not_show_stops_the_plan_after_its_request(folder: Path) -> None:

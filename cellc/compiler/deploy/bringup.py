@@ -13,10 +13,26 @@ from collections.abc import Iterator, Sequence
 
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
-from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.frame import WORLD
 from cellc.compiler.cell.interface import Node
-from cellc.compiler.deploy.processes import asks_for_motion, description_nodes, is_adapter, motion_clients
+from cellc.compiler.deploy.processes import asks_for_motion, is_adapter, motion_clients
+from cellc.compiler.deploy.proofs import (
+    EVERY_CLAIM,
+    EVERY_STEP,
+    Lists,
+    active_hardware,
+    component,
+    controller_proof,
+    following,
+    hardware_proof,
+    joint_states,
+    lifecycle_proof,
+    lists,
+    managed_nodes,
+    shared,
+    silent,
+    transforms,
+)
 from cellc.compiler.deploy.readiness import (
     activated_later,
     components_of,
@@ -24,7 +40,6 @@ from cellc.compiler.deploy.readiness import (
     hardware_before,
     is_claiming,
     is_exported,
-    is_on,
     measured_in,
     moved_with,
     readers_of,
@@ -32,7 +47,7 @@ from cellc.compiler.deploy.readiness import (
 )
 from cellc.compiler.deploy.versions import compared_on
 from cellc.compiler.deploy.watches import heard, watches
-from cellc.compiler.graph.claims import crosses_an_adapter
+from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.enclaves import bring_up_enclave
 from cellc.compiler.graph.simulated import is_asked, simulated
 from cellc.compiler.link.derived import JOINT_STATE_TYPE
@@ -41,43 +56,47 @@ from cellc.contract.bring_up import (
     Acknowledgment,
     ActionProof,
     Activation,
-    AloneProof,
     BringUp,
     BringUpStep,
     Comparison,
-    ControllerProof,
     HardwareActivation,
-    HardwareProof,
-    LifecycleProof,
-    ManagedState,
-    MockProof,
     NodeProof,
     Proof,
     Request,
     Restart,
+    SingleProof,
     TopicProof,
-    TransformProof,
     Transition,
     Watch,
 )
-from cellc.contract.entities import HardwareState, Target
-from cellc.contract.vocabulary import BringUpPhase, InterfaceKind, Moment, Need
+from cellc.contract.entities import LaunchTarget, Target
+from cellc.contract.vocabulary import BringUpPhase, InterfaceKind
 
 DEADLINE_S = 60.0
 """How long a step waits for its proof, and for its effect."""
 
 
 def bring_up(cell: Cell) -> BringUp:
-    """Return the plan of a cell: steps of both targets in the order of their phases, and what the stopper watches."""
+    """Return the plan of a cell: steps of each target in the order of their phases, and what the stopper watches."""
+    plans: dict[LaunchTarget, tuple[Lists, tuple[BringUpStep, ...]]] = {"mock": _plan(cell, "mock")}
+    if is_asked(cell):
+        plans["sim"] = _plan(simulated(cell), "mock")
+    plans["real"] = _plan(cell, "real")
     return BringUp(
-        format=1,
+        format=2,
         cell=cell.name,
         enclave=bring_up_enclave(cell),
-        mock=tuple(_steps(cell, "mock")),
-        sim=tuple(_steps(simulated(cell), "mock")) if is_asked(cell) else (),
-        real=(*_comparisons(cell), *_steps(cell, "real")),
+        shared={target: lists for target, (lists, _) in plans.items()},
+        mock=plans["mock"][1],
+        sim=plans["sim"][1] if "sim" in plans else (),
+        real=(*_comparisons(cell), *plans["real"][1]),
         watches=tuple(watches(cell)),
     )
+
+
+def planned(graph: CellGraph) -> BringUp:
+    """Return the plan of a graph: the question that every stage above asks once (`CellGraph.once`)."""
+    return bring_up(graph.cell)
 
 
 def phases(plan: BringUp, target: Target, host: str | None = None) -> tuple[BringUpPhase, ...]:
@@ -97,13 +116,13 @@ def activation(node: Node) -> str:
     return f"ros2 lifecycle set {node.full_name} activate"
 
 
+def _plan(cell: Cell, target: Target) -> tuple[Lists, tuple[BringUpStep, ...]]:
+    """Return the lists of a target, and its steps, each of which waits for what every step waits for."""
+    steps = (step.model_copy(update={"proof": (EVERY_STEP, *step.proof)}) for step in _steps(cell, target))
+    return shared(tuple(steps), lists(cell, target))
+
+
 def _steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
-    """Yield the steps on a target, each with the proofs that all of them wait for."""
-    everywhere = tuple(_mocked(cell, target))
-    return (step.model_copy(update={"proof": (*everywhere, *step.proof)}) for step in _own_steps(cell, target))
-
-
-def _own_steps(cell: Cell, target: Target) -> Iterator[BringUpStep]:
     """Yield the steps on a target; each waits for what an earlier one made, on whichever host that runs."""
     managed = [node for node in cell.nodes if node.lifecycle and (target == "real" or not node.real_only)]
     yield from (_configure(node) for node in managed)
@@ -143,7 +162,7 @@ def _configure(node: Node) -> BringUpStep:
         node.host,
         [NodeProof(kind="node", node=node.full_name)],
         Transition(kind="transition", node=node.full_name, transition="configure"),
-        [_lifecycle(node, "inactive")],
+        [lifecycle_proof(node, "inactive")],
     )
 
 
@@ -153,11 +172,11 @@ def _activate(cell: Cell, node: Node, target: Target, phase: BringUpPhase, relea
         f"activate_{node.name}",
         node.host,
         [
-            _lifecycle(node, "inactive"),
-            *(tf for parent in measured_in(cell, node) for tf in _transforms(cell, target, WORLD, parent)),
+            lifecycle_proof(node, "inactive"),
+            *(tf for parent in measured_in(cell, node) for tf in transforms(cell, target, WORLD, parent)),
         ],
         Transition(kind="transition", node=node.full_name, transition="activate"),
-        [_lifecycle(node, "active")],
+        [lifecycle_proof(node, "active")],
         release,
     )
 
@@ -171,7 +190,7 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
     )
     if spawned:
         components = (
-            _hardware(manager, device, "active")
+            hardware_proof(manager, device, "active")
             for device in components_of(cell, manager, target)
             if device not in later  # or a person was faster
         )
@@ -181,10 +200,10 @@ def _observe(cell: Cell, manager: ControllerManager, target: Target) -> Iterator
             manager.host,
             [
                 *components,
-                *(_controller(manager, name, "inactive") for name in spawned),
+                *(controller_proof(manager, name, "inactive") for name in spawned),
             ],
             Activation(kind="controllers", manager=manager.node, controllers=observing) if observing else None,
-            [_controller(manager, name, "active") for name in observing],
+            [controller_proof(manager, name, "active") for name in observing],
         )
 
 
@@ -195,9 +214,9 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
             BringUpPhase.ACTIVATE,
             f"activate_{device.name}",
             manager.host,
-            [*(_silent(cell, device) if target == "real" else ())],
-            HardwareActivation(kind="hardware", manager=manager.node, component=_component(device)),
-            [_hardware(manager, device, "active")],
+            [*(silent(cell, device) if target == "real" else ())],
+            HardwareActivation(kind="hardware", manager=manager.node, component=component(device)),
+            [hardware_proof(manager, device, "active")],
             device.name,
         )
         reading = tuple(
@@ -210,9 +229,9 @@ def _activate_hardware(cell: Cell, manager: ControllerManager, target: Target) -
                 BringUpPhase.ACTIVATE,
                 f"observe_{device.name}_again",
                 manager.host,
-                [*(_controller(manager, name, "inactive") for name in reading)],
+                [*(controller_proof(manager, name, "inactive") for name in reading)],
                 Restart(kind="restart", manager=manager.node, controllers=reading),
-                [_controller(manager, name, "active") for name in reading],
+                [controller_proof(manager, name, "active") for name in reading],
                 device.name,
             )
 
@@ -232,15 +251,14 @@ def _claim(cell: Cell, manager: ControllerManager, target: Target) -> Iterator[B
             f"claim_{manager.name}" if len(claiming) == 1 else f"claim_{manager.name}_of_{released}",
             manager.host,
             [
-                *(_hardware(manager, device, "active") for device in components_of(cell, manager, target)),
-                *(_controller(manager, name, "inactive") for name in names),
-                *_joint_states(cell, manager),
-                *(tf for group in cell.groups for tf in _transforms(cell, target, group.base_link, group.tip_frame)),
-                *_managed_nodes(cell),
-                *(_heard(cell, manager) if target == "real" else ()),
+                active_hardware(manager),
+                *(controller_proof(manager, name, "inactive") for name in names),
+                *joint_states(cell, manager),
+                EVERY_CLAIM,
+                following(manager),
             ],
             Activation(kind="controllers", manager=manager.node, controllers=tuple(names)),
-            [_controller(manager, name, "active") for name in names],
+            [controller_proof(manager, name, "active") for name in names],
             released,
         )
 
@@ -253,11 +271,11 @@ def _claim_by_adapter(cell: Cell, node: Node, target: Target) -> BringUpStep:
         f"claim_by_{node.name}",
         node.host,
         [
-            _lifecycle(node, "inactive"),
+            lifecycle_proof(node, "inactive"),
             TopicProof(kind="topic", topic=adapted.state_topic, type=JOINT_STATE_TYPE),
         ],
         Transition(kind="transition", node=node.full_name, transition="activate"),
-        [_lifecycle(node, "active")],
+        [lifecycle_proof(node, "active")],
         moved_with(cell, adapted.device),
     )
 
@@ -286,13 +304,13 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     """
     asking = {node.name for node in motion_clients(cell)}
     claimed = (
-        _controller(manager, controller.name, "active")
+        controller_proof(manager, controller.name, "active")
         for manager in cell.managers
         for controller in started_active(manager, target)
         if is_claiming(cell, controller, ())
     )
     adapted = tuple(adapter.action for adapter in cell.adapters)
-    adapting = (_lifecycle(node, "active") for node in cell.nodes if target == "real" and is_adapter(cell, node))
+    adapting = (lifecycle_proof(node, "active") for node in cell.nodes if target == "real" and is_adapter(cell, node))
     asked = (
         interface.name
         for interface in cell.interfaces
@@ -303,25 +321,8 @@ def _move(cell: Cell, target: Target) -> BringUpStep:
     names = (name for name in asked if name not in adapted)
     actions = (ActionProof(kind="action", action=name) for name in (*(adapted if target == "real" else ()), *names))
     followed = (proof for device in cell.devices for proof in heard(cell, device).values() if target == "real")
-    proof: list[Proof] = [*claimed, *adapting, *followed, *actions, *_managed_nodes(cell)]
+    proof: list[Proof] = [*claimed, *adapting, *followed, *actions, *managed_nodes(cell)]
     return _step(BringUpPhase.MOVE, "move", "", proof, None, [])
-
-
-def _mocked(cell: Cell, target: Target) -> Iterator[AloneProof | MockProof]:
-    """Yield the proofs that one cell answers, and on the mock that it is the mock.
-
-    The mock and the real cell have the same names and domain, so that one that was not ended hears every request
-    of the other: what is asked, and what describes the robot, is there once.
-    """
-    describing = tuple(description_nodes(cell))
-    there = (node for node in cell.nodes if node.lifecycle and (target == "real" or not node.real_only))
-    asked = (*(manager.node for manager in cell.managers), *(node.full_name for node in there))
-    if nodes := tuple(dict.fromkeys((*describing, *asked))):
-        yield AloneProof(kind="alone", nodes=nodes)
-    if target == "mock":
-        hardware = (device.control.hardware for device in cell.devices if is_on(device, "mock"))
-        plugins = tuple(sorted({item.plugins["mock"] for item in hardware if item is not None}))
-        yield from (MockProof(kind="mock", node=node, plugins=plugins) for node in describing)
 
 
 def _step(
@@ -330,7 +331,7 @@ def _step(
     host: str,
     proof: list[Proof],
     request: Request | None,
-    effect: list[Proof],
+    effect: list[SingleProof],
     release: str = "",
 ) -> BringUpStep:
     return BringUpStep(
@@ -343,58 +344,3 @@ def _step(
         effect=tuple(effect),
         deadline_s=DEADLINE_S,
     )
-
-
-def _heard(cell: Cell, manager: ControllerManager) -> Iterator[Proof]:
-    """Yield that a robot follows, and that the node is there which takes the claim when it no longer does."""
-    proofs = [proof for device in components_of(cell, manager, "real") for proof in heard(cell, device).values()]
-    yield from proofs
-    if proofs:
-        yield NodeProof(kind="node", node=CLAIM_WATCH)
-
-
-def _silent(cell: Cell, device: Device) -> Iterator[TopicProof]:
-    """Yield that no program plays which would end while a device holds up its controller manager."""
-    effect = None if device.control.hardware is None else device.control.hardware.effects.get(Moment.ACTIVATE)
-    if effect is not None and Need.PROGRAM_STOPPED in effect.needs:
-        for manager in cell.managers:
-            for other in components_of(cell, manager, "real") if device.name in manager.devices else ():
-                proof = heard(cell, other).get(Need.PROGRAM_RUNNING)
-                if proof is not None:
-                    yield proof.model_copy(update={"values": (False,), "unsaid": True})
-
-
-def _component(device: Device) -> str:
-    assert device.control.hardware is not None
-    return device.control.hardware.name
-
-
-def _hardware(manager: ControllerManager, device: Device, state: HardwareState) -> HardwareProof:
-    return HardwareProof(kind="hardware", manager=manager.node, component=_component(device), state=state)
-
-
-def _controller(manager: ControllerManager, name: str, state: ManagedState) -> ControllerProof:
-    return ControllerProof(kind="controller", manager=manager.node, controller=name, state=state)
-
-
-def _lifecycle(node: Node, state: ManagedState) -> LifecycleProof:
-    return LifecycleProof(kind="lifecycle", node=node.full_name, state=state)
-
-
-def _transforms(cell: Cell, target: Target, parent: str, child: str) -> Iterator[TransformProof]:
-    """Yield the proof of a transform; on the mock not over joints behind an adapter, without states."""
-    if target == "real" or not crosses_an_adapter(cell, parent, child):
-        yield TransformProof(kind="transform", parent=parent, child=child)
-
-
-def _joint_states(cell: Cell, manager: ControllerManager) -> Iterator[TopicProof]:
-    names = {controller.full_name for controller in manager.controllers}
-    for interface in cell.interfaces:
-        published = any(end.full_name in names for end in interface.sources)
-        if interface.type == JOINT_STATE_TYPE and interface.sinks and published:
-            yield TopicProof(kind="topic", topic=interface.name, type=interface.type)
-
-
-def _managed_nodes(cell: Cell) -> Iterator[LifecycleProof]:
-    managed = (node for node in cell.nodes if node.lifecycle and not is_adapter(cell, node))
-    return (_lifecycle(node, "active") for node in managed if not asks_for_motion(cell, node))

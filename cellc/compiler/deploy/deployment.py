@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from cellc.compiler.cell.interface import Node
-from cellc.compiler.deploy.bringup import bring_up
+from cellc.compiler.deploy.bringup import planned
 from cellc.compiler.deploy.configuration import (
     OpenQuestion,
     configuration_id,
@@ -71,7 +71,7 @@ def plan_deployment(graph: CellGraph) -> Deployment:
         questions=open_questions(graph),
         hosts=launch_hosts(cell),
         motion_clients=motion_clients(cell),
-        bring_up=bring_up(cell),
+        bring_up=graph.once(planned),
         promotion=promotion_gates(graph, header),
         network=network_gates(graph, header),
         recorded=recorded_topics(cell),

@@ -8,7 +8,7 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import Controller
 from cellc.compiler.cell.site import FirstMotion
 from cellc.compiler.cell.vendor import SpeedControl
-from cellc.compiler.deploy.bringup import bring_up, phases, releases
+from cellc.compiler.deploy.bringup import phases, planned, releases
 from cellc.compiler.deploy.enabling import enabled_early
 from cellc.compiler.deploy.files import stage_files
 from cellc.compiler.deploy.first_goal import first_goals
@@ -180,7 +180,7 @@ def stop_reasons(graph: CellGraph) -> Iterator[Values]:
 
 def released(graph: CellGraph, release: Release, phase: BringUpPhase) -> Iterator[Values]:
     """Yield the command of a release, where the real target has a step in its phase: one for each of its devices."""
-    plan = bring_up(graph.cell)
+    plan = graph.once(planned)
     if phase in phases(plan, "real"):
         for device in releases(plan, phase) or ("",):
             yield f"{device}: " if device else "", release_once(graph.cell, release, device)

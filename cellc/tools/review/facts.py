@@ -283,7 +283,7 @@ def _of_bring_up(plan: BringUp, contract: Contract) -> Iterator[tuple[Path, Leaf
     controllers = (named for manager in contract.managers.values() for named in manager.controllers.items())
     claiming = {name for name, each in controllers if each.command_interfaces or each.real_command_interfaces}
     for target in TARGETS:
-        steps = plan.steps(target)
+        steps = plan.proven_steps(target)
         for number, step in enumerate(steps):
             path = ("step", target, step.name)
             asked = _dumped(step)

@@ -22,7 +22,7 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import partial
-from itertools import takewhile
+from itertools import chain, takewhile
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -87,8 +87,7 @@ class Graph:
     def ask(self, kind: str, name: str, answer_s: float = ANSWER_S, /, **fields: Any) -> Any:
         """Ask a service once and return its answer."""
         service = _loaded(kind)
-        client = self._clients.setdefault(name, None) or self._node.create_client(service, name)
-        self._clients[name] = client
+        client = self._clients[name] = self._clients.get(name) or self._node.create_client(service, name)
         if not client.service_is_ready():
             self._miss(name)
             raise UnansweredError(f"no service {name}")
@@ -145,11 +144,9 @@ class Graph:
     def _listen(self, topic: str, kind: str, latched: bool, take: Any) -> None:
         from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-        qos = QoSProfile(
-            depth=100,
-            reliability=ReliabilityPolicy.RELIABLE if latched else ReliabilityPolicy.BEST_EFFORT,
-            durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
-        )
+        reliability = ReliabilityPolicy.RELIABLE if latched else ReliabilityPolicy.BEST_EFFORT
+        durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
+        qos = QoSProfile(depth=100, reliability=reliability, durability=durability)
         self._node.create_subscription(_loaded(kind), topic, take, qos)
         self._listened[topic] = time.monotonic()
 
@@ -382,6 +379,9 @@ def main(arguments: Sequence[str]) -> int:
     PATIENCE_S, MANIFEST = read.wait or PATIENCE_S, read.plan.parent.parent / "manifest.json"
     plan = json.loads(read.plan.read_text(encoding="utf-8"), object_hook=lambda entry: SimpleNamespace(**entry))
     taken = getattr(plan, read.target, None) or parser.error(f"{read.plan} has no steps on {read.target}")
+    shared = vars(getattr(plan.shared, read.target))  # lists of proofs that several steps wait for
+    for step in taken:
+        step.proof = [*chain(*(shared[proof.list] if proof.kind == "shared" else [proof] for proof in step.proof))]
     hosts = (read.host, "") if read.host else {step.host for step in taken}
     released = [step for step in taken if read.release in ("", getattr(step, "release", ""))]
     steps = [step for step in released if step.phase in read.phases and step.host in hosts]

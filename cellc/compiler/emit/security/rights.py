@@ -243,8 +243,9 @@ def _of_bring_up(cell: Cell, plan: BringUp) -> Rights:
     managed = (f"{node.full_name}/{text}" for node in cell.nodes if node.lifecycle for text in _OF_MANAGED)
     described = (f"{node}/get_parameters" for node in description_nodes(cell))
     managers = (f"{manager.node}/{name}" for manager in cell.managers for name in _OF_MANAGER)
-    proofs = [proof for target in TARGETS for step in plan.steps(target) for proof in step.proof]
-    heard = (proof.topic for proof in proofs if isinstance(proof, TopicProof))
+    stepped = [proof for target in TARGETS for step in plan.steps(target) for proof in step.proof]
+    shared = [proof for target in TARGETS for proofs in plan.shared[target].values() for proof in proofs]
+    heard = (proof.topic for proof in (*stepped, *shared) if isinstance(proof, TopicProof))
     acknowledged = (watch.acknowledge for watch in plan.watches)
     asked = (*managed, *managers, *described, *acknowledged)
     return Rights(subscribe=(*heard, "/tf", "/tf_static"), request=asked)
