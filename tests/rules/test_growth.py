@@ -17,9 +17,8 @@ from cellc.compiler.artifact import Artifact
 from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.deployment import Deployment, plan_deployment
 from cellc.compiler.deploy.gate_subjects import ROWS
-from cellc.compiler.emit import cell_picture, node_graph, simulation
+from cellc.compiler.emit import cell_picture, simulation
 from cellc.compiler.emit.emit_all import EMITTERS
-from cellc.compiler.emit.launch import launch
 from cellc.compiler.graph.cell_graph import CellGraph, build_graph
 from cellc.compiler.pipeline import check, emit_cell
 from cellc.compiler.rules.run import ALL_RULES
@@ -139,9 +138,7 @@ def test_no_rule_and_no_line_of_a_gate_searches_the_cell_for_each_of_its_things(
 
 OF_THE_WHOLE = {
     simulation.emit: "a keyframe has all joints, and pairs without contact are listed",
-    launch.emit: "the launch file of each computer lists the addresses of all devices",
     cell_picture.emit: "names are set beside each other in one picture",
-    node_graph.emit: "a line through a layer passes all that is there",
 }
 """Emitters whose files, or drawings, have all things of the cell beside each thing."""
 

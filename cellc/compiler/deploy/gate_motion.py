@@ -127,11 +127,12 @@ def speed_of(control: SpeedControl) -> str:
 
 
 def authorized_motion(graph: CellGraph) -> Iterator[Values]:
-    """Yield the commands that start motion clients, and what slows the robots down meanwhile."""
+    """Yield the commands that start motion clients, and what slows the robots down meanwhile: each said once."""
     controls = ((device.name, device.procedures.speed_control) for device in graph.cell.devices)
     named = (f"the {one.name} of {name} at {speed_of(one)}" for name, one in controls if one is not None and one.name)
     slow = " and ".join(named)
-    return ((where, command, slow and f", with {slow}") for where, command in move_real(graph.cell))
+    for number, (where, command) in enumerate(move_real(graph.cell)):
+        yield where, command, slow and (", with every robot still at that speed" if number else f", with {slow}")
 
 
 def gripper_goals(graph: CellGraph) -> Iterator[Values]:

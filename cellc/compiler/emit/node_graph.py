@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Container, Iterator, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 from xml.etree.ElementTree import Element
 
 from cellc.compiler.artifact import Artifact
@@ -30,6 +31,7 @@ _SIZE, _LINE = 13, 17  # height of letters, and of a line of text
 _BOX, _CHARACTERS = 126, 17  # width of a box, and how many characters it holds
 _GAP = 84  # between two layers, where lines cross
 _MARGIN, _TITLE = 14, 50
+_CROWDED = 4  # arrows for each end above which they go through a box of their own
 _BAND = 20  # between a box and the boundary around it
 _INK, _BACK, _STOP = "#30363d", "#3d6d9c", "#b3310a"
 _MOVE, _HELP = "#6b3fa0", "#8a949e"
@@ -52,6 +54,12 @@ class Exchange:
     names: tuple[str, ...]
 
     @property
+    def hub(self) -> str:
+        """Key of the box that its arrows go through where they would be many times its ends, and show nothing."""
+        straight, through = len(self.starts) * len(self.ends), len(self.starts) + len(self.ends)
+        return f"\n{self.names[0]}" if straight > _CROWDED * through else ""
+
+    @property
     def commands(self) -> bool:
         """Whether it asks for something to be done."""
         return self.kind != "topic"
@@ -70,43 +78,55 @@ def _layers(cell: Cell, exchanges: Sequence[Exchange]) -> dict[str, int]:
     """Return the layer of each box: nodes by who commands whom, then controllers, devices and the stop."""
     controllers = {controller.label for controller in cell.controllers}
     devices = [device.name for device in cell.devices]
-    ends = dict.fromkeys(name for exchange in exchanges for name in (*exchange.starts, *exchange.ends))
+    every_end = dict.fromkeys(name for exchange in exchanges for name in (*exchange.starts, *exchange.ends))
     drivers = dict.fromkeys(device.control.driver.node for device in cell.devices if device.control.driver is not None)
     heard_of = {end.full_name for interface in cell.interfaces for end in (*interface.sources, *interface.sinks)}
     own = (node for node in cell.nodes if node.source is NodeSource.SPEC and node.full_name not in heard_of)
     silent = dict.fromkeys(node.name for node in own)
-    nodes = [name for name in (ends | drivers | silent) if name not in controllers and name not in devices]
+    nodes = [name for name in (every_end | drivers | silent) if name not in controllers and name not in devices]
     asks: dict[str, set[str]] = {name: set() for name in nodes}
     for exchange in exchanges:
         for end in exchange.ends if exchange.commands else ():
             asks.get(end, set()).update(name for name in exchange.starts if name in asks)
-    layers = {name: _depth(name, asks, ()) for name in nodes}
+    depths = _depths(asks)
+    layers = {name: depths[name] for name in nodes}
+    asked = {name for exchange in exchanges if exchange.commands for name in (*exchange.starts, *exchange.ends)}
+    heard_by: dict[str, list[tuple[str, ...]]] = {}
+    for exchange in exchanges:
+        for name in exchange.starts:
+            heard_by.setdefault(name, []).append(exchange.ends)
     for name in nodes:
-        heard = [
-            layers[end]
-            for exchange in exchanges
-            if name in exchange.starts
-            for end in exchange.ends
-            if end in asks and end != name
-        ]
-        asked = any(name in (*exchange.starts, *exchange.ends) for exchange in exchanges if exchange.commands)
-        if heard and not asked:
+        ends_of = () if name in asked else heard_by.get(name, ())
+        if heard := [layers[end] for ends in ends_of for end in ends if end in asks and end != name]:
             layers[name] = min(heard) - 1
     first = min(layers.values(), default=0)
     after = max(layers.values(), default=0) - first + 1
     beside = [*(controller.label for controller in cell.controllers), *(each.starts[0] for each in helpers(cell))]
     column = 1 if beside else 0
-    return {
+    found = {
         **{name: layer - first for name, layer in layers.items()},
         **dict.fromkeys(beside, after),
         **dict.fromkeys(devices, after + column),
         _stop(cell): after + column + 1,
     }
+    return found | {exchange.hub: found[exchange.ends[0]] for exchange in exchanges if exchange.hub}
 
 
 def _stop(cell: Cell) -> str:
     # A node may be called like the authority of the stop.
     return f"\n{cell.safety.stop.authority}"
+
+
+def _depths(asks: Mapping[str, set[str]]) -> Mapping[str, int]:
+    """Return how many nodes command one another before each."""
+    others = {name: asked - {name} for name, asked in asks.items()}
+    depths: dict[str, int] = {}
+    try:
+        for name in TopologicalSorter(others).static_order():
+            depths[name] = max((depths[ask] + 1 for ask in others[name]), default=0)
+    except CycleError:
+        return {name: _depth(name, asks, ()) for name in asks}
+    return depths
 
 
 def _depth(name: str, asks: Mapping[str, set[str]], above: tuple[str, ...]) -> int:
@@ -118,8 +138,11 @@ def _depth(name: str, asks: Mapping[str, set[str]], above: tuple[str, ...]) -> i
 def _arrows(cell: Cell, exchanged: Sequence[Exchange]) -> Iterator[tuple[Line, str, bool]]:
     """Yield every line with what kind it is, and whether something of it is UNKNOWN."""
     for order, one in enumerate(exchanged, start=1):
-        for start in one.starts:
-            yield from ((Line(start, end, str(order)), "tells", one.is_unknown) for end in one.ends if end != start)
+        if one.hub:
+            pairs = [*((start, one.hub) for start in one.starts), *((one.hub, end) for end in one.ends)]
+        else:
+            pairs = [(start, end) for start in one.starts for end in one.ends if end != start]
+        yield from ((Line(start, end, str(order)), "tells", one.is_unknown) for start, end in pairs)
     for arrow in (*drives(cell), *helpers(cell)):
         yield Line(arrow.starts[0], arrow.ends[0], arrow.kind), arrow.kind, arrow.is_unknown
     for arrow in stop(cell):

@@ -61,7 +61,7 @@ def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     cell = graph.cell
     yield _file(plan.header, _CELL, _by_host(cell, plan.hosts) if plan.hosts else _whole(cell, plan))
     for host in plan.hosts:
-        yield _file(plan.header, _host_file(host), [*_arguments(cell), *_gate(START), *stages(cell, plan, host)])
+        yield _file(plan.header, _host_file(host), [*_arguments(cell, host), *_gate(START), *stages(cell, plan, host)])
     yield from programs_and_plan(graph, plan)
     released = phases(plan.bring_up, "real")
     for release, phase in ((ACTIVATE, BringUpPhase.ACTIVATE), (CLAIM, BringUpPhase.CLAIM)):
@@ -100,12 +100,12 @@ def _host_file(host: str) -> str:
     return f"launch/{host}.launch.xml"
 
 
-def _arguments(cell: Cell) -> Iterator[Element]:
+def _arguments(cell: Cell, host: str | None = None) -> Iterator[Element]:
     yield _target_argument(cell)
     yield from _headless_argument(cell)
     yield _release_argument(cell, START)
     yield from _stage_argument(cell)
-    yield from _address_arguments(cell)
+    yield from _address_arguments(cell, host)
     yield from simulated_time(cell)
 
 
@@ -129,9 +129,10 @@ def _by_host(cell: Cell, hosts: tuple[str, ...]) -> Iterator[Element]:
     yield comment("the part of each computer; its steps wait for the others")
     staged = (STAGE,) if stage_files(cell) else ()
     simulated = (HEADLESS,) if is_asked(cell) else ()
-    passed = {name: f"$(var {name})" for name in ("target", *simulated, START.argument, *staged, *addresses(cell))}
+    passed = ("target", *simulated, START.argument, *staged)
     for host in hosts:
-        yield _include(cell, _host_file(host), passed, {"if": on_host(host)})
+        given = {name: f"$(var {name})" for name in (*passed, *addresses(cell, host))}
+        yield _include(cell, _host_file(host), given, {"if": on_host(host)})
 
 
 def _include(cell: Cell, path: str, arguments: dict[str, str], condition: dict[str, str]) -> Element:
@@ -242,21 +243,21 @@ def _stated_host_argument(hosts: tuple[str, ...]) -> Element:
     return _argument("host", None, "The computer of this launch: each reaches its own hardware.", *hosts)
 
 
-def _address_arguments(cell: Cell) -> Iterator[Element]:
+def _address_arguments(cell: Cell, host: str | None) -> Iterator[Element]:
     """Yield an argument for each device with an address; the launch refuses any other than that of the URDF."""
-    for name, address in addresses(cell).items():
+    for name, address in addresses(cell, host).items():
         device = name.removesuffix("_address")
         text = f"Address of device {device}, fixed by the URDF. To change it, change the spec and build."
         yield _argument(name, address, text, address)
 
 
-def addresses(cell: Cell) -> dict[str, str]:
-    """Return the argument of each device with an address."""
+def addresses(cell: Cell, host: str | None) -> dict[str, str]:
+    """Return the argument of each device with an address that a host reaches, or any."""
     connections = ((device.name, device.site.connection) for device in cell.devices)
     return {
         f"{name}_address": connection.address
         for name, connection in connections
-        if connection is not None and connection.address is not None
+        if connection is not None and connection.address is not None and host in (None, connection.host)
     }
 
 
