@@ -169,7 +169,7 @@ class ContractInterface:
     cancel_within_s: Annotated[
         Seconds | None,
         Field(description="Bound from cancel to hold."),
-        Graded(ReviewArea.INTERFACES, "time from cancel to hold", Rule.LOOSER, why=LONGER),
+        Graded(ReviewArea.INTERFACES, "time from cancel to hold", Rule.LOOSER, why=LONGER, asks=("controller",)),
     ] = None
     simulated: Annotated[
         SimulatedNetwork | None,

@@ -9,7 +9,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import NamedTuple
 
-from cellc.contract.vocabulary import ReviewArea
+from cellc.contract.vocabulary import ApprovalArea, ReviewArea
 
 
 class Rule(Enum):
@@ -58,6 +58,7 @@ class Graded(NamedTuple):
         ordered: whether the order of a list says something.
         why: what the change means, beside the rule.
         each: what a key of a mapping names, such as `frame`; it is then the subject of the change.
+        asks: areas of approval that are asked beside that of the area.
         share: whether how much it changed is shown as a share; of a length or a mass that people know, it is not.
     """
 
@@ -70,6 +71,7 @@ class Graded(NamedTuple):
     why: str = ""
     each: str = ""
     share: bool = True
+    asks: tuple[ApprovalArea, ...] = ()
 
 
 UNAVOIDED = "planning no longer avoids all the room that it avoided"

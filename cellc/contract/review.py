@@ -8,9 +8,7 @@ from typing import Literal
 from pydantic import Field
 
 from cellc.contract.base import ContractModel
-from cellc.contract.vocabulary import GateCode, Grade, ReviewArea
-
-ApprovalArea = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
+from cellc.contract.vocabulary import ApprovalArea, GateCode, Grade, ReviewArea
 
 
 class ReviewSide(ContractModel):
@@ -62,8 +60,7 @@ class ReviewChange(ContractModel):
     why: str = Field("", description="Why it has this grade, by the rules of docs/review.md.")
     approval: ApprovalArea = Field(description="Area of approval.")
     owner: str = Field(description="Who approves it, by the spec after the change.")
-    beside: ApprovalArea | None = Field(None, description="Area of approval that is asked beside it: that of `area`.")
-    beside_owner: str = Field("", description="Who approves it there.")
+    beside: dict[ApprovalArea, str] = Field({}, description="Areas of approval asked beside it, each with its owner.")
     cause: int | None = Field(None, description="Number of its cause in `causes`, from 0; null where no line is known.")
 
 

@@ -322,6 +322,9 @@ GATE_ORDER = (*PROMOTION_GATES[:3], *NETWORK_GATES, *PROMOTION_GATES[3:])
 """All gates as they are passed: the network (G3) layer by layer."""
 
 
+ApprovalArea = Literal["graph", "time_tf", "controller", "vendor", "network", "safety", "data"]
+"""Area of `owners.approvals`: who approves changes of it."""
+
 RobotSetting = Literal[
     "payload", "tcp", "load", "thresholds", "joint_impedance", "tool_impedance", "tool_voltage", "first_motion"
 ]

@@ -50,13 +50,26 @@ of both sides on the mock and compares how they end. `--format markdown` writes 
 What is printed fits on a screen of 25 lines, and so does what a comment shows unfolded; `--all` prints every value,
 finding and gate. The first line counts the headings by their grade, and the changes below them. New errors come
 first; other new findings stand below the line that they follow from. Each line of the spec that changed is a heading
-with what it causes under it: the worst first, and of one grade what stops motion or is a matter of safety, then how far
-things get and move, the farthest first, what they carry, how fast they are, accelerations, tolerances, gains. A device
-with another model, or a new one, is before what else changed.
-Several lines with the same values, of several devices or named poses, are one heading, and so is one bound that the
-action, the rehearsal and the figure repeat. Lines that are too long are broken, and none is cut: where the whole has no
-room, values that are alike are one line, then causes that are not dangerous are. Why a change is dangerous, whose
-consumers it breaks and how nodes find each other always stand there. Two lines that exchanged their values say so.
+with what it causes under it: the worst first, and of one grade the largest act:
+
+1. a device that is new or has another model;
+2. where a device is mounted, and which program runs where;
+3. what stops, who commands and owns, and what happens after a fault;
+4. where things are around the arms, the farthest move first;
+5. bounds of motion and of force: positions, then velocities, then accelerations;
+6. named poses and goals, the farthest move first;
+7. addresses, versions, and how nodes exchange data;
+8. payload, measurements, clocks and rates;
+9. tolerances, timeouts, gains and parameters, and what moves by less than 1 mm and 1 deg;
+10. what rests on others or is noted: first motions, rehearsals, open questions, scheduling.
+
+A figure that is at least doubled or halved is two places before, but for the last ones.
+Several lines with the same values, of several devices, named poses or goals, are one heading; so are both ends of one
+rate, and one bound that the action, the rehearsal and the figure repeat. A line that only says again what its heading
+says of the same thing is left out; why it counts is not. Lines that are too long are broken, and none is cut: where the
+whole has no room, values that are alike are one line, then causes that are not dangerous are. Why a change is
+dangerous, whose consumers it breaks and how nodes find each other always stand there. Two lines that exchanged their
+values say so.
 To know what a line causes, cellc builds the cell with that line alone, or with all but that line. Lines
 that cannot stand alone, such as a device and its controllers, are listed together; so are those of one part of the spec
 where there are many. Folders have no spec: their changes are listed by area, and names that changed are found in the
@@ -160,6 +173,9 @@ def _areas() -> Iterator[str]:
     yield "consumers may break. Of what is safe, limits and matters of safety are asked."
     yield "Stiffness and damping of joints are approved by safety and control; so is what says how soon motion stops:"
     yield "watchdogs, times to stop, bounds of rehearsed stops. An owner of what is new who approves nothing is named."
+    yield "Some values ask more areas: the table of values lists them. A parameter has the area of"
+    yield "its node: control for a controller, motion for MoveIt, devices for the driver of a device, else interfaces."
+    yield "A parameter that only follows from another line asks no owner but that of the line."
     yield "Gates and layers rest on those before them, so that"
     yield "the evidence from the first one on is no longer valid. Under the same configuration id none is."
     yield ""
@@ -177,12 +193,14 @@ def _values() -> Iterator[str]:
     yield ""
     yield "## Values"
     yield ""
-    yield "| area | what | grade | breaks consumers |"
-    yield "|---|---|---|---|"
+    yield "| area | what | grade | also asks | breaks consumers |"
+    yield "|---|---|---|---|---|"
     for row in sorted(ROWS, key=lambda row: _area(row.grade)):
         why = f"; {row.grade.why}" if row.grade.why else ""
         what = f"{row.grade.quantity.rstrip(':')} (`{row.pattern}`)"
-        yield f"| {row.grade.area} | {what} | {row.grade.rule.value}{why} | {_yes(row.grade.breaking)} |"
+        asks = ", ".join(row.grade.asks)
+        cells = (row.grade.area, what, f"{row.grade.rule.value}{why}", asks, _yes(row.grade.breaking))
+        yield f"| {' | '.join(cells)} |"
 
 
 def _things() -> Iterator[str]:

@@ -157,10 +157,9 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous time | control_pc | bound of its offset | 1 ms -> 2 ms | +100 %",
             "dangerous network | arm_hardware | address | 192.168.56.101 -> 192.168.56.102",
             "review control | arm_trajectory | parameter constraints.stopped_velocity_tolerance | 0.2 -> 0.01 | -95 %",
-            "review control | camera | parameter depth_module.exposure | 8000 -> 10000",
-            "review control | camera | parameter rgb_camera.exposure | 80 -> 100",
-            "review control | arm_dashboard_client, arm_state_helper | parameter robot_ip | "
-            "192.168.56.101 -> 192.168.56.102",
+            "review devices | camera | parameter depth_module.exposure | 8000 -> 10000",
+            "review devices | camera | parameter rgb_camera.exposure | 80 -> 100",
+            "review network | arm_dashboard_client, arm_state_helper | address | 192.168.56.101 -> 192.168.56.102",
             "review control | arm_trajectory | parameter speed_scaling_interface_name | "
             "arm_speed_scaling/speed_scaling_factor -> None",
             "review time | camera | exposure | 8 ms -> 10 ms | +25 %",

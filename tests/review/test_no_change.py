@@ -97,7 +97,7 @@ def test_an_edit_by_hand_is_told_wherever_it_is(main: Package) -> None:
             "enforce_command_limits: true",
             "dangerous limits",
         ),
-        ("config/drivers.yaml", "enable_depth: true", "enable_depth: false", "review control"),
+        ("config/drivers.yaml", "enable_depth: true", "enable_depth: false", "review devices"),
         ("urdf/ur5e_pick.mock.urdf", "mock_components/GenericSystem", "ur/Real", "dangerous control"),
         ("urdf/ur5e_pick.real.urdf", '<mass value="4"/>', '<mass value="5"/>', "review model"),
         ("config/moveit/ur5e_pick.srdf", 'tip_link="tcp"', 'tip_link="world"', "review motion"),

@@ -246,9 +246,7 @@ def test_one_bound_in_several_places_and_the_limits_of_an_act_are_one_heading() 
         ("cancel: 200 ms", "cancel: 300 ms"),
     )
     (group,) = groups_of(bound)
-    told = (
-        "interfaces./move_action.cancel_within, rehearsals.canceled.within, kpis.cancel: 200 ms -> 300 ms (cell.yaml:"
-    )
+    told = "interfaces./move_action.cancel_within, rehearsals.canceled.within, kpis.cancel: 200 ms -> 300 ms (+50 %) ("
     assert group.title.startswith(told)
     (limits,) = groups_of(review_of("ur5e_pick", _FASTER))
     assert limits.title.startswith("devices.arm.limits (cell.yaml:")

@@ -175,8 +175,8 @@ def test_a_danger_has_its_reason_where_lines_are_cut() -> None:
         ("{reliability: best_effort, depth: 1}", "{reliability: reliable, depth: 5}"),
     )
     lines = as_text(render_short(found), color=False).splitlines()
-    at = lines.index("  time  oldest sample that may be used +50 %: /camera/color/image_raw")
-    assert lines[at + 1].startswith("  because older data may be used")
+    at = lines.index("dangerous  interfaces./camera/color/image_raw.max_age: 100 ms -> 150 ms (+50 %)")
+    assert lines[at + 1 : at + 3] == ["  (cell.yaml:96)", "  because older data may be used"]
     assert len(lines) <= MOST_LINES
 
 
@@ -189,14 +189,19 @@ def test_what_is_cut_says_how_much_is_left() -> None:
 
 
 def test_who_is_asked_is_never_cut_and_the_head_counts_as_every_other_form_does() -> None:
-    found = review_of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), ("max_age: 200 ms", "max_age: 205 ms"))
+    found = review_of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), ("cancel_within: 200", "cancel_within: 190"))
     lines = _lines(found)
     assert lines[0].partition(": ")[2] == "2 causes (2 review), 4 changes"
     assert len([line for line in lines if line.startswith("review  ")]) == 2
     assert len(found.changes) == 4
     owners = "data: metrology and calibration"
     long = found.model_copy(
-        update={"changes": tuple(change.model_copy(update={"owner": owners}) for change in found.changes)}
+        update={
+            "changes": tuple(
+                change.model_copy(update={"owner": owners, "beside": dict.fromkeys(change.beside, owners)})
+                for change in found.changes
+            )
+        }
     )
     text = " ".join(line.strip() for line in _lines(long))
-    assert f"asks controller ({owners}), time_tf ({owners})" in text
+    assert f"asks safety ({owners}), controller ({owners}), graph ({owners})" in text

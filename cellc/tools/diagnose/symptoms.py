@@ -12,7 +12,7 @@ from pydantic import Field, StringConstraints, field_validator, model_validator
 from cellc.compiler.catalog.catalog_model import CatalogModel, LayerName, Text, Token
 from cellc.compiler.catalog.compiled import CATALOG, compiled_table
 from cellc.contract.attempt import Layer
-from cellc.contract.review import ApprovalArea
+from cellc.contract.vocabulary import ApprovalArea
 from cellc.tools.diagnose.fields import FIELDS, Scope
 
 Topic = Literal[

@@ -18,7 +18,9 @@ _AS_ONE = ("payload", "limits", "commissioning")
 """Mappings whose values are listed as one however few they are: a mass and where it is, velocity and acceleration."""
 _BOUNDS = ("within", "cancel_within", "cancel")
 """Keys of one bound: of the action, of the rehearsal that checks it, and of the figure that reports it."""
-_NAMED_POSES = ("motion", "poses")
+_NAMED = (("motion", "poses"), ("motion", "goals"))
+_RATES, _OF_RATE = ("rate", "update_rate"), ("deadline", "lifespan", "lease_duration")
+"""Keys of a rate, and of times of an interface that rest on it."""
 _POSE = ("xyz", "rpy")
 """Keys of a place: where something is and how it is turned count together."""
 _PLACED_IN = (*_POSE, "parent")
@@ -28,7 +30,7 @@ _ROOMS, _PLACED = ("scene", "areas"), 3
 _OF_MODEL = ("model", "mount", "mounted_on", "serial", "revision", "firmware", "driver", "sdk", "description")
 """What another model of a device brings with it."""
 _END_OF_TOPIC, _IN_POSE = 5, 3
-"""Parts of the path of what one end of an interface asks or offers, and of that of a named pose."""
+"""Parts of the path of what one end of an interface asks or offers, and of that of a named pose or goal."""
 _LONGEST, _BESIDE = 60, 12
 """Characters of a value that a heading has, and of what is the same before those that differ."""
 
@@ -77,13 +79,24 @@ def _keys(
         keys.append(("ends", path[1], path[-1], *map(str, texts_of(edit))))
     if path[-1] in _BOUNDS:
         keys.append(("bound", *map(str, texts_of(edit))))
-    if path[:2] == _NAMED_POSES and len(path) > _IN_POSE:
-        keys.append((*_NAMED_POSES, "=", *path[_IN_POSE:], *map(str, texts_of(edit))))
+    if path[:2] in _NAMED and len(path) > _IN_POSE:
+        keys.append((*path[:2], "=", *path[_IN_POSE:], *map(str, texts_of(edit))))
+    keys += _of_rate(edit, edits)
     keys += _repeating(edit, edits)
     if len(path) > 2 and (not keys or is_model(path)):
         # Lines that are alike, of several devices or interfaces, are one.
         keys.append(alike(edit))
     return keys
+
+
+def _of_rate(edit: SpecEdit, edits: Sequence[SpecEdit]) -> Iterator[YamlPath]:
+    """Yield what makes both ends of a rate one: its values, and its interface whose times rest on it."""
+    path = edit.path
+    if path[-1] in _RATES and None not in texts_of(edit):
+        yield "rate", *map(str, texts_of(edit))
+    rate = (*path[:2], _RATES[0])
+    if path[:1] == ("interfaces",) and (path == rate or path[-1] in _OF_RATE):
+        yield from [("rate", *path[:2])] * any(other.path == rate for other in edits)
 
 
 def _repeating(edit: SpecEdit, edits: Sequence[SpecEdit]) -> Iterator[YamlPath]:

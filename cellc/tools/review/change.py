@@ -6,8 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
-from cellc.contract.review import ApprovalArea
-from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.contract.vocabulary import ApprovalArea, Grade, ReviewArea
 from cellc.tools.review.leaves import Leaf
 from cellc.tools.review.units import difference, shown_both
 
@@ -45,6 +44,7 @@ class Change:
         words: words and figures that it explains in other files.
         names: names of things added or removed with it.
         approval: that of its area where it is None.
+        asks: areas of approval that are asked beside it and that of its area.
         figures: what its texts were made of, where units may be chosen.
         follows: it is of a kind that repeats others.
     """
@@ -59,6 +59,7 @@ class Change:
     breaking: bool = False
     why: str = ""
     approval: ApprovalArea | None = None
+    asks: tuple[ApprovalArea, ...] = ()
     figures: Figures | None = field(default=None, compare=False)
     follows: bool = field(default=False, compare=False)
     words: frozenset[str] = field(default=frozenset(), compare=False)

@@ -19,6 +19,7 @@ from cellc.tools.review.grading import ELSEWHERE, grade
 from cellc.tools.review.joint_units import units_of
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
+from cellc.tools.review.programs import area_of_parameter
 from cellc.tools.review.reasons import as_held, owner_without_approval
 from cellc.tools.review.repeated import follows, is_covered, is_derived, is_stated, spelled
 from cellc.tools.review.replaced import PAIRS, with_models
@@ -195,7 +196,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], sides: tuple[Fac
     stranger = owner_without_approval(inner, sides) if added else ""
     reaches = added and path[:2] == ("contract", "devices") and is_reaching(sides[1].contract, path[2])
     return Change(
-        thing.area,
+        area_of_parameter(thing.noun, path, sides) or thing.area,
         " ".join(names),
         f"{thing.noun} {'added' if added else 'removed'}",
         None if added else value,
@@ -204,6 +205,7 @@ def _of_thing(path: Path, thing: Thing, inner: Sequence[Delta], sides: tuple[Fac
         breaking=thing.breaking and not added,
         why=ELSEWHERE if reaches else thing.why.format(" ".join(names)) if taken is Grade.DANGEROUS else stranger,
         approval="safety" if reaches else None,
+        asks=thing.asks,
         words=frozenset(word for delta in inner for word in (*words(delta.before), *words(delta.after), *delta.path)),
         names=frozenset(names[-1:]),
     )
@@ -246,7 +248,7 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
     if delta.path[0] == "pair" and None in (delta.before, delta.after):
         return _of_pair(delta, row, verdict.grade)
     return Change(
-        verdict.area or row.grade.area,
+        verdict.area or area_of_parameter(row.grade.quantity, delta.path, (before, after)) or row.grade.area,
         " ".join(fit.subject) or WHOLE,
         quantity_of(row, fit),
         _endless(delta.path, before) if was is None else was,
@@ -261,6 +263,7 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
             else owner_without_approval([delta], (before, after))
         ),
         verdict.approval or ("safety" if is_stop_timing(row, delta.path, before.leaves) else None),
+        row.grade.asks,
         None if _difference(delta, before, after) else figures,
         words=frozenset((*words(delta.before), *words(delta.after), *delta.path)),
         differing=_differing(delta.before, delta.after),

@@ -6,7 +6,7 @@ import hashlib
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import yaml
@@ -363,11 +363,14 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
         yield from graded_values(device, ("device", device.name))
         if device.site.connection is not None:
             yield ("device", device.name, "host"), device.site.connection.host
+            yield from flatten(device.site.connection.nic, ("device", device.name, "nic"))
         yield from flatten(as_json(device.robot.program), ("spec", "program", device.name))
     for name, host in cell.hosts.items():
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
     for node in cell.nodes:
-        yield from flatten(_without_place(as_json(node)), ("spec", "nodes", node.full_name))
+        # The driver of a device runs where the device is connected.
+        told = _without_place(as_json(node if node.device is None else replace(node, host="")))
+        yield from flatten(told, ("spec", "nodes", node.full_name))
 
 
 def _of_stages(files: Mapping[str, str], contract: Contract) -> Iterator[tuple[Path, Leaf]]:

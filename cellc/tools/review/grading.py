@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 
 from cellc.contract.contract import Contract
 from cellc.contract.grading import UNAVOIDED, Rule
-from cellc.contract.review import ApprovalArea
 from cellc.contract.transforms import identity
-from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
+from cellc.contract.vocabulary import UNKNOWN, ApprovalArea, Grade, ReviewArea
 from cellc.robot.description.model import Collision
 from cellc.tools.review.carried import is_reaching, longer_link
 from cellc.tools.review.covering import covers

@@ -8,13 +8,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.diagnostics import Severity
-from cellc.contract.review import ApprovalArea, Review, ReviewCause, ReviewChange, ReviewFinding
-from cellc.contract.vocabulary import Grade, ReviewArea
+from cellc.contract.review import Review, ReviewCause, ReviewChange, ReviewFinding
+from cellc.contract.vocabulary import ApprovalArea, Grade, ReviewArea
 from cellc.tools.review.carried import ENDS_ELSEWHERE
 from cellc.tools.review.change import PRESENT
 from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.headings import Deltas, Quote, farthest, is_act, moves_of, plain
-from cellc.tools.review.order import order_of
+from cellc.tools.review.order import MANIFOLD, is_manifold, order_of
+from cellc.tools.review.ranks import Rank, rank_of
 from cellc.tools.review.replaced import LENGTH, MASS, PAIRS
 from cellc.tools.review.titles import WHOLE_SPEC, leading_first, shortest_of, title_of, where_of
 
@@ -212,6 +213,7 @@ _FOLLOWING = (
     "versions that it compares",
     "place in the root frame",
     "sweep quantity",
+    "parameter",
     "inertia",
     MASS,
     LENGTH,
@@ -255,7 +257,7 @@ def asked_of_all(groups: Sequence[Group]) -> str:
 
 
 def _asked_shown(asking: Sequence[ReviewChange]) -> str:
-    asked = {change.beside: change.beside_owner for change in asking if change.beside is not None}
+    asked = {area: owner for change in asking for area, owner in change.beside.items()}
     for change in asking:
         owners = [*(asked.get(change.approval, "").split(" and ")), *change.owner.split(" and ")]
         asked[change.approval] = " and ".join(dict.fromkeys(owner for owner in owners if owner))
@@ -331,25 +333,44 @@ def groups_of(review: Review) -> tuple[Group, ...]:
 def _order(group: Group, groups: Sequence[Group]) -> tuple[object, ...]:
     """Return the place of a group: by its grade, a device with another model by that of all that is said of it.
 
-    What is added comes before what rests on it, and what moves before loads, the farthest first.
+    Of one grade the largest act comes first, of several such by what they mean, and what moves farthest before others.
     """
     grade = group.grade
     if group.cause is not None and group.is_model:
         of = f"{group.cause.line.removesuffix(f'.{_MODEL}')}."
         grades = [each.grade for each in groups if each.cause is not None and each.cause.line.startswith(of)]
         grade = max((grade, *grades), key=tuple(Grade).index)
-    # What else changed is read with the names after, and beside another model.
+    # What else changed is read with the names after.
     is_name = group.cause is not None and group.cause.renamed
-    is_new = any(change.quantity in _EXCHANGED for change in group.changes)
-    kind = -3 if is_name else -2 if group.is_model else -1 if is_new else 0
     place = order_of(group.changes[0])
     far, turned = farthest(group.changes) if group.cause is not None else (0.0, 0.0)
     is_far = far >= _FAR_MM or turned >= _FAR_DEG
+    rank = _rank(group, is_far=is_far, is_moved=far > 0 or turned > 0)
+    is_device = rank is Rank.DEVICE
     weight = min(place[1], 1) if is_far else place[1]
-    return -tuple(Grade).index(grade), kind, not (kind and group.unmeasured), weight, -far, -turned, place
+    of_device = not group.is_model, not group.unmeasured
+    return (
+        -tuple(Grade).index(grade),
+        not is_name,
+        rank,
+        of_device if is_device else (False, False),
+        weight,
+        -far,
+        -turned,
+        place,
+    )
 
 
-_EXCHANGED = ("device added", "device removed")
+def _rank(group: Group, *, is_far: bool, is_moved: bool) -> int:
+    """Return the rank of an act by how much it is: what hardly moves is tuning, what is doubled or halved is more."""
+    rank = rank_of(group.cause, group.changes[0].area)
+    if rank in (Rank.BASE, Rank.PLACE) and is_moved and not is_far:
+        return Rank.TUNING
+    if rank is Rank.PLACE and not is_moved and group.changes[0].area is ReviewArea.CALIBRATION:
+        return Rank.LOAD
+    return rank if rank in (Rank.DEVICE, Rank.NOTE) or not is_manifold(group.changes[0]) else max(rank - MANIFOLD, 0)
+
+
 _FAR_MM, _FAR_DEG = 1.0, 1.0
 """What moves by less is read with tolerances."""
 

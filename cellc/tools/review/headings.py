@@ -14,6 +14,7 @@ _MODEL, _REVISION, _CALIBRATIONS, _FRAMES = "model", "revision", "calibrations",
 _PLACE = ("xyz", "rpy", "parent")
 _PLACED = ("pose in its parent", "base in its parent")
 _TIP = "tip"
+_MOVING = ((_TIP,), ("pose in its frame",))
 _NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?![\w.])")
 _MOVES = re.compile(r"(?:moves|turns) ([\d.]+) (mm|m|deg)\b")
 _IN_MM = {"mm": 1.0, "m": 1000.0, "deg": 0.0}
@@ -116,11 +117,9 @@ def moves_of(changes: Sequence[ReviewChange]) -> Mapping[str, str]:
 
 
 def farthest(changes: Sequence[ReviewChange]) -> tuple[float, float]:
-    """Return how far, in mm and in degrees, what was placed moves; else the tip."""
-    placed = [change for change in changes if change.quantity in _PLACED] or [
-        change for change in changes if change.quantity == _TIP
-    ]
-    return max(map(_far, placed), default=(0.0, 0.0))
+    """Return how far, in mm and in degrees, what was placed moves; else the tip, else a goal."""
+    of_each = ([change for change in changes if change.quantity in quantities] for quantities in (_PLACED, *_MOVING))
+    return max(map(_far, next(filter(None, of_each), [])), default=(0.0, 0.0))
 
 
 def _far(change: ReviewChange) -> tuple[float, float]:

@@ -130,10 +130,8 @@ def _row(change: ReviewChange) -> str:
     what = f"{as_code(subjects_of(change))} {as_prose(change.quantity)}"
     what += "<br>**may break consumers**" if change.breaking else ""
     what += f"<br>{as_prose(change.why)}" if change.why else ""
-    owner = as_prose(change.owner) if change.owner else "no owner"
-    approval = "" if change.grade is Grade.SAFE else f"{change.approval}: {owner}"
-    if approval and change.beside is not None:
-        approval += f"<br>{change.beside}: {as_prose(change.beside_owner) or 'no owner'}"
+    asked = {} if change.grade is Grade.SAFE else {change.approval: change.owner, **change.beside}
+    approval = "<br>".join(f"{area}: {as_prose(owner) if owner else 'no owner'}" for area, owner in asked.items())
     return f"| {' | '.join((change.grade, change.area, what, _values(change), approval))} |"
 
 

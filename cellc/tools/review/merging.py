@@ -42,7 +42,7 @@ def _approvers(before: Facts, after: Facts) -> Mapping[str, str]:
 
 def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners: Mapping[str, str]) -> ReviewChange:
     asked, own = change.approval or APPROVAL[change.area], APPROVAL[change.area]
-    owner, beside = owners.get(asked, ""), own if own != asked else None
+    owner = owners.get(asked, "")
     answers = owners[_RECOVERY] if "recover" in change.quantity else ""
     if answers and answers not in owner.split(" and "):
         owner = f"{owner} and {answers}" if owner else answers
@@ -60,7 +60,6 @@ def _reviewed(change: Change, cause: int | None, subjects: Sequence[str], owners
         why=change.why,
         approval=asked,
         owner=owner,
-        beside=beside,
-        beside_owner="" if beside is None else owners.get(beside, ""),
+        beside={area: owners.get(area, "") for area in (own, *change.asks) if area != asked},
         cause=cause,
     )

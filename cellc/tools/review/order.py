@@ -25,7 +25,7 @@ _WEIGHTS = (
     (6, re.compile("gain|stiffness|damping")),
 )
 """What stops is read first; then who answers and how far things get, what they carry, and how fast; then tolerances."""
-_MANIFOLD = 2
+MANIFOLD = 2
 """Places by which a figure goes ahead that is at least doubled or halved."""
 
 
@@ -38,7 +38,7 @@ def order_of(change: ReviewChange) -> tuple[int, int, bool, float, bool, int, bo
     doublings = _doublings(change.delta)
     return (
         -grades.index(change.grade),
-        max(weight - _MANIFOLD, 0) if doublings >= 1.0 else weight,
+        max(weight - MANIFOLD, 0) if is_manifold(change) else weight,
         change.approval != "safety",
         -doublings,
         not change.delta.startswith("loses"),
@@ -47,6 +47,11 @@ def order_of(change: ReviewChange) -> tuple[int, int, bool, float, bool, int, bo
         change.quantity,
         change.subjects,
     )
+
+
+def is_manifold(change: ReviewChange) -> bool:
+    """Tell whether a figure was at least doubled or halved."""
+    return _doublings(change.delta) >= 1.0
 
 
 def _doublings(delta: str) -> float:

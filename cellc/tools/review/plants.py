@@ -16,9 +16,9 @@ from typing import TypeVar
 from cellc.compiler.deploy.configuration import configuration_id, configuration_inputs
 from cellc.compiler.pipeline import check_buildable, compile_cell
 from cellc.compiler.plant.plant import Crossing, Part, Plant, PlantArea
-from cellc.contract.review import ApprovalArea, Review, ReviewChange, ReviewSide
+from cellc.contract.review import Review, ReviewChange, ReviewSide
 from cellc.contract.transforms import Pose, apart
-from cellc.contract.vocabulary import UNKNOWN, Grade, ReviewArea
+from cellc.contract.vocabulary import UNKNOWN, ApprovalArea, Grade, ReviewArea
 from cellc.tools.review.sides import Side, SideError, first_error, located
 
 _Thing = TypeVar("_Thing")

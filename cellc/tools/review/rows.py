@@ -29,7 +29,7 @@ from cellc.contract.grading import (
 )
 from cellc.contract.rehearsals import RehearsalEntry
 from cellc.contract.stated import Network
-from cellc.contract.vocabulary import ReviewArea
+from cellc.contract.vocabulary import ApprovalArea, ReviewArea
 from cellc.tools.review.graded import rows_of
 from cellc.tools.review.reasons import with_reason
 from cellc.tools.review.rules import HANDED, Row
@@ -47,6 +47,7 @@ _STARTS = "somebody else, or a program, starts what moves"
 _ANSWERS = "somebody else is responsible for what stops the motion"
 _OTHER_POINT = "every goal is reached with another point"
 _OTHER = "another device may answer at this address"
+_VENDOR: tuple[ApprovalArea, ...] = ("vendor",)
 
 
 def _first(what: str, rule: Rule, unit: str = "") -> Graded:
@@ -202,12 +203,23 @@ _ALL: Sequence[Row] = (
         "file config/moveit/servo.yaml {_} ros__parameters moveit_servo scale {what}",
         Graded(_A.LIMITS, "largest speed of servoing", Rule.MORE, why=FASTER),
     ),
+    *(
+        Row(f"parameters {{_}} {{node}} ros__parameters {name}", Graded(_A.NETWORK, "address", asks=_VENDOR))
+        for name in ("robot_ip", "address", "port")
+    ),
     Row("parameters {_} {node} ros__parameters ...", Graded(_A.CONTROL, "parameter")),
     Row("real hardware {component} plugin", Graded(_A.CONTROL, "hardware plugin", Rule.DANGEROUS)),
     Row("mock hardware {component} plugin", Graded(_A.CONTROL, "hardware plugin of the mock", Rule.DANGEROUS)),
     *(
-        Row(f"real hardware {{component}} parameters {name}", Graded(_A.NETWORK, "address", Rule.DANGEROUS, why=_OTHER))
+        Row(
+            f"real hardware {{component}} parameters {name}",
+            Graded(_A.NETWORK, "address", Rule.DANGEROUS, why=_OTHER, asks=_VENDOR),
+        )
         for name in ("robot_ip", "ip_address", "COM_port", "can_interface")
+    ),
+    *(
+        Row(f"real hardware {{component}} parameters {name}", Graded(_A.NETWORK, name.replace("_", " "), asks=_VENDOR))
+        for name in ("reverse_ip", "reverse_port", "script_sender_port", "script_command_port", "trajectory_port")
     ),
     Row("real hardware {component} parameters {what}", Graded(_A.CONTROL, "parameter of the hardware")),
     Row("real hardware {component} ...", Graded(_A.CONTROL, "hardware")),
@@ -234,10 +246,11 @@ _ALL: Sequence[Row] = (
     Row("middleware {host} {what}", Graded(_A.NETWORK, "variable")),
     Row("right {enclave} ...", Graded(_A.NETWORK, "right to", ordered=False)),
     Row("spec network ...", Graded(_A.NETWORK, "network")),
-    Row("device {device} host", Graded(_A.NETWORK, "computer that it is connected to")),
+    Row("device {device} nic", Graded(_A.NETWORK, "network card that it is connected to", asks=_VENDOR)),
+    Row("device {device} host", Graded(_A.NETWORK, "computer that it is connected to", asks=_VENDOR)),
     Row("spec hosts {host} ...", Graded(_A.NETWORK, "host")),
     Row("spec nodes {node} owner", Graded(_A.OWNERS, "owner", Rule.NAMED)),
-    Row("spec nodes {node} {what}", Graded(_A.CONTROL, "node")),
+    Row("spec nodes {node} {what}", Graded(_A.CONTROL, "node", asks=("graph",))),
     Row("spec nodes {node} ...", Graded(_A.CONTROL, "parameter of the node")),
     Row("spec targets {target} {what}", Graded(_A.DEVICES, "target", Rule.DANGEROUS)),
     Row("spec mock_statements ...", Graded(_A.SAFETY, "statement that it touches no hardware", Rule.DANGEROUS)),
@@ -323,7 +336,7 @@ DERIVED: Sequence[str] = (
 )
 """Values that the compiler writes from others of the package, and from nothing else: listed where a file was edited."""
 
-_REPEATING = ("bringup commissioning", "recording", "network", "targets", "mock_statements", "hosts", "nodes")
+_REPEATING = ("bringup commissioning", "recording", "network", "targets", "mock_statements", "hosts")
 """Sections of a spec that other files of the package hold in their own form."""
 
 FOLLOWS: Sequence[str] = (
@@ -342,7 +355,6 @@ FOLLOWS: Sequence[str] = (
     "step real {step} effect",
     "step real {step} request controllers",
     "step real {step} observed controllers",
-    "contract clock_of ...",
     "parameters nodes {node} ros__parameters qos_overrides ...",
     "file config/recording_qos.yaml ...",
     "file config/uncertainty.json quantities ...",
@@ -357,6 +369,10 @@ FOLLOWS: Sequence[str] = (
     *(f"spec safety stop {name}" for name in ("path", "authority")),
     *(f"spec safety recovery {name}" for name in ("states", "acknowledge", "on_reconnect")),
     *(f"spec {name} ..." for name in _REPEATING),
+    *(
+        f"spec nodes {{node}} {name} ..."
+        for name in ("endpoints", "parameters", "remaps", "inside", "lifecycle", "namespace", "owner", "device")
+    ),
 )
 """Values that repeat others in their own form: left out where one line of the spec makes both, else listed.
 

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from typing import get_args
 
 from cellc.contract.grading import LONGER, OTHER_LOAD, Graded
-from cellc.contract.review import ApprovalArea
-from cellc.contract.vocabulary import AttemptOutcome, GateCode, Grade, ReviewArea
+from cellc.contract.vocabulary import ApprovalArea, AttemptOutcome, GateCode, Grade, ReviewArea
 from cellc.tools.review.leaves import Leaves, Path
 
 _A = ReviewArea
@@ -44,6 +43,7 @@ class Thing:
     Args:
         shown: the value that is reported with it.
         follows: it is reported only where nothing else of its name was added or removed.
+        asks: areas of approval that are asked beside that of the area.
         holds: what it must have had for its removal to be dangerous; of one without that it is reviewed.
     """
 
@@ -57,6 +57,7 @@ class Thing:
     why: str = ""
     follows: bool = False
     holds: str = ""
+    asks: tuple[ApprovalArea, ...] = ()
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -176,7 +177,7 @@ THINGS: Sequence[Thing] = (
         why="nothing drives its joints",
     ),
     Thing("parameters {_} {node}", _A.CONTROL, "parameters of a node", _R, _R, follows=True),
-    Thing("spec nodes {node}", _A.CONTROL, "node", _R, _R, shown="package"),
+    Thing("spec nodes {node}", _A.CONTROL, "node", _R, _R, shown="package", asks=("graph",)),
     Thing(
         "file config/frames.yaml calibrations {calibration}",
         _A.CALIBRATION,

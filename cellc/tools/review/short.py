@@ -16,6 +16,7 @@ from cellc.tools.review.alike import alike, as_many_as_fit, fitting, line_of, re
 from cellc.tools.review.compare import UNCLASSIFIED
 from cellc.tools.review.cutting import WIDTH, broken
 from cellc.tools.review.groups import FINDING, Group, asked_of_all, broken_by, broken_shown, groups_of, why_of
+from cellc.tools.review.restated import restated
 from cellc.tools.review.text import STYLES, outcomes, summed_up
 
 MOST_LINES = 25
@@ -216,6 +217,13 @@ def _because(group: Group, folds: _Folds) -> _Lines:
     return [] if folds.reasons or not group.whys else [*broken(f"  because {'; '.join(group.whys)}", "    ")]
 
 
+def _meant(again: Sequence[ReviewChange], folds: _Folds) -> _Lines:
+    """Return what changes mean that only say their heading again; of dangers that is said where no line says it."""
+    told = [why_of(change) for change in again if change.grade is Grade.REVIEW and folds.reasons]
+    whys = [*dict.fromkeys(filter(None, told))]
+    return [*broken(f"  because {'; '.join(whys)}", "    ")] if whys else []
+
+
 def _title(group: Group, *, whole: bool) -> _Lines:
     grade = group.grade.value
     start = f"{grade}  "
@@ -227,13 +235,15 @@ def _title(group: Group, *, whole: bool) -> _Lines:
 def _inner(group: Group, most: int, folds: _Folds) -> Iterator[Line]:
     """Yield the figures of a group, its worst changes, what is left, and who approves: what there is room for."""
     is_listed = not folds.titles  # who approves is listed for all groups together
-    changes = sorted(group.listed, key=_is_of_lines)
+    title = " ".join(_plain(line).strip() for line in _title(group, whole=folds.titles))
+    again = restated(group.listed, group, title)
+    changes = sorted((change for change in group.listed if change not in again), key=_is_of_lines)
     asked: _Lines = (
         [(Styled(text, Style.DIM),) for text in broken(f"  asks {group.asks}", "    ")]
         if group.asks and not is_listed
         else []
     )
-    lead, reason = _must(group, folds), _because(group, folds)
+    lead, reason = _must(group, folds), [*_because(group, folds), *_meant(again, folds)]
     must = len(lead) + len(reason)
     found = [*_first_findings(group.findings, min(folds.most_findings, _NOTES))]
     # A danger is seen before figures are.
@@ -259,7 +269,7 @@ def _inner(group: Group, most: int, folds: _Folds) -> Iterator[Line]:
             lines += [(Styled(line, Style.DIM),) for line in rest_of(rest, group, folds.whole, is_whole=not number)]
         if len(lines) <= room:
             break
-    whole_lines = [*lead, *lines[:room], *(reason or _unsaid(group, lines))]
+    whole_lines = [*lead, *lines[:room], *reason, *_unsaid(group, [*lines, *reason])]
     yield from (*_with_asks(whole_lines, group, is_listed=is_listed), *asked)[: max(most, 0)]
 
 

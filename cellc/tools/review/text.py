@@ -80,8 +80,8 @@ def gate_line(gate: ReviewGate) -> str:
 
 def approved_by(change: ReviewChange) -> str:
     """Return whose approval a change needs."""
-    beside = "" if change.beside is None else f", {change.beside}: {change.beside_owner or 'no owner'}"
-    return f"approval {change.approval}: {change.owner or 'no owner'}{beside}"
+    asked = {area: owner or "no owner" for area, owner in {change.approval: change.owner, **change.beside}.items()}
+    return f"approval {', '.join(f'{area}: {owner}' for area, owner in asked.items())}"
 
 
 def _change(change: ReviewChange, *, is_asking: bool) -> Iterator[Line]:

@@ -40,7 +40,8 @@ def title_of(
         return f"{line} {'added' if cause.before is None else 'removed'} ({where}){told}"
     if line == _SUMMARY:
         return f"{line}: other words ({where})"
-    return f"{line}: {quote(cause.before)} -> {quote(cause.after)} ({where})"
+    delta = deltas.get(plain(cause.before, cause.after))
+    return f"{line}: {quote(cause.before)} -> {quote(cause.after)}{f' ({delta})' if delta else ''} ({where})"
 
 
 WHOLE_SPEC = "spec"
@@ -103,7 +104,8 @@ def _share(value: ReviewValue) -> str:
 def _of_several(cause: ReviewCause, line: str, quote: Quote, deltas: Deltas) -> str:
     values, where = cause.values, _places(cause.values)
     if line == WHOLE_SPEC and len({(value.before, value.after) for value in values}) == 1 and len(values) <= _MOST:
-        return f"{', '.join(value.line for value in values)}{_change(values[0], quote)} ({where})"
+        sized = _sized(values[0], deltas)
+        return f"{', '.join(value.line for value in values)}{_change(values[0], quote)}{sized} ({where})"
     if line == WHOLE_SPEC:
         leading = f"{values[0].line}{_change(values[0], quote)} ({where_of(values[0].place)})"
         return f"{leading} and {count(len(values) - 1, 'line')} ({_places(values[1:])})"
@@ -117,7 +119,7 @@ def _of_several(cause: ReviewCause, line: str, quote: Quote, deltas: Deltas) -> 
         whole = ".".join((line, "{" + ",".join(names) + "}", *paths[0][1:]))
         first = values[0]
         if all((value.before, value.after) == (first.before, first.after) for value in values):
-            return f"{whole}{_change(first, quote, shortened=True)} ({where})"
+            return f"{whole}{_change(first, quote, shortened=True)}{_sized(first, deltas)} ({where})"
         if _are_exchanged(values):
             told = ", ".join(f"{name}{_change(value, quote)}" for name, value in zip(names, values, strict=True))
             return f"{whole} exchanged: {told.replace(':', '')} ({where})"
