@@ -45,7 +45,7 @@ class Described:
 
     def __init__(self, cell: str) -> None:
         """Read it."""
-        self.robot = RobotModel.from_urdf(shapes_and_joints(built(cell).graph.cell))
+        self.robot = RobotModel.from_urdf(shapes_and_joints(built(cell).graph))
 
     def drawn(self, generator: np.random.Generator) -> dict[str, float]:
         """Return a position within its limits for each joint that follows no other."""

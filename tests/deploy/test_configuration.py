@@ -4,20 +4,27 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import pytest
 
+from cellc.compiler.cell.cell import Cell
 from cellc.compiler.deploy.configuration import configuration_id, configuration_inputs
+from cellc.compiler.formats.urdf import robot
+from cellc.compiler.pipeline import check, emit_cell
+from cellc.contract.entities import Target
 from cellc.contract.manifest import ConfigurationInputs
-from tests.cells import linked, spec_text, written
+from tests.cells import graph_of, spec_of, spec_text, written
 from tests.emit.cells import emitted
 from tests.review.revisions import edited
 from tests.review.test_edits import GROUPS
 
 
 def _id(folder: Path, text: str) -> str:
-    return configuration_id(configuration_inputs(linked(written(folder, text))))
+    return configuration_id(configuration_inputs(graph_of(written(folder, text))))
 
 
 @pytest.fixture(scope="module")
@@ -67,5 +74,20 @@ def test_hash_is_that_of_the_real_urdf_without_its_header(tmp_path: Path) -> Non
     text = spec_text("ur5e_pick")
     urdf = emitted(tmp_path, text)["urdf/ur5e_pick.real.urdf"]
     body = re.sub(r"<!--.*?-->\n", "", urdf, count=1, flags=re.DOTALL)
-    inputs = configuration_inputs(linked(written(tmp_path, text)))
+    inputs = configuration_inputs(graph_of(written(tmp_path, text)))
     assert inputs.urdf_sha256 == hashlib.sha256(body.encode()).hexdigest()
+
+
+@pytest.mark.parametrize("cell", ["ur5e_pick", "dual_ur"])
+def test_no_description_is_written_twice_for_one_compile(cell: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = Counter[tuple[object, ...]]()
+    parts = robot._parts
+
+    def counted(of: Cell, target: Target, devices: tuple[str, ...]) -> Iterator[Element]:
+        made[len(of.devices), target, devices] += 1
+        return parts(of, target, devices)
+
+    monkeypatch.setattr(robot, "_parts", counted)
+    assert emit_cell(check(spec_of(cell))).value is not None
+    assert ("mock", ()) in {key[1:] for key in made}
+    assert set(made.values()) == {1}

@@ -140,7 +140,7 @@ def _corners(robot: RobotModel) -> Iterator[tuple[str, Any, list[Any]]]:
 @settings(max_examples=5)
 def test_no_corner_of_a_shape_leaves_its_ball_in_any_posture(cell: str, seed: int) -> None:
     graph = graph_of(ROOT / "cells" / cell / "cell.yaml")
-    robot = RobotModel.from_urdf(shapes_and_joints(graph.cell))
+    robot = RobotModel.from_urdf(shapes_and_joints(graph))
     generator = np.random.default_rng(seed)
     balls = {link: (swept(graph, link, ball), corners) for link, ball, corners in _corners(robot)}
     ends = {joint.name: (joint.lower, joint.upper) for joint in graph.cell.joints_by_name.values()}

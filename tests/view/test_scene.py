@@ -14,7 +14,7 @@ from cellc.contract.transforms import Pose
 from cellc.mock.cell import cell_of
 from cellc.tools.view.playback import Run, play
 from cellc.tools.view.scene import Scene, scene_of
-from cellc.tools.view.skeleton import Skeleton
+from cellc.tools.view.skeleton import Carried, Skeleton
 from cellc.tools.view.subject import Subject, read_subject
 from tests.cells import ROOT
 
@@ -115,8 +115,10 @@ def test_a_part_at_a_fixed_frame_is_a_group_of_its_own_and_leaves_the_frame_behi
     group = skeleton.groups.index(f"{fixed.name} (part)")
     assert skeleton.parts[fixed.name].group == group != skeleton.held(fixed.name).group
     away = Pose((1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0))
-    there = skeleton.posture({}, {fixed.name: (standing.description.links[0].name, away)})[group]
-    assert there.position == pytest.approx((1.0, 2.0, 3.0))
+    carried: list[Carried] = [{}, {fixed.name: (standing.description.links[0].name, away)}]
+    there = skeleton.postures({}, carried)[group]
+    assert there[:3, 1] == pytest.approx((1.0, 2.0, 3.0))
+    assert there[:3, 0] != pytest.approx((1.0, 2.0, 3.0))
 
 
 def test_a_run_is_shown_25_times_a_second_while_something_moves(runs: dict[str, Run]) -> None:

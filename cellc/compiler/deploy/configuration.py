@@ -16,8 +16,7 @@ from cellc.compiler.cell.members import field_names
 from cellc.compiler.formats.escape import shell_word
 from cellc.compiler.formats.header import Header
 from cellc.compiler.formats.numbers import rounded
-from cellc.compiler.formats.urdf.robot import robot_description
-from cellc.compiler.formats.xml_text import render
+from cellc.compiler.formats.urdf.robot import real_description
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.contract.diagnostics import YamlPath
 from cellc.contract.entities import Qos, SimulatedNetwork
@@ -56,9 +55,9 @@ _OF_CELL = ("os", "kernel", "ros", "rmw", "ros2_control", "moveit")
 _OF_DEVICE = ("revision", "serial", "firmware", "driver", "sdk", "description")
 
 
-def configuration_inputs(cell: Cell) -> ConfigurationInputs:
+def configuration_inputs(graph: CellGraph) -> ConfigurationInputs:
     """Gather what the id is taken over; the same cell on another host gives the same."""
-    urdf = render(robot_description(cell, "real"))
+    cell, urdf = graph.cell, graph.once(real_description)
     return ConfigurationInputs(
         calibrations={name: calibration.revision for name, calibration in cell.calibrations.items()},
         tf_publishers={frame.name: frame.authority for frame in cell.frames if frame.parent},

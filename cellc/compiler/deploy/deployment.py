@@ -62,7 +62,7 @@ class Deployment:
 def plan_deployment(graph: CellGraph) -> Deployment:
     """Decide how a checked cell is deployed."""
     cell = graph.cell
-    inputs, header = configuration_inputs(cell), header_of(cell)
+    inputs, header = configuration_inputs(graph), header_of(cell)
     return Deployment(
         header=header,
         configuration_id=configuration_id(inputs),

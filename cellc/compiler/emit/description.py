@@ -28,17 +28,24 @@ from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import SCENE, description_file, manager_description_file, semantic_file
 from cellc.compiler.feasibility import MARGIN_M, RNG_SEED, disabled_links, part_with, parts_of
 from cellc.compiler.formats.numbers import shortest
-from cellc.compiler.formats.urdf.robot import manager_description, robot_description, simulated_description
-from cellc.compiler.formats.xml_text import comment, element, render
+from cellc.compiler.formats.urdf.robot import (
+    manager_description,
+    real_description,
+    robot_description,
+    simulated_description,
+)
+from cellc.compiler.formats.xml_text import comment, element, headed, render
 from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.graph.simulated import SIM, is_asked
+from cellc.contract.entities import Target
 
 
 def emit(graph: CellGraph, plan: Deployment) -> Iterator[Artifact]:
     """Yield the description for each target, and the semantic one."""
     cell = graph.cell
-    for target in ("mock", "real"):
-        yield Artifact(description_file(cell, target), render(robot_description(cell, target), plan.header.text))
+    texts: dict[Target, str] = {"mock": render(robot_description(cell, "mock")), "real": graph.once(real_description)}
+    for target, text in texts.items():
+        yield Artifact(description_file(cell, target), headed(text, plan.header.text))
         for manager in cell.managers if len(cell.managers) > 1 else ():
             robot = manager_description(part_with(graph, manager.devices), target, manager.devices)
             yield Artifact(manager_description_file(cell, manager, target), render(robot, plan.header.text))

@@ -54,7 +54,7 @@ def _meeting(graph: CellGraph, asked: tuple[tuple[str, str], ...]) -> tuple[Disa
     pairs = tuple(pair for pair in asked if links.issuperset(pair))
     if not pairs or _refused(graph):
         return ()
-    urdf = with_shapes_at_hand(shapes_and_joints(graph.cell), graph)
+    urdf = with_shapes_at_hand(graph.once(shapes_and_joints), graph)
     question = f"{urdf}\0{pairs!r}"
     roots = mesh_roots(graph.cell)
     return _kept("meeting", question, graph, DisabledAnswer, lambda: _met(urdf, pairs, roots)).pairs
@@ -93,7 +93,7 @@ def _disabled(graph: CellGraph) -> DisabledAnswer:
 def _disabled_in(graph: CellGraph, budget: Budget) -> DisabledAnswer:
     if refused := _refused(graph):
         return DisabledAnswer(_touching(graph), 0, *refused)
-    urdf = with_shapes_at_hand(whole := shapes_and_joints(graph.cell), graph)
+    urdf = with_shapes_at_hand(whole := graph.once(shapes_and_joints), graph)
     answer = _kept("disabled", urdf, graph, DisabledAnswer, lambda: _sampled(urdf, mesh_roots(graph.cell), budget))
     if answer.refused:
         return DisabledAnswer(_touching(graph), 0, answer.refused, answer.limit)
@@ -149,7 +149,7 @@ def _standing(graph: CellGraph) -> DisabledAnswer:
         )
     if faults := _unusable(alone):
         return DisabledAnswer((), 0, faults)
-    urdf = with_shapes_at_hand(shapes_and_joints(alone.cell), alone)
+    urdf = with_shapes_at_hand(alone.once(shapes_and_joints), alone)
     roots = mesh_roots(alone.cell)
     return _kept("standing", f"{urdf}\0{pairs!r}", alone, DisabledAnswer, lambda: _at_rest(urdf, pairs, roots))
 

@@ -116,9 +116,9 @@ class MotionQuestion:
     start_outside: float = 0.0
 
 
-def shapes_and_joints(cell: Cell) -> str:
-    """Return the robot description of a cell without hardware: what its geometry depends on."""
-    return render(manager_description(cell, "mock", ()), "")
+def shapes_and_joints(graph: CellGraph) -> str:
+    """Return the robot description of a cell without hardware: what its geometry depends on, which a graph has once."""
+    return render(manager_description(graph.cell, "mock", ()))
 
 
 def motion_question(graph: CellGraph, whole: CellGraph | None = None) -> MotionQuestion:
@@ -133,7 +133,7 @@ def motion_question(graph: CellGraph, whole: CellGraph | None = None) -> MotionQ
     tips = {group.name: graph.frames.carrier(group.tip_frame) for group in cell.groups}
     joints = cell.joints_by_name
     return MotionQuestion(
-        urdf=shapes_and_joints(cell),
+        urdf=graph.once(shapes_and_joints),
         start=tuple(sorted(start_positions(cell).items())),
         groups=tuple(_group(group, joints, tips[group.name]) for group in cell.groups),
         poses=_poses(cell),

@@ -12,6 +12,8 @@ from xml.etree.ElementTree import Element
 from cellc.contract.diagnostics.unsafe_text import HIDDEN, escaped_within
 
 _COMMENT = "!--"
+_DECLARATION = '<?xml version="1.0"?>'
+"""Without an encoding, which is UTF-8 then: some parsers refuse a text in memory that declares one."""
 _WIDTH = 120
 _NO_CHARACTER = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
@@ -40,12 +42,15 @@ def render(root: Element, header: str = "") -> str:
         root: the root element.
         header: text of a comment before the root; several lines are allowed, empty for none.
     """
-    # Without an encoding, which is UTF-8 then: some parsers refuse a text in memory that declares one.
-    lines = ['<?xml version="1.0"?>']
-    if header:
-        lines += ["<!--", *(f"  {_apart(line)}".rstrip() for line in header.splitlines()), "-->"]
-    lines += _lines(root, 0)
-    return "\n".join(lines) + "\n"
+    return headed("\n".join((_DECLARATION, *_lines(root, 0), "")), header)
+
+
+def headed(document: str, header: str) -> str:
+    """Return a document that was written without a header with one."""
+    if not header:
+        return document
+    lines = (_DECLARATION, "<!--", *(f"  {_apart(line)}".rstrip() for line in header.splitlines()), "-->")
+    return "\n".join(lines) + document.removeprefix(_DECLARATION)
 
 
 def _apart(text: str) -> str:

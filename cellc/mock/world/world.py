@@ -85,22 +85,22 @@ class LinkTree:
 
     def pose(self, link: str, positions: Mapping[str, float]) -> Pose:
         """Return the pose of a link in the root link."""
-        pose, moving = self._run(link)
+        pose, moving = self.run(link)
         for joint, fixed in moving:
             pose = pose @ joint.displacement(positions) @ fixed
         return pose
 
     def is_fixed(self, link: str) -> bool:
         """Return whether no joint moves a link."""
-        return not self._run(link)[1]
+        return not self.run(link)[1]
 
-    def _run(self, link: str) -> tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]:
+    def run(self, link: str) -> tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]:
+        """Return what is fixed before the first moving joint of a link, and each with what is fixed after it."""
         if link not in self._runs:
             self._runs[link] = self._merge(link)
         return self._runs[link]
 
     def _merge(self, link: str) -> tuple[Pose, tuple[tuple[LinkJoint, Pose], ...]]:
-        """Return what is fixed before the first moving joint, and each moving joint with what is fixed after it."""
         first = identity()
         moving: list[tuple[LinkJoint, Pose]] = []
         for joint in self.chain(link):

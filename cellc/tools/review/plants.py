@@ -104,7 +104,7 @@ def _part(key: str, was: Part | None, now: Part | None) -> Iterator[ReviewChange
 def _state(part: Part) -> tuple[str, str]:
     """Return the configuration ID of a cell, and a digest of what its spec says."""
     said = json.dumps(part.document.data, sort_keys=True)
-    return configuration_id(configuration_inputs(part.cell)), hashlib.sha256(said.encode()).hexdigest()
+    return configuration_id(configuration_inputs(part.graph)), hashlib.sha256(said.encode()).hexdigest()
 
 
 def _topics(crossings: Iterable[Crossing]) -> dict[str, tuple[Crossing, ...]]:

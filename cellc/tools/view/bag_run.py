@@ -34,7 +34,7 @@ def bag_run(name: str, report: Report, pictures: Pictures, skeleton: Skeleton) -
         "" if finding is None else cut(f"{finding.layer}: {finding.message}"),
         moments,
         [time_ns / 1e9 for time_ns in pictures.times_ns],
-        [skeleton.posture(dict(zip(pictures.joints, row, strict=True))) for row in pictures.positions.tolist()],
+        skeleton.postures(dict(zip(pictures.joints, pictures.positions.T, strict=True)), [{}] * len(pictures.times_ns)),
         max([end_s, *(moment.until_s for moment in moments)]),
     )
     return replace(run, recorded=True)

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cellc.contract.attempt import AttemptRecord, PacketStep
-from cellc.contract.transforms import Pose
 from cellc.mock.cell import MockCell
 from cellc.mock.control import JointStateBlock
 from cellc.mock.engine.control_stack import GoalSent
 from cellc.mock.evidence.fault_times import fault_times
 from cellc.mock.plant import Plant
-from cellc.tools.view.scene import Numbers, numbers
+from cellc.tools.view.poses import Values
+from cellc.tools.view.scene import Numbers, rounded
 from cellc.tools.view.skeleton import Carried, Skeleton
 
 STEP_NS = 40_000_000
@@ -155,13 +155,14 @@ def play(cell: MockCell, name: str, skeleton: Skeleton, seed: int) -> Run:
     entry = cell.entry(name)
     result = cell.rehearse(entry, seed=seed, watch=lambda plant: heard.append(_Listener(plant)))
     times: list[int] = []
-    postures: list[tuple[Pose, ...]] = []
+    postures: Sequence[Values] = ()
     if heard:
         plant = heard[0].plant
         joints, world = _joints(heard[0]), plant.world
         handed_over = [placed.from_ns for name in world.objects() for placed in world.placements(name)[1:]]
         times = _kept(joints, handed_over, plant.now_ns)
-        postures = [skeleton.posture(_at(joints, time_ns), _carried(plant, time_ns)) for time_ns in times]
+        at = {joint.name: np.interp(times, joint.stamps_ns, joint.positions) for joint in joints}
+        postures = skeleton.postures(at, [_carried(plant, time_ns) for time_ns in times])
     begin_ns = result.attempts[-1].started_ns if result.attempts else 0
     return replace(
         run_of(
@@ -218,10 +219,6 @@ def _kept(joints: Sequence[_Signal], handed_over: Sequence[int], end_ns: int) ->
     return sorted({*times[wanted].tolist(), *around})
 
 
-def _at(joints: Sequence[_Signal], time_ns: int) -> dict[str, float]:
-    return {joint.name: float(np.interp(time_ns, joint.stamps_ns, joint.positions)) for joint in joints}
-
-
 def _carried(plant: Plant, time_ns: int) -> Carried:
     carried = {}
     for name in plant.world.objects():
@@ -237,21 +234,24 @@ def run_of(
     reason: str,
     moments: Sequence[Moment],
     times: Sequence[float],
-    postures: Sequence[Sequence[Pose]],
+    postures: Sequence[Values],
     end_s: float,
 ) -> Run:
-    """Return a run of pictures at some times, in s; a group that never moves is in the first of them alone."""
-    rows = [tuple(numbers(pose) for pose in posture) for posture in postures]
-    first = rows[0] if rows else ()
-    moving = [number for number in range(len(first)) if any(row[number] != first[number] for row in rows)]
+    """Return a run of pictures at some times, in s; a group that never moves is in the first of them alone.
+
+    Args:
+        postures: of each group, shape (7, times).
+    """
+    rows = [rounded(poses) for poses in postures if poses.size]
+    moving = [number for number, poses in enumerate(rows) if any(row != poses[0] for row in poses)]
     return Run(
         name=name,
         outcome=outcome,
         reason=reason,
         end_s=round(end_s, 3),
         times=tuple(round(time, 3) for time in times),
-        base=tuple(value for pose in first for value in pose),
-        tracks=tuple(Track(number, tuple(value for row in rows for value in row[number])) for number in moving),
+        base=tuple(value for poses in rows for value in poses[0]),
+        tracks=tuple(Track(number, tuple(value for row in rows[number] for value in row)) for number in moving),
         moments=tuple(moments),
     )
 

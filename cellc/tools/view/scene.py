@@ -10,6 +10,7 @@ from cellc.contract.diagnostics.wording import count
 from cellc.contract.transforms import Pose, identity
 from cellc.robot.description.model import Box, Collision, Cylinder, Geometry, Link, Mesh, Sphere, Visual
 from cellc.tools.view.meshes import DrawnMesh, Meshes, meshes_at_hand, meshes_of
+from cellc.tools.view.poses import Values
 from cellc.tools.view.skeleton import Held, Skeleton
 from cellc.tools.view.standing import Standing
 
@@ -133,7 +134,14 @@ def scene_of(standing: Standing, views: Mapping[str, FieldOfView], skeleton: Ske
 
 def numbers(pose: Pose) -> Numbers:
     """Return a pose in tenths of a millimeter and about a hundredth of a degree: the page shows no more."""
-    return (*(round(value, 4) + 0.0 for value in pose.position), *(round(value, 4) + 0.0 for value in pose.quaternion))
+    return tuple(round(value, 4) + 0.0 for value in (*pose.position, *pose.quaternion))
+
+
+def rounded(poses: Values) -> list[Numbers]:
+    """Return many poses, shape (7, times), in the same digits; one where they are all the same."""
+    still = (poses == poses[:, :1]).all()
+    columns = ([round(value, 4) + 0.0 for value in values] for values in (poses[:, :1] if still else poses).tolist())
+    return list(zip(*columns, strict=True))
 
 
 def _bodies(link: Link, meshes: Meshes) -> tuple[str, list[tuple[Pose, Geometry]]]:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from cellc.contract.contract import ContractFrame
 from cellc.contract.transforms import Pose, climb, identity
 from cellc.mock.world.world import LinkTree, link_tree
 from cellc.robot.description.model import Description
+from cellc.tools.view.poses import Poses, Values, alike, composed, displaced
 from cellc.tools.view.standing import Standing
 
 Carried = Mapping[str, tuple[str, Pose]]
@@ -38,7 +41,7 @@ class Skeleton:
         """Find the groups of the static parts."""
         description = standing.description
         self._tree: LinkTree = link_tree(description)
-        self._start = dict(_start_positions(description))
+        self._start = {name: np.asarray(at) for name, at in _start_positions(description)}
         moved = {joint.child for joint in description.joints if joint.movable}
         self._links = tuple(link.name for link in description.links)
         roots = [name for name in self._links if name in moved or name not in self._tree.joints]
@@ -56,21 +59,47 @@ class Skeleton:
         groups = {name: name for name in self._placed} | {name: group for group, name in self._at_rest.items()}
         self.parts = {name: Held(self._numbers[groups[name]], identity()) for name in sorted(gripped & set(groups))}
 
-    def posture(self, positions: Mapping[str, float], carried: Carried | None = None) -> tuple[Pose, ...]:
-        """Return the pose of each group in the root link.
+    def posture(self, positions: Mapping[str, float]) -> tuple[Pose, ...]:
+        """Return the pose of each group in the root link; joints that are not named stand where the mock begins."""
+        whole = self.postures({name: np.array([position]) for name, position in positions.items()}, [{}])
+        return tuple(Pose((x, y, z), (i, j, k, w)) for x, y, z, i, j, k, w in (poses[:, 0].tolist() for poses in whole))
+
+    def postures(self, positions: Mapping[str, Values], carried: Sequence[Carried]) -> tuple[Values, ...]:
+        """Return the poses of each group in the root link at some times, shape (7, times).
 
         Args:
-            positions: rad or m by joint; the others stand where the mock begins.
-            carried: dynamic frames that stand elsewhere than at first.
+            positions: rad or m by joint, at each time; the others stand where the mock begins.
+            carried: dynamic frames that stand elsewhere than at first, at each time.
         """
         at = {**self._start, **positions}
-        carried = carried or {}
-        placed = {**self._placed, **carried}
-        placed |= {group: carried.get(name, (name, identity())) for group, name in self._at_rest.items()}
-        return tuple(
-            self._tree.pose(placed[name][0], at) @ placed[name][1] if name in placed else self._tree.pose(name, at)
-            for name in self.groups
-        )
+        known: dict[str, Poses] = {}
+        return tuple(self._over_time(name, at, carried, known) for name in self.groups)
+
+    def _over_time(
+        self, name: str, at: Mapping[str, Values], carried: Sequence[Carried], known: dict[str, Poses]
+    ) -> Values:
+        found = np.empty((7, len(carried)))
+        frame = self._at_rest.get(name, name)
+        if frame in self._links and name not in self._at_rest:
+            found[:] = np.broadcast_arrays(found[0], *self._poses(name, at, known))[1:]
+            return found
+        first = self._placed.get(name, (frame, identity()))
+        held = [each.get(frame, first) for each in carried]
+        for place in dict.fromkeys(held):
+            then = np.array([each == place for each in held])
+            poses = composed(self._poses(place[0], at, known), alike(place[1]))
+            found[:, then] = np.array(np.broadcast_arrays(found[0], *poses)[1:])[:, then]
+        return found
+
+    def _poses(self, link: str, at: Mapping[str, Values], known: dict[str, Poses]) -> Poses:
+        """Return the poses of a link; ``known`` are those behind each joint, before what is fixed there."""
+        first, moving = self._tree.run(link)
+        begin = next((n for n in range(len(moving), 0, -1) if moving[n - 1][0].child in known), 0)
+        poses = composed(known[moving[begin - 1][0].child], alike(moving[begin - 1][1])) if begin else alike(first)
+        for joint, fixed in moving[begin:]:
+            known[joint.child] = composed(poses, displaced(joint, at))
+            poses = composed(known[joint.child], alike(fixed))
+        return poses
 
     def held(self, link: str) -> Held:
         """Return where a link is held."""

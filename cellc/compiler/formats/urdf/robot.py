@@ -23,7 +23,8 @@ from cellc.compiler.formats.urdf.elements import (
     scene_materials,
 )
 from cellc.compiler.formats.urdf.hardware import HEADLESS, for_xacro, ros2_control, simulator
-from cellc.compiler.formats.xml_text import comment, element
+from cellc.compiler.formats.xml_text import comment, element, render
+from cellc.compiler.graph.cell_graph import CellGraph
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.contract.entities import Target
 
@@ -37,6 +38,11 @@ START = "start"
 def robot_description(cell: Cell, target: Target) -> Element:
     """Return the description of a cell for the target ``mock`` or ``real``, with the hardware of all devices."""
     return manager_description(cell, target, tuple(device.name for device in cell.devices))
+
+
+def real_description(graph: CellGraph) -> str:
+    """Return the text of the description for the target ``real``: a question that a graph answers once."""
+    return render(robot_description(graph.cell, "real"))
 
 
 def simulated_description(cell: Cell, scene: str) -> Element:
