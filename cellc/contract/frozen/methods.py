@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable
+from functools import cache
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import FunctionType
@@ -88,6 +89,11 @@ def _hash(self: _Made) -> int:
     return hash(type(self).__compared__(self))
 
 
+@cache
+def _names(cls: type) -> tuple[str, ...]:
+    return tuple(field.name for field in dataclasses.fields(cls))
+
+
 @recursive_repr()
 def _repr(self: _Made) -> str:
     shown = (f"{field.name}={getattr(self, field.name)!r}" for field in dataclasses.fields(self) if field.repr)
@@ -99,12 +105,12 @@ def _refuse(self: object, name: str, *_: object) -> None:
 
 
 def _state(self: _Made) -> list[object]:
-    return [getattr(self, field.name) for field in dataclasses.fields(self)]
+    return [getattr(self, name) for name in _names(type(self))]
 
 
 def _restore(self: _Made, state: list[object]) -> None:
-    for field, value in zip(dataclasses.fields(self), state, strict=True):
-        object.__setattr__(self, field.name, value)
+    for name, value in zip(_names(type(self)), state, strict=True):
+        object.__setattr__(self, name, value)
 
 
 _SHARED: tuple[tuple[str, _Method], ...] = (

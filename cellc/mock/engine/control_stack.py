@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from itertools import chain
 from typing import Protocol
 
 from cellc.contract.contract import ContractManager
@@ -60,7 +61,7 @@ class ControlWatcher(Protocol):
 
 def dangers(controller: str, goal: TrajectoryGoal | GripperGoal) -> Iterator[str]:
     """Say of an accepted goal what makes it dangerous; nothing for a sound one."""
-    if any(not math.isfinite(value) for value in _values(goal)):
+    if not all(map(math.isfinite, _values(goal))):
         yield (
             f"dangerous: `{controller}` accepted a goal with NaN or an infinite value, as the real controller does; "
             "a joint of NaN stays where it is, and the goal succeeds"
@@ -81,10 +82,9 @@ def dangers(controller: str, goal: TrajectoryGoal | GripperGoal) -> Iterator[str
 
 def _values(goal: TrajectoryGoal | GripperGoal) -> Iterator[float]:
     if isinstance(goal, GripperGoal):
-        yield from (*goal.position, *goal.velocity, *goal.effort)
-        return
-    for point in goal.points:
-        yield from (*point.positions, *point.velocities, *point.accelerations, *point.effort)
+        return chain(goal.position, goal.velocity, goal.effort)
+    points = ((point.positions, point.velocities, point.accelerations, point.effort) for point in goal.points)
+    return chain.from_iterable(chain.from_iterable(points))
 
 
 GoalServer = ControllerManager | AdapterServer

@@ -111,12 +111,12 @@ class PublishedStates:
         """Use the joint states that have arrived since the last call."""
         places = self._feed.arrived(now_ns)
         stamps = self.history.stamps[places]
-        index = 0 if self._last_ns is None else int(np.searchsorted(stamps, self._last_ns + self._interval_ns))
+        index = 0 if self._last_ns is None else int(stamps.searchsorted(self._last_ns + self._interval_ns))
         while index < len(stamps):
             taken_ns = int(stamps[index])
             self._publish(UsedState(taken_ns, tuple(self.history.positions[places[index]].tolist())))
             self._last_ns = taken_ns
-            index = int(np.searchsorted(stamps, taken_ns + self._interval_ns))
+            index = int(stamps.searchsorted(taken_ns + self._interval_ns))
         if self._travelling:
             self._receive(now_ns)
 

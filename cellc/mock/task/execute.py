@@ -88,7 +88,7 @@ def held_since(plant: Plant, joints: Iterable[str], since_ns: int) -> int | None
 
 
 def _history_held_since(history: JointStateHistory, joints: list[str], since_ns: int) -> int | None:
-    first = max(0, int(np.searchsorted(history.stamps, since_ns)) - 1)
+    first = max(0, int(history.stamps.searchsorted(since_ns)) - 1)
     stamps = history.stamps[first:]
     if len(stamps) < 3:
         return None
@@ -261,7 +261,7 @@ def _driven_ns(plant: Plant, joints: tuple[str, ...], since_ns: int) -> int | No
     durations: list[int] = []
     for history in plant.control.histories.values():
         columns = [history.names.index(joint) for joint in joints if joint in history.names]
-        first = max(0, int(np.searchsorted(history.stamps, since_ns, side="right")) - 1)
+        first = max(0, int(history.stamps.searchsorted(since_ns, side="right")) - 1)
         positions = history.positions[first:, columns]
         if columns and len(positions):
             moved = np.flatnonzero(np.abs(positions - positions[0]).max(axis=1) > _MOVED)

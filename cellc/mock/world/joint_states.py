@@ -109,7 +109,7 @@ class JointStateHistory:
     def arrived(self, now_ns: int) -> int:
         """Return how many of the kept messages have arrived by ``now_ns``, late ones not counted."""
         if not self._late:
-            return int(np.searchsorted(self.stamps, now_ns, side="right"))
+            return int(self.stamps.searchsorted(now_ns, side="right"))
         here = np.flatnonzero(self.arrivals(self.stamps) <= now_ns)
         return int(here[-1]) + 1 if here.size else 0
 
@@ -162,7 +162,7 @@ class JointStateHistory:
         stamps, positions = self.stamps, self.positions
         if not stamps.size:
             return {}
-        after = int(np.searchsorted(stamps, stamp_ns, side="left"))
+        after = int(stamps.searchsorted(stamp_ns, side="left"))
         if after == 0 or after == stamps.size:
             row = positions[min(after, stamps.size - 1)]
         else:
