@@ -29,7 +29,14 @@ from cellc.compiler.link.device_facts import (
 from cellc.compiler.link.hardware import hardware_component
 from cellc.compiler.link.hopeless import until_hopeless
 from cellc.compiler.link.kinematics import kinematic_parameters, link_kinematics
-from cellc.compiler.link.names import Placeholders, home_host, placeholders, port_of, unknown_name
+from cellc.compiler.link.names import (
+    Placeholders,
+    controllers_by_device,
+    home_host,
+    placeholders,
+    port_of,
+    unknown_name,
+)
 from cellc.compiler.link.ports import port_shifts
 from cellc.compiler.link.quantities import pose
 from cellc.compiler.link.robot import program_parameters, robot_controller, robot_words
@@ -77,6 +84,7 @@ class _Found:
     budget: Budget
     entries: Mapping[str, CatalogDevice]
     kinematics: Mapping[str, Kinematics | None]
+    controllers: Mapping[str, Mapping[str, str]]
 
 
 def link_devices(
@@ -91,12 +99,12 @@ def link_devices(
     entries: dict[str, CatalogDevice] = {}
     kinematics: dict[str, Kinematics | None] = {}
     problems: list[Diagnostic] = []
-    budget = Budget(limits().xacro_seconds_together, children_seconds)
+    budget, controllers = Budget(limits().xacro_seconds_together, children_seconds), controllers_by_device(spec)
     for name, device_spec in until_hopeless(spec.devices.items(), problems):
         entry = _catalog_entry(name, device_spec, document, budget, packages)
         problems += entry.diagnostics
         if entry.value is not None:
-            known = placeholders(name, prefix_of(name, device_spec), device_spec, spec)
+            known = placeholders(name, prefix_of(name, device_spec), device_spec, spec, controllers.get(name, {}))
             calibrated = link_kinematics(name, device_spec, entry.value, known, document)
             problems += calibrated.diagnostics
             entries[name], kinematics[name] = calibrated.value or (entry.value, None)
@@ -104,7 +112,7 @@ def link_devices(
     if len(entries) < len(spec.devices):
         return Outcome(None, tuple(problems))
     devices: list[BoundDevice] = []
-    found = _Found(spec, document, distro, packages, budget, entries, kinematics)
+    found = _Found(spec, document, distro, packages, budget, entries, kinematics, controllers)
     shifts = port_shifts({name: (spec.devices[name], entry.model) for name, entry in entries.items()})
     frames, carried = _mount_frames(spec, entries), _carried(spec)
     for name, device_spec in until_hopeless(spec.devices.items(), problems):
@@ -200,7 +208,7 @@ def _frame_names(entry: CatalogDevice) -> dict[str, str]:
 def _device(name: str, found: _Found, mount: Mount, port_shift: int) -> BoundDevice:
     path, written, entry = ("devices", name), found.spec.devices[name], found.entries[name]
     facts, prefix, kinematics = entry.model, prefix_of(name, written), found.kinematics[name]
-    named = placeholders(name, prefix, written, found.spec, port_shift)
+    named = placeholders(name, prefix, written, found.spec, found.controllers.get(name, {}), port_shift)
     words = {**dict(robot_words(written)), **dict(tool_words(facts, written)), **gripper_words(facts)}
     known = replace(named, values={**named.values, **words})
     parameters = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 
 from cellc.compiler.cell.interface import ParameterValue
 from cellc.compiler.source.document import SourceDocument
@@ -95,8 +95,14 @@ def graph_name(namespace: str, full_name: str, name: str) -> str:
     return JOINT_STATES if f"/{name}" == JOINT_STATES else f"{namespace}/{name}"
 
 
-def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec, port_shift: int = 0) -> Placeholders:
-    """Collect the values for a device; what the connection does not state is UNKNOWN, never guessed."""
+def placeholders(
+    name: str, prefix: str, written: DeviceSpec, spec: CellSpec, controllers: Mapping[str, str], port_shift: int = 0
+) -> Placeholders:
+    """Collect the values for a device; what the connection does not state is UNKNOWN, never guessed.
+
+    Args:
+        controllers: those of the device, as `controllers_by_device` has them.
+    """
     connection = written.connection
     host_address = UNKNOWN
     if connection is not None and connection.nic is not None and connection.host in spec.hosts:
@@ -114,7 +120,7 @@ def placeholders(name: str, prefix: str, written: DeviceSpec, spec: CellSpec, po
             **_credentials(name, written),
             "carrier_address": _carrier_address(written, spec),
             "prefix_namespace": "/" + prefix.removesuffix("_") if prefix.removesuffix("_") else "",
-            **{f"controller_{kind}": name for kind, name in _controllers(name, spec)},
+            **{f"controller_{kind}": named for kind, named in controllers.items()},
         },
         port_shift=port_shift,
     )
@@ -129,13 +135,15 @@ def _credentials(name: str, written: DeviceSpec) -> dict[str, str]:
     return {key: f"{{env:{variable}_{key.upper()}}}" for key in ("username", "password")}
 
 
-def _controllers(device: str, spec: CellSpec) -> Iterator[tuple[str, str]]:
-    """Yield kind and full name of every controller of a device, the first of a kind last: its name is the one used."""
+def controllers_by_device(spec: CellSpec) -> Mapping[str, Mapping[str, str]]:
+    """Return the full name of the first controller of each kind, by the device that it is of."""
+    found: dict[str, dict[str, str]] = {}
     managers = (*(() if spec.control is None else (spec.control,)), *spec.managers.values())
     for manager in reversed(managers):
         for name, controller in reversed(manager.controllers.items()):
-            if controller.device == device:
-                yield controller.type, f"{manager.namespace}/{name}"
+            if controller.device is not None:
+                found.setdefault(controller.device, {})[controller.type] = f"{manager.namespace}/{name}"
+    return found
 
 
 def _carrier_address(written: DeviceSpec, spec: CellSpec) -> str:
