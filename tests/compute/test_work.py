@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from cellc.contract.compute import processes as of_machine
-from cellc.contract.compute.processes import processes
+from cellc.contract.compute.processes import process_number, processes
 from cellc.contract.compute.versions import difference, versions
 from cellc.contract.compute.work import ComputeError, Work, in_order, stream
 
@@ -49,6 +49,21 @@ def _endless(_: None) -> Callable[[int], int]:
         return unit
 
     return do
+
+
+def _numbered(_: None) -> Callable[[int], tuple[int, int]]:
+    def do(unit: int) -> tuple[int, int]:
+        time.sleep(0.02)  # so that each process takes some
+        return os.getpid(), process_number()
+
+    return do
+
+
+def test_each_process_of_an_executor_has_a_number_of_its_own() -> None:
+    told = {answer for _, answer in stream(Work(_numbered, None), range(60), processes(3))}
+    assert len({process for process, _ in told}) == len({number for _, number in told}) == len(told)
+    assert {number for _, number in told} <= {0, 1, 2}
+    assert process_number() == 0
 
 
 def test_every_unit_is_answered_once_and_no_process_is_left() -> None:

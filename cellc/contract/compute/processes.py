@@ -22,6 +22,7 @@ from cellc.contract.signals import signals_blocked_in_children, start_tracker_wi
 
 if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess
+    from multiprocessing.queues import SimpleQueue
 
 _ENDS_S = 5.0
 """How long a process may take to end before it is killed: one that is stopped hears nothing else."""
@@ -50,7 +51,11 @@ def _executor(number: int, sent: Sent, units: int) -> Iterator[Executor]:
         start_tracker_without_signals()
     others = set(active_children())
     # Spawned on every platform: nothing of this process, its locks and threads above all, is copied into them.
-    pool = ProcessPoolExecutor(size, get_context("spawn"), _receive, (sent, Path.cwd()))
+    context = get_context("spawn")
+    numbers = context.SimpleQueue()
+    for each in range(size):
+        numbers.put(each)
+    pool = ProcessPoolExecutor(size, context, _receive, (sent, Path.cwd(), numbers))
 
     def submit(packet: Sequence[Any]) -> Future[Any]:
         return pool.submit(_answer, packet)
@@ -93,11 +98,17 @@ def _kill(children: Iterable[BaseProcess]) -> None:
 
 
 _sent: Sent | None = None
+_number = 0
 
 
-def _receive(sent: Sent, folder: Path) -> None:
-    global _sent
-    _sent = sent
+def process_number() -> int:
+    """Return the number of this process among those of its executor, from 0; 0 in a process that no executor has."""
+    return _number
+
+
+def _receive(sent: Sent, folder: Path, numbers: SimpleQueue[int]) -> None:
+    global _sent, _number
+    _sent, _number = sent, numbers.get()
     os.chdir(folder)
     _end_with_parent()
 

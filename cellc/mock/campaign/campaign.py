@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Iterator, Sequence
 
-from cellc.contract.compute.work import ExecutorFactory, Work, stream
+from cellc.contract.compute.work import ExecutorFactory, Work, in_order, stream
 from cellc.contract.frozen import dataclass
 from cellc.contract.limits import Limits, limits, use
 from cellc.contract.rehearsals import RehearsalEntry
@@ -20,8 +20,8 @@ from cellc.mock.plant import Plant
 from cellc.mock.result import RehearsalResult, RunFailure, to_json_lines
 from cellc.robot.description.packages import package_path, use_packages
 
-Rehearse = Callable[[RehearsalEntry, Watch], RehearsalResult]
-"""Runs a rehearsal in another way than all of it on the mock."""
+Rehearse = Callable[[MockCell, RehearsalEntry, int, Watch], RehearsalResult]
+"""Runs a rehearsal with a seed in another way than all of it on the mock; it is sent to workers as it is."""
 
 
 def execute(cell: MockCell, run: CampaignRun, seed: int, rehearse: Rehearse | None = None) -> RunEnd:
@@ -45,7 +45,7 @@ def execute(cell: MockCell, run: CampaignRun, seed: int, rehearse: Rehearse | No
         if rehearse is None:
             result = cell.rehearse(run.entry, seed=seed, watch=watch, from_off=False)
         else:
-            result = rehearse(run.entry, watch)
+            result = rehearse(cell, run.entry, seed, watch)
     except MockError:
         raise
     except Exception as bug:  # a run that breaks the mock must not hide the runs after it
@@ -87,6 +87,7 @@ class Assignment:
     Attributes:
         unseen: links whose meshes are not here; elsewhere others may be missing. None for workers of this computer.
         masses: what computes with masses here; empty where nothing has any.
+        rehearse: how, where some nodes are not played.
     """
 
     folder: GeneratedFolder
@@ -95,11 +96,12 @@ class Assignment:
     packages: tuple[str, ...]
     unseen: tuple[str, ...] | None
     masses: str = ""
+    rehearse: Rehearse | None = None
 
     @classmethod
-    def of(cls, cell: MockCell, seed: int) -> Assignment:
+    def of(cls, cell: MockCell, seed: int, rehearse: Rehearse | None = None) -> Assignment:
         """Return the assignment for workers of a cell that was loaded here."""
-        return cls(cell.folder, seed, limits(), package_path(), cell.unseen, cell.folder.masses)
+        return cls(cell.folder, seed, limits(), package_path(), cell.unseen, cell.folder.masses, rehearse)
 
     def cell(self) -> MockCell:
         """Load the cell in a worker.
@@ -119,7 +121,7 @@ class Assignment:
 
 def _begin(assignment: Assignment) -> Callable[[CampaignRun], RunEnd]:
     cell = assignment.cell()
-    return lambda run: execute(cell, run, assignment.seed)
+    return lambda run: execute(cell, run, assignment.seed, assignment.rehearse)
 
 
 Progress = Callable[[int, int, int], None]
@@ -168,10 +170,10 @@ def run_all(
     factory: ExecutorFactory | None,
     rehearse: Rehearse | None = None,
 ) -> Iterator[tuple[int, RunEnd]]:
-    """Yield the ends of runs with their numbers, as they come; in this process alone where ``rehearse`` is given."""
-    if factory is None or rehearse is not None:
+    """Yield the ends of runs with their numbers, as they come."""
+    if factory is None:
         return ((number, execute(cell, run, seed, rehearse)) for number, run in enumerate(runs))
-    return stream(Work(_begin, Assignment.of(cell, seed), _identifier), runs, factory)
+    return stream(Work(_begin, Assignment.of(cell, seed, rehearse), _identifier), runs, factory)
 
 
 def _identifier(run: CampaignRun) -> str:
@@ -179,7 +181,11 @@ def _identifier(run: CampaignRun) -> str:
 
 
 def make_plan(
-    cell: MockCell, cases: Sequence[FaultCase], seed: int, rehearse: Rehearse | None = None
+    cell: MockCell,
+    cases: Sequence[FaultCase],
+    seed: int,
+    rehearse: Rehearse | None = None,
+    factory: ExecutorFactory | None = None,
 ) -> tuple[CampaignPlan, tuple[RunEnd, ...]]:
     """Run what is undisturbed, and plan faults for what succeeds; a rehearsal that fails by itself is reported as
     failed.
@@ -190,7 +196,7 @@ def make_plan(
     undisturbed = [CampaignRun.undisturbed(entry) for entry in cell.entries if entry.is_plain]
     if not undisturbed:
         raise MockError(cell.contract.files.rehearsals, "has no rehearsal without faults to run a campaign over")
-    baselines = tuple(execute(cell, run, seed, rehearse) for run in undisturbed)
+    baselines = tuple(in_order(run_all(cell, undisturbed, seed, factory, rehearse)))
     return CampaignPlan(cases, [baseline for baseline in baselines if baseline.named]), baselines
 
 

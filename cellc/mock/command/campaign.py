@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from time import perf_counter
@@ -106,10 +107,12 @@ def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions | ReplayOp
     if options.records is not None:
         refuse_foreign(Path(options.records))
     start = perf_counter()
-    rehearse = None if options.among is None else _among(cell, options.among, options.seed)
-    plan, baselines = make_plan(cell, possible_faults(cell.contract), options.seed, rehearse)
+    rehearse = None if options.among is None else _among(options.among)
+    factory, who = executor(options.fan) if options.among is None else _executor_among(options.among, options.fan)
+    plan, baselines = make_plan(
+        cell, possible_faults(cell.contract), options.seed, rehearse, None if rehearse is None else factory
+    )
     runs = _seen(cell, choose(plan), options.among)
-    factory, who = executor(options.fan) if rehearse is None else (None, "one after the other")
     with progress("campaign") as update:
 
         def report(done: int, total: int, failed: int) -> None:
@@ -128,11 +131,28 @@ def _conduct(cell: MockCell, choose: Choice, options: CampaignOptions | ReplayOp
     return campaign
 
 
-def _among(cell: MockCell, asked: AmongNodes, seed: int) -> Rehearse:
+def _among(asked: AmongNodes) -> Rehearse:
     """Return how a rehearsal is run around nodes that are not played."""
-    from cellc.mock.ros.session import rehearse_among
+    from cellc.mock.ros.session import rehearse_on_own_domain
 
-    return lambda entry, watch: rehearse_among(cell, entry, seed, asked, watch).result
+    return partial(rehearse_on_own_domain, asked)
+
+
+def _executor_among(asked: AmongNodes, fan: Fan) -> tuple[ExecutorFactory | None, str]:
+    """Return who executes runs around nodes that are not played, and the domains that they use.
+
+    Raises:
+        MockError: the processes cannot have a domain and nodes of their own.
+    """
+    jobs = fan.jobs or 1
+    if jobs == 1:
+        return None, "one after the other"
+    if not asked.launch:
+        raise MockError("", "--jobs with --ros needs --launch: each process starts nodes on a domain of its own")
+    last = asked.domain - jobs + 1
+    if last < 0:
+        raise MockError("", f"--jobs {jobs} needs as many domains; --domain must be {jobs - 1} or greater")
+    return fan.factory(jobs, remark), f"{jobs} processes on domains {last} to {asked.domain}"
 
 
 def _seen(cell: MockCell, runs: Sequence[CampaignRun], asked: AmongNodes | None) -> Sequence[CampaignRun]:

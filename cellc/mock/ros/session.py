@@ -10,6 +10,7 @@ from functools import partial
 from time import monotonic, sleep
 
 from cellc.contract.bring_up import Transition
+from cellc.contract.compute.processes import process_number
 from cellc.contract.contract import Contract
 from cellc.contract.faults import FaultKind
 from cellc.contract.frozen import dataclass
@@ -171,6 +172,18 @@ def rehearse_among(
         result = cell.rehearse(entry, seed=seed, watch=partial(_both, watch, around.begin), steps=around.steps)
         around.end()
     return Judged(replace(result, violations=around.judgment.lines()), tuple(around.notes))
+
+
+def rehearse_on_own_domain(
+    asked: AmongNodes, cell: MockCell, entry: RehearsalEntry, seed: int, watch: Watch
+) -> RehearsalResult:
+    """Run a rehearsal around nodes that are not played, on the domain that is this process's alone.
+
+    Raises:
+        MockError: as `rehearse_among` raises it.
+    """
+    own = replace(asked, domain=asked.domain - process_number())
+    return rehearse_among(cell, entry, seed, own, watch).result
 
 
 def _idle(until_ns: int) -> Waiting[None]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import click
 
-from cellc.contract.compute.fan import USUAL
 from cellc.mock.command.options import CampaignOptions
 from cellc.tools.cli.fleet import fan_options
 from cellc.tools.cli.limit_option import limit_option
@@ -48,14 +47,14 @@ def campaign(options: CampaignOptions, list_only: bool) -> None:
     cellc campaign generated/bench --list          names of the runs
     cellc campaign generated/bench --physics       with masses, drives and contacts
     cellc campaign generated/bench --evidence evidence/1
-    cellc campaign generated/bench --ros --without perception --launch COMMAND
+    cellc campaign generated/bench --ros --without perception --lockstep --launch COMMAND --jobs 2
     """
     from cellc.mock.command.campaign import list_runs, run_campaign
 
     kept = {"--evidence": options.evidence, "--records": options.records}
     written = next((option for option, path in kept.items() if path is not None), "")
-    if options.among is not None and options.fan != USUAL:
-        raise click.UsageError("--ros runs one rehearsal after the other, without --jobs and --cluster.")
+    if options.among is not None and options.fan.cluster is not None:
+        raise click.UsageError("--ros cannot be combined with --cluster: the nodes are started on this computer.")
     if list_only and written:
         raise click.UsageError(f"{written} cannot be combined with --list.")
     raise click.exceptions.Exit(list_runs(options) if list_only else run_campaign(options))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -19,9 +19,12 @@ from cellc.mock.cell import Watch, cell_of
 from cellc.mock.errors import MockError
 from cellc.mock.evidence.bag import messages
 from cellc.mock.result import RehearsalResult
-from cellc.mock.ros.asked import AmongNodes
+from cellc.mock.ros import session
+from cellc.mock.ros.asked import AmongNodes, Timing
 from cellc.mock.ros.bridge import GraphEnd
 from cellc.mock.ros.session import concerns, rehearse_among
+from tests.cells import ROOT
+from tests.cli.run import run as command
 from tests.mock.ros.stand_in import CAMERA, IMAGES, POSES, Graph, Node, Said, changed, right, run
 
 _AT = Pose((0.1, 0.0, 0.4), (0.0, 0.0, 0.0, 1.0))
@@ -200,7 +203,7 @@ def test_a_run_of_a_campaign_fails_where_the_node_breaks_its_contract(
     undisturbed = CampaignRun.undisturbed(cell.entry("pick_and_place"))
     for node, passes in ((right, True), (_WRONG["stamp on arrival"][0], False)):
 
-        def rehearse(entry: RehearsalEntry, watch: Watch, node: Node = node) -> RehearsalResult:
+        def rehearse(_: MockCell, entry: RehearsalEntry, seed: int, watch: Watch, node: Node = node) -> RehearsalResult:
             return run(cell, monkeypatch, Graph(node), watch=watch).result
 
         end = execute(cell, undisturbed, 0, rehearse)
@@ -208,3 +211,36 @@ def test_a_run_of_a_campaign_fails_where_the_node_breaks_its_contract(
         assert end.limits.peaks != ()
         told = [line for line in failure_lines(end, "again") if "against the contract: stamp_of_another_time" in line]
         assert bool(told) is not passes
+
+
+@pytest.mark.parametrize(("number", "domain"), [(0, "100"), (1, "99"), (3, "97")])
+def test_each_process_of_a_campaign_has_a_domain_of_its_own(
+    cell: MockCell, monkeypatch: pytest.MonkeyPatch, number: int, domain: str
+) -> None:
+    seen: list[str] = []
+
+    def bridge(_: str, environment: Mapping[str, str]) -> Graph:
+        seen.append(environment["ROS_DOMAIN_ID"])
+        raise MockError("", "no graph")
+
+    monkeypatch.setattr(session, "Bridge", bridge)
+    monkeypatch.setattr(session, "process_number", lambda: number)
+    asked = AmongNodes(("perception",), "python3", Timing(None), launch="node")
+    with pytest.raises(MockError, match="no graph"):
+        session.rehearse_on_own_domain(asked, cell, cell.entry("pick_and_place"), 0, lambda _: None)
+    assert seen == [domain]
+
+
+@pytest.mark.parametrize(
+    ("more", "problem"),
+    [
+        (("--jobs", "2"), "--jobs with --ros needs --launch"),
+        (("--jobs", "4", "--launch", "node", "--domain", "2"), "--domain must be 3 or greater"),
+        (("--cluster", "tcp://a:1", "--launch", "node"), "--ros cannot be combined with --cluster"),
+    ],
+)
+def test_processes_that_can_have_no_graph_of_their_own_are_refused(more: tuple[str, ...], problem: str) -> None:
+    asked = ("--ros", "--without", "perception", "--lockstep", *more)
+    told = command("campaign", str(ROOT / "generated/ur5e_pick"), *asked)
+    assert told.code == 2
+    assert problem in told.err

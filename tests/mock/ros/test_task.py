@@ -228,7 +228,7 @@ def test_a_run_of_a_campaign_is_judged(
 ) -> None:
     baseline = CampaignRun.undisturbed(cell.entry("canceled"))
 
-    def rehearse(entry: RehearsalEntry, watch: Watch) -> RehearsalResult:
+    def rehearse(_: MockCell, entry: RehearsalEntry, seed: int, watch: Watch) -> RehearsalResult:
         return run(cell, monkeypatch, entry.name, wrong, watch=watch).result
 
     end = execute(cell, baseline, 0, rehearse)

@@ -390,6 +390,8 @@ class Bridge:
 
 def main() -> None:
     """Run the bridge at the end of the socket whose number is the argument."""
+    # A worker of cellc hears no Ctrl-C, and what it starts inherits that; nodes are ended by SIGINT.
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGHUP})
     Bridge(socket.socket(fileno=int(sys.argv[1]))).run()
     os._exit(0)  # rclpy's threads may be within a callback; nothing is left to be done
 
