@@ -10,6 +10,7 @@ from cellc.contract.transforms import Pose
 from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GripperGoal, TrajectoryGoal
 from cellc.mock.engine.process import Waiting
+from cellc.mock.nodes.motion_planner import GoalPose
 from cellc.mock.plant import Plant
 from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.ros.requests import Asked
@@ -39,13 +40,18 @@ class Conduct:
         self._expected: Pose | None = None
         """Where the tip must be at the end of the present step, in the base of its group."""
 
-    def judge(self, goal: ServedGoal) -> None:
-        """Note what may not be sent at all in the present state of the cell."""
+    def judge(self, goal: ServedGoal, last: ServedGoal | None) -> None:
+        """Note what may not be sent at all in the present state of the cell.
+
+        A node hears of a stop by the goal that does not succeed: the one after it may not be sent.
+        """
         sent = f"`{self._full}` sent a goal to `{goal.action}`"
         stops = self._plant.stops.present()
         if stops or is_waiting(self._plant):
-            why = str(stops[0]) if stops else "a claim was given up"
-            self._note(Violation.COMMANDED_WHILE_STOPPED, goal, f"{sent} while {why}, and no person had acknowledged")
+            if last is not None and last.has_failed:
+                why = str(stops[0]) if stops else "a claim was given up"
+                text = f"{sent} while {why}, and no person had acknowledged"
+                self._note(Violation.COMMANDED_WHILE_STOPPED, goal, text)
         elif self.canceled_ns is not None:
             self._note(Violation.COMMANDED_AFTER_CANCEL, goal, f"{sent} after it was asked to cancel")
         else:
@@ -71,21 +77,30 @@ class Conduct:
         entry = context.contract.goals.get(target)
         if entry is None:
             return
-        frame = dynamic_ancestor(context.contract, entry.frame)
-        inbox = None if frame is None else context.node.observations.get(frame)
-        if frame is not None and inbox is not None and inbox.newest is not None:
-            context.observed[frame] = inbox.newest.stamp_ns
         try:
-            state = current_state(context.plant)
-            attempt.joint_state_age = state.age_s
-            located = yield from locate_goal(context, attempt, target, state.stamp_ns)
+            located = yield from self.locate(context, attempt, target)
         except AttemptError as stale:
             if stale.outcome is AttemptOutcome.STALE_STATE:
                 text = f"`{self._full}` sent a goal to `{goal.action}`: {stale.fault_code}"
                 self._note(Violation.COMMANDED_ON_STALE_STATE, goal, text)
             raise
-        self._expected = located.goal.tip_in_base
-        self._check_reach(entry.group, goal, located.goal.approach, target)
+        self._expected = located.tip_in_base
+        self._check_reach(entry.group, goal, located.approach, target)
+
+    def locate(self, context: TaskContext, attempt: Attempt, target: str) -> Waiting[GoalPose]:
+        """Look where a goal of the contract is, as a task does before it sends one.
+
+        Raises:
+            AttemptError: what it rests on is stale, or not known.
+        """
+        frame = dynamic_ancestor(context.contract, context.contract.goals[target].frame)
+        inbox = None if frame is None else context.node.observations.get(frame)
+        if frame is not None and inbox is not None and inbox.newest is not None:
+            context.observed[frame] = inbox.newest.stamp_ns
+        state = current_state(context.plant)
+        attempt.joint_state_age = state.age_s
+        located = yield from locate_goal(context, attempt, target, state.stamp_ns)
+        return located.goal
 
     def away(self, now_ns: int, target: str) -> str:
         """Say how far the arm is from the target of a step; nothing where it is there."""

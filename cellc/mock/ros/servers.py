@@ -96,6 +96,15 @@ class ServedGoal:
         """Tell whether it was accepted and has not ended."""
         return bool(self.accepted) and self.ended_ns is None
 
+    @property
+    def has_failed(self) -> bool:
+        """Tell whether its client knows that it did not succeed."""
+        return self.accepted is False or (self.ended_ns is not None and self.status is not GoalStatus.SUCCEEDED)
+
+
+Judge = Callable[[ServedGoal, "ServedGoal | None"], None]
+"""Looks at a goal and the one before it."""
+
 
 class ActionServers:
     """Takes goals, and lets the cell that is played execute them.
@@ -106,13 +115,13 @@ class ActionServers:
     """
 
     def __init__(
-        self, plant: Plant, graph: Graph, bridge: Bridge, judge: Callable[[ServedGoal], None] | None = None
+        self, plant: Plant, graph: Graph, bridge: Bridge, judge: Judge | None = None
     ) -> None:
         """Bind the servers of the contract's actions; nothing is offered yet.
 
         Args:
-            judge: called with each goal as it arrives, before it is answered; None where the task is played, and each
-                goal is one of another client.
+            judge: called with each goal as it arrives, before it is answered, and the goal before it; None where the
+                task is played, and each goal is one of another client.
         """
         self._judge = judge
         self.goals: list[ServedGoal] = []
@@ -176,9 +185,10 @@ class ActionServers:
 
     def _begin(self, number: int, goal: ServedGoal) -> None:
         """Answer a goal, unless its server answers no client."""
+        last = self.goals[-1] if self.goals else None
         self.goals.append(goal)
         if self._judge is not None:
-            self._judge(goal)
+            self._judge(goal, last)
         if self._plant.network.answers(goal.server):
             if isinstance(goal.asked, MoveRequest):
                 goal.accepted = True
@@ -211,12 +221,14 @@ class ActionServers:
 
     def _cancel(self, number: int, end: int) -> None:
         goal = next((each for each in self.goals if each.end == end), None)
-        if goal is None or not self._plant.network.answers(goal.server):
+        if goal is None:
             return
         now_ns = self._plant.now_ns
         goal.cancel_ns = now_ns if goal.cancel_ns is None else goal.cancel_ns
+        if not self._plant.network.answers(goal.server):
+            return
         accepted = goal.is_open
-        if goal.sent is not None and accepted:
+        if goal.sent is not None and accepted and self._plant.network.answers(goal.controller):
             manager = self._plant.control.server_of(goal.controller)
             accepted = manager.cancel_goal(goal.sent.goal_id).return_code == _ACCEPTED
         self._bridge.answer(number, value=accepted or isinstance(goal.asked, MoveRequest))

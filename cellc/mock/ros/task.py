@@ -29,11 +29,19 @@ from cellc.mock.ros.conduct import Conduct
 from cellc.mock.ros.graph import Graph
 from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.ros.servers import SERVED, ActionServers, ServedGoal
-from cellc.mock.task.bounds import cancel_bound_s
+from cellc.mock.task.bounds import cancel_bound_s, grip_timeout_s
 from cellc.mock.task.context import Attempt, AttemptError, TaskContext, current_state
-from cellc.mock.task.execute import RESPONSE_S, held_since, look_for_motion, note_result, require_success
+from cellc.mock.task.execute import (
+    RESPONSE_S,
+    SentGoal,
+    held_since,
+    look_for_motion,
+    note_result,
+    require_active,
+    require_success,
+)
 from cellc.mock.task.grip import require_arrival, require_part
-from cellc.mock.task.move import state_since
+from cellc.mock.task.move import move_timeout_s, state_since
 from cellc.mock.task.task import EXECUTED, Steps
 
 IDLE_S = 30.0
@@ -71,6 +79,10 @@ def can_be_left_out(contract: Contract, node: str) -> bool:
 def not_followed(steps: tuple[StepEntry, ...]) -> str:
     """Say which step of a rehearsal cannot be followed from outside; nothing where each can."""
     return next((step.title for step in steps if step.kind in _NOT_FOLLOWED), "")
+
+
+class OverdueError(AttemptError):
+    """A goal has no result within its bound, where its client has to cancel it."""
 
 
 class TaskUnderTest:
@@ -132,10 +144,8 @@ class TaskUnderTest:
             graph.look()
         for goal in () if self._servers is None else self._servers.open_goals():
             kind = "grip" if goal.is_grip else "move"
-            asked = goal.sent is not None and plant.task.requests.is_cancel_asked(kind)
-            if asked and kind not in self._told:
-                self._told.add(kind)
-                self._ask(f"{self._full}/cancel")
+            if goal.sent is not None and plant.task.requests.is_cancel_asked(kind):
+                self._ask_to_cancel(kind)
         if self._timing.pace is None and self._offered:
             self._settle()
         self._arrivals.hear_all()
@@ -147,6 +157,11 @@ class TaskUnderTest:
         if problem:
             text = f"`{self._full}` has handled no message for {self._timing.patience_s:g} s of the host: {problem}"
             self._judgment.note(Violation.BLOCKED, self._full, text)
+
+    def _ask_to_cancel(self, kind: str) -> None:
+        if kind not in self._told:
+            self._told.add(kind)
+            self._ask(f"{self._full}/cancel")
 
     def _ask(self, service: str) -> None:
         """Call a service of the node by which people tell it something."""
@@ -174,7 +189,7 @@ class TaskUnderTest:
         try:
             yield from step_of(context, attempt, step)
         except AttemptError as failure:
-            if failure.outcome in _TO_STOP:
+            if failure.outcome in _TO_STOP or isinstance(failure, OverdueError):
                 yield from self._see_it_stop(context, attempt, failure)
             if failure.outcome is AttemptOutcome.CANCELED:
                 conduct.canceled_ns = context.now_ns
@@ -211,6 +226,8 @@ class TaskUnderTest:
         """Follow goals until the arm is where the step has it."""
         _, conduct = self._bound()
         conduct.rely(context, step.target)
+        if step.target in context.contract.goals:
+            yield from conduct.locate(context, attempt, step.target)  # where this fails, a node sends no goal
         away = ""
         while True:
             try:
@@ -283,15 +300,29 @@ class TaskUnderTest:
                     if not accepted:
                         accepted = True
                         self._note_accepted(context, attempt, goal)
-                    look_ns = look_for_motion(context, goal.sent)
-                if goal.sent is not None and requests.is_cancel_asked(kind):
-                    raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as requested")
+                    if requests.is_cancel_asked(kind):
+                        self._ask_to_cancel(kind)
+                        raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as requested")
+                    look_ns = min(look_for_motion(context, goal.sent), self._result_due_ns(context, goal, goal.sent))
                 yield from context.pause(look_ns, servers.changed, requests.changed)
         finally:
             if goal.sent is not None:
                 note_result(context, attempt, goal.sent)
             requests.withdraw_cancel(kind)
+            self._told.discard(kind)
         yield from self._require_success(context, goal)
+
+    def _result_due_ns(self, context: TaskContext, goal: ServedGoal, sent: SentGoal) -> int:
+        """Return when the result of a goal must be there.
+
+        Raises:
+            AttemptError: it is overdue.
+        """
+        timeout_s = _timeout_s(context, goal)
+        due_ns = require_active(context, [sent], sent.sent_ns + round(timeout_s * 1e9))
+        if context.now_ns >= due_ns:
+            raise OverdueError(AttemptOutcome.TIMEOUT, f"no result from {goal.controller} within {timeout_s:g} s")
+        return due_ns
 
     def _note_accepted(self, context: TaskContext, attempt: Attempt, goal: ServedGoal) -> None:
         attempt.controller_name = goal.controller
@@ -305,6 +336,10 @@ class TaskUnderTest:
             raise goal.failure
         if goal.status is GoalStatus.CANCELED:
             yield from context.rest(_REACTION_S)  # what the node saw first, the watchdogs see by then
+            timeout_s = _timeout_s(context, goal)
+            if goal.sent is not None and context.now_ns >= goal.sent.sent_ns + round(timeout_s * 1e9):
+                text = f"`{self._full}` canceled its goal of `{goal.action}` after {timeout_s:g} s"
+                raise AttemptError(AttemptOutcome.TIMEOUT, text)
             raise AttemptError(
                 AttemptOutcome.CANCELED, f"`{self._full}` canceled its goal of `{goal.action}` by itself"
             )
@@ -337,6 +372,14 @@ class TaskUnderTest:
             )
             kind = Violation.CANCEL_IGNORED if asked else Violation.NOT_STOPPED
             self._judgment.note(kind, goal.action, text + failure.fault_code)
+
+
+def _timeout_s(context: TaskContext, goal: ServedGoal) -> float:
+    """Return the bound of a goal from acceptance to result."""
+    if goal.is_grip:
+        return grip_timeout_s(context.contract, goal.controller)
+    duration_ns = 0 if goal.trajectory is None else goal.trajectory.duration_ns
+    return move_timeout_s(context, goal.controller, duration_ns * 1e-9)
 
 
 def _target(facts: ContractGripper, *, closes: bool) -> float:

@@ -156,7 +156,6 @@ def execute_together(
     sent: list[SentGoal] = []
     try:
         for controller, goal in goals.items():
-            context.deactivated_ns.pop(controller, None)
             goal_id = yield from _send(context, attempt, controller, goal)
             sent.append(SentGoal(controller, goal_id, joints_of(context.plant, controller), context.now_ns))
             context.node.actions.note_started(controller)
@@ -220,15 +219,28 @@ def _results(context: TaskContext, kind: str, sent: Sequence[SentGoal], timeout_
         names = " and ".join(goal.controller for goal in waiting)
         if context.now_ns >= until_ns:
             raise AttemptError(AttemptOutcome.TIMEOUT, f"no result from {names} within {timeout_s:g} s")
-        lost = [
-            context.deactivated_ns[goal.controller] for goal in waiting if goal.controller in context.deactivated_ns
-        ]
-        given_up_ns = min((lost_ns + RESULT_GRACE_NS for lost_ns in lost), default=until_ns)
-        if context.now_ns >= given_up_ns:
-            raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{names} was deactivated while its goal was executing")
+        given_up_ns = require_active(context, waiting, until_ns)
         look_ns = min(look_for_motion(context, goal) for goal in waiting)
         signals = (context.node.requests.changed, context.node.actions.changed)
         yield from context.pause(min(until_ns, given_up_ns, look_ns), *signals)
+
+
+def require_active(context: TaskContext, goals: Sequence[SentGoal], until_ns: int) -> int:
+    """Return until when the results of goals may come: sooner than ``until_ns`` where a controller was deactivated.
+
+    Raises:
+        AttemptError: a result of a deactivated controller is overdue.
+    """
+    lost = {
+        goal.controller: lost_ns + RESULT_GRACE_NS
+        for goal in goals
+        if (lost_ns := context.deactivated_ns.get(goal.controller)) is not None and lost_ns >= goal.sent_ns
+    }
+    given_up_ns = min(lost.values(), default=until_ns)
+    if context.now_ns >= given_up_ns and lost:
+        names = " and ".join(goal.controller for goal in goals)
+        raise AttemptError(AttemptOutcome.WRONG_OWNER, f"{names} was deactivated while its goal was executing")
+    return min(given_up_ns, until_ns)
 
 
 def look_for_motion(context: TaskContext, goal: SentGoal) -> int:

@@ -278,7 +278,7 @@ def _drive(
             raise AttemptError(AttemptOutcome.GOAL_REJECTION, f"no controller moves group {group}")
         context.retreats.pop(group, None)
         goals[controller] = trajectory_goal(motion.trajectory)
-        timeout_s = max(timeout_s, _timeout_s(context, controller, motion.trajectory.duration_ns * 1e-9))
+        timeout_s = max(timeout_s, move_timeout_s(context, controller, motion.trajectory.duration_ns * 1e-9))
     context.acting_on = observed_frame
     for ended in (yield from execute_together(context, attempt, "move", goals, timeout_s)):
         require_success(ended, context)
@@ -315,6 +315,7 @@ def trajectory_goal(trajectory: TimedTrajectory) -> TrajectoryGoal:
     )
 
 
-def _timeout_s(context: TaskContext, controller: str, duration_s: float) -> float:
+def move_timeout_s(context: TaskContext, controller: str, duration_s: float) -> float:
+    """Return the bound of a motion from acceptance to result: the stated one, or some more than it should take."""
     stated_s = goal_timeout_s(context.contract, controller)
     return 2.0 * duration_s + MARGIN_S if stated_s is None else stated_s

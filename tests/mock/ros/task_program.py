@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from cellc.contract.transforms import Pose
 
 MAX_STATE_AGE_S, MAX_OBSERVATION_AGE_S = 0.1, 0.2
-TIMEOUT_S = 90.0
+MOVE_TIMEOUT_S, GRIP_TIMEOUT_S = 90.0, 10.0
 SUCCEEDED = 4
 
 
@@ -93,6 +93,8 @@ class Program:
     def __init__(self, view: View, contract: Mapping[str, Any], steps: Sequence[Mapping[str, Any]], wrong: str) -> None:
         self.view, self.contract, self.steps, self.wrong = view, contract, steps, wrong
         self.band: Mapping[str, Any] | None = None
+        self.looks = False
+        """What is done now rests on where the part was seen: from the move to it until the fingers have it."""
         self.early: Seen | None = None
         """Where the part was seen first while the arm was moving."""
 
@@ -139,7 +141,8 @@ class Program:
                 joints = self.contract["groups"][pose["group"]]["joints"]
                 scale = 57.29577951308232 if self.wrong == "degrees" else 1.0
                 positions = {joint: scale * at for joint, at in zip(joints, pose["positions"], strict=True)}
-                yield from self.end_of(self.view.move_joints(pose["group"], positions), looks=False)
+                self.looks = False
+                yield from self.end_of(self.view.move_joints(pose["group"], positions))
             return
         goal = self.contract["goals"][target]
         group = self.contract["groups"][goal["group"]]
@@ -151,30 +154,37 @@ class Program:
             raise StoppedError("what was seen is too old")
         else:
             seen = self.early if self.wrong == "latest" and self.early is not None else self.view.observed
+            until_ns = self.view.now_ns + 500_000_000
             while not self.view.is_known(seen.frame, seen.stamp_ns) and self.wrong != "latest":
+                if self.view.now_ns > until_ns:
+                    raise StoppedError("no transforms")
                 yield
             frame = self.view.in_world(seen.frame, 0 if self.wrong == "latest" else seen.stamp_ns)
             at = (seen.pose if self.wrong == "frame" else frame @ seen.pose) @ place
         root = self.contract["root_frame"]
-        yield from self.end_of(self.view.move_tip(goal["group"], group["tip_frame"], root, at), looks=moving)
+        self.looks = moving
+        yield from self.end_of(self.view.move_tip(goal["group"], group["tip_frame"], root, at))
 
     def grip(self, step: Mapping[str, Any]) -> Iterator[None]:
         facts = self.contract["devices"][step["target"]]["gripper"]
         closes = step.get("command", "close") == "close"
         self.band = None
-        yield from self.end_of(self.view.grip(facts["joint"], facts["closed" if closes else "open"]), looks=False)
+        sent = self.view.grip(facts["joint"], facts["closed" if closes else "open"])
+        yield from self.end_of(sent, timeout_s=GRIP_TIMEOUT_S)
         part = self.contract["frames"].get(step.get("part") or "", {}).get("grasp") or {}
         self.band = (part.get("bands") or {}).get(step["target"]) if closes else None
+        self.looks = self.looks and not closes
         if not self.holds() and self.wrong != "no_look":
             raise StoppedError("the fingers are elsewhere")
 
-    def end_of(self, sent: Sent, *, looks: bool) -> Iterator[None]:
+    def end_of(self, sent: Sent, timeout_s: float = MOVE_TIMEOUT_S) -> Iterator[None]:
         """Wait for the end of a goal, and cancel it where the cell is no longer known, or somebody asks for it."""
-        until_ns = self.view.now_ns + round(TIMEOUT_S * 1e9)
+        began_ns = self.view.now_ns
+        until_ns = began_ns + round(timeout_s * 1e9)
         while sent.status is None:
-            if self.view.now_ns > until_ns - round((TIMEOUT_S - 0.5) * 1e9):
+            if self.view.now_ns > began_ns + 500_000_000:
                 self.early = self.early or self.view.observed
-            lost = not self.knows_state() or (looks and not self.is_fresh()) or not self.holds()
+            lost = not self.knows_state() or (self.looks and not self.is_fresh()) or not self.holds()
             if self.wrong == "no_look":
                 lost = False
             asked = self.view.canceled and self.wrong != "deaf"
