@@ -114,9 +114,7 @@ class ActionServers:
         changed: fires when a goal begins, is canceled or ends.
     """
 
-    def __init__(
-        self, plant: Plant, graph: Graph, bridge: Bridge, judge: Judge | None = None
-    ) -> None:
+    def __init__(self, plant: Plant, graph: Graph, bridge: Bridge, judge: Judge | None = None) -> None:
         """Bind the servers of the contract's actions; nothing is offered yet.
 
         Args:
@@ -279,7 +277,7 @@ class ActionServers:
         try:
             motion = self._planned(asked)
         except NotPlannedError as error:
-            goal.failure = AttemptError(AttemptOutcome.PLANNING_FAILURE, error.why)
+            goal.failure = AttemptError(error.outcome, error.why)
             self._end_move(goal, GoalStatus.ABORTED, error.code, error.why)
             return
         goal.trajectory = motion.trajectory
@@ -302,7 +300,7 @@ class ActionServers:
         try:
             positions = current_state(plant).positions
         except AttemptError as stale:
-            raise NotPlannedError(_PLANNING_FAILED, stale.fault_code) from None
+            raise NotPlannedError(_PLANNING_FAILED, stale.fault_code, stale.outcome) from None
         goal = _goal(plant, request.group_name, request.goal_constraints[0])
         answer = plant.planner.plan(request.group_name, positions, goal, None)
         if isinstance(answer, PlanFailure):
@@ -311,11 +309,11 @@ class ActionServers:
 
 
 class NotPlannedError(CellcError):
-    """Says why there is no plan, with its code."""
+    """Says why there is no plan, with its code, and how the attempt ends."""
 
-    def __init__(self, code: int, why: str) -> None:
+    def __init__(self, code: int, why: str, outcome: AttemptOutcome = AttemptOutcome.PLANNING_FAILURE) -> None:
         super().__init__(why)
-        self.code, self.why = code, why
+        self.code, self.why, self.outcome = code, why, outcome
 
 
 def _is_of(event: TrajectoryEnded | GripperEnded | TrajectoryFeedback, goal: ServedGoal) -> bool:

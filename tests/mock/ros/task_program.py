@@ -169,6 +169,7 @@ class Program:
         facts = self.contract["devices"][step["target"]]["gripper"]
         closes = step.get("command", "close") == "close"
         self.band = None
+        self.looks = self.looks and self.wrong != "blind_grip"
         sent = self.view.grip(facts["joint"], facts["closed" if closes else "open"])
         yield from self.end_of(sent, timeout_s=GRIP_TIMEOUT_S)
         part = self.contract["frames"].get(step.get("part") or "", {}).get("grasp") or {}
@@ -188,7 +189,7 @@ class Program:
             if self.wrong == "no_look":
                 lost = False
             asked = self.view.canceled and self.wrong != "deaf"
-            if lost or asked or self.view.now_ns > until_ns:
+            if lost or asked or (self.view.now_ns > until_ns and self.wrong != "endless"):
                 sent.cancel()
                 while sent.status is None:
                     yield
