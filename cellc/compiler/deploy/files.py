@@ -44,6 +44,9 @@ NETWORK_CHECKLIST = "gates/network.md"
 SOURCES = "sources.repos"
 """Repositories of what no distribution releases, as vcstool reads them."""
 
+AMONG_MOCK = "launch/among_mock.launch.xml"
+"""Starts nodes of the spec beside a cell that the mock plays."""
+
 SCENE = "sim/scene.xml"
 """The cell for a simulator of contacts and torques."""
 

@@ -8,7 +8,8 @@ from cellc.compiler.cell.cell import Cell
 from cellc.compiler.cell.control import ControllerManager
 from cellc.compiler.cell.device import Device
 from cellc.compiler.cell.hardware import OfferedInterface
-from cellc.compiler.cell.interface import Node
+from cellc.compiler.cell.interface import Node, NodeSource
+from cellc.compiler.deploy.files import is_planner, is_servo
 from cellc.compiler.link.frames import ROBOT_STATE_PUBLISHER
 from cellc.compiler.link.nodes import DESCRIPTION_PUBLISHER, description_home
 from cellc.contract.bring_up import BringUp
@@ -42,6 +43,12 @@ def _node(cell: Cell, manager: ControllerManager) -> str:
     if len(cell.managers) > 1:
         return f"{description_home(manager)}/{DESCRIPTION_PUBLISHER}"
     return f"/{ROBOT_STATE_PUBLISHER}"
+
+
+def beside_mock(cell: Cell) -> tuple[Node, ...]:
+    """Return the nodes that may run beside a mock: those that the spec names, but no planner and no bridge."""
+    named = (node for node in cell.nodes if node.source is NodeSource.SPEC and not node.is_bridge)
+    return tuple(node for node in named if not is_planner(node) and not is_servo(cell, node))
 
 
 def asks_for_motion(cell: Cell, node: Node) -> bool:

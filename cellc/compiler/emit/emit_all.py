@@ -24,7 +24,7 @@ from cellc.compiler.emit import (
 )
 from cellc.compiler.emit.audit import audit
 from cellc.compiler.emit.contract import contract
-from cellc.compiler.emit.launch import launch
+from cellc.compiler.emit.launch import among_mock, launch
 from cellc.compiler.emit.middleware import middleware
 from cellc.compiler.emit.security import policy
 from cellc.compiler.graph.cell_graph import CellGraph
@@ -39,6 +39,7 @@ EMITTERS: tuple[Callable[[CellGraph, Deployment], Iterator[Artifact]], ...] = (
     parameters.emit,
     frames.emit,
     launch.emit,
+    among_mock.emit,
     contract.emit,
     rehearsals.emit,
     middleware.emit,

@@ -18,6 +18,7 @@ from cellc.compiler.deploy.bringup import phases
 from cellc.compiler.deploy.configuration import OpenQuestion
 from cellc.compiler.deploy.deployment import Deployment
 from cellc.compiler.deploy.files import (
+    AMONG_MOCK,
     COMMISSIONING,
     FIRST_GOAL_PROGRAM,
     NETWORK_CHECKLIST,
@@ -36,6 +37,7 @@ from cellc.compiler.deploy.first_goal import programs
 from cellc.compiler.deploy.gate_states import stop_tests
 from cellc.compiler.deploy.gates import Gate
 from cellc.compiler.deploy.labels import real_driver
+from cellc.compiler.deploy.processes import beside_mock
 from cellc.compiler.deploy.releases import start_mock
 from cellc.compiler.formats.escape import code, markdown, markdown_comment
 from cellc.compiler.formats.parameter_file import spec_path
@@ -71,6 +73,7 @@ _FILES = (
     ("launch/activate.launch.xml", "activates hardware that moves on activation; a person authorizes it"),
     ("launch/claim.launch.xml", "activates the controllers that claim joints on real hardware; a person authorizes it"),
     (_GOAL, "sends small goals for one joint on real hardware; a person authorizes it"),
+    (AMONG_MOCK, "starts nodes of the spec beside a cell that `cellc mock --ros` plays; they reach no robot"),
     ("config/bring_up.json", "steps of the bring-up, each with its proof, its request and its required effect"),
     ("scripts/bring_up", "the program that runs these steps"),
     (OBSERVE_PROGRAM, "compares the running graph with the package, read-only"),
@@ -251,6 +254,8 @@ def _present(cell: Cell, plan: Deployment, name: str) -> bool:
         return bool(cell.hosts)
     if name in (REQUIRED_PROGRAM, FIRST_GOAL_PROGRAM, WATCH_PROGRAM, _GOAL):
         return (FIRST_GOAL_PROGRAM if name == _GOAL else name) in programs(cell)
+    if name == AMONG_MOCK:
+        return bool(beside_mock(cell))
     if name == SOURCES:
         return bool(unreleased(cell))
     phase = _RELEASED.get(name)

@@ -176,3 +176,7 @@ class ReplayOptions(FolderOptions):
     journal: str | None = None
     records: str | None = None
     among: AmongNodes | None = None
+
+    def others(self) -> tuple[str, ...]:
+        """Return the options that a run must have to be made again."""
+        return () if self.among is None else self.among.words()

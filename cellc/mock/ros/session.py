@@ -49,6 +49,8 @@ _AGAIN_S = 1.0
 _MEET_S = 2.0
 """Of the host: how long nodes under test may take to find each other, which only they themselves see: a pose that is
 published before the task has found the perception is lost, and half of the runs of a loaded host ended so."""
+DOMAIN_OF_LAUNCH = "CELLC_MOCK_DOMAIN"
+"""By which `launch/among_mock.launch.xml` of a package knows the domain."""
 _looked_at: set[int] = set()
 """Domains on which this process has played."""
 _LOOK_S = 0.1
@@ -207,7 +209,8 @@ def _words(command: str) -> list[str]:
 def _environment(asked: AmongNodes) -> dict[str, str]:
     """Return the environment of the bridge and of the nodes: a domain of their own, on this host alone."""
     alone = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "ROS_LOCALHOST_ONLY": "1"}
-    return {**os.environ, "ROS_DOMAIN_ID": str(asked.domain), **alone}
+    domain = str(asked.domain)
+    return {**os.environ, "ROS_DOMAIN_ID": domain, DOMAIN_OF_LAUNCH: domain, **alone}
 
 
 def _require_distro(bridge: Bridge, contract: Contract) -> None:

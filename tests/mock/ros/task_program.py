@@ -156,7 +156,7 @@ class Program:
             seen = self.early if self.wrong == "latest" and self.early is not None else self.view.observed
             until_ns = self.view.now_ns + 500_000_000
             while not self.view.is_known(seen.frame, seen.stamp_ns) and self.wrong != "latest":
-                if self.view.now_ns > until_ns:
+                if self.view.now_ns > until_ns or not self.knows_state():
                     raise StoppedError("no transforms")
                 yield
             frame = self.view.in_world(seen.frame, 0 if self.wrong == "latest" else seen.stamp_ns)

@@ -80,7 +80,7 @@ def _file(header: Header, path: str, actions: Iterator[Element] | list[Element])
 
 def _released(cell: Cell, release: Release, phase: BringUpPhase, devices: tuple[str, ...]) -> Iterator[Element]:
     """Yield what a person releases: all of a phase, or of several devices the one that the word names."""
-    yield _argument(release.argument, None, release.about, *(release.word_for(name) for name in devices or ("",)))
+    yield argument(release.argument, None, release.about, *(release.word_for(name) for name in devices or ("",)))
     yield comment(
         "proves preconditions, sends the request once, checks the effect and ends; run it on one computer only"
     )
@@ -161,11 +161,11 @@ def _moving(cell: Cell, plan: Deployment) -> Iterator[Element]:
 
 def _sending(cell: Cell, goals: tuple[FirstGoal, ...]) -> Iterator[Element]:
     """Yield the first goals of the real target, behind the proof of everything that may ask for motion."""
-    yield _argument(GOAL.argument, None, GOAL.about, *dict.fromkeys(GOAL.word_for(goal.release) for goal in goals))
-    yield _argument("joint", None, "Joint to move.", *dict.fromkeys(name for goal in goals for name in goal.moves))
+    yield argument(GOAL.argument, None, GOAL.about, *dict.fromkeys(GOAL.word_for(goal.release) for goal in goals))
+    yield argument("joint", None, "Joint to move.", *dict.fromkeys(name for goal in goals for name in goal.moves))
     about = "end: move to both sides and back. cancel: move to one side, cancel halfway and move back."
-    yield _argument("then", "end", about, "end", "cancel")
-    yield _argument("evidence", ".", "Folder for the result, the samples and the plot of command, state and error.")
+    yield argument("then", "end", about, "end", "cancel")
+    yield argument("evidence", ".", "Folder for the result, the samples and the plot of command, state and error.")
     yield comment("small motions of one joint from its current position; no motion client may run")
     for goal in goals:
         yield element(
@@ -200,26 +200,26 @@ def _limit(value: float | None) -> str:
 def _target_argument(cell: Cell) -> Element:
     """Return the choice between the mock, the simulator and real hardware."""
     if not is_asked(cell):
-        return _argument("target", "mock", "Hardware that the interfaces reach: mock or real.", "mock", "real")
+        return argument("target", "mock", "Hardware that the interfaces reach: mock or real.", "mock", "real")
     text = "Hardware that the interfaces reach: mock, sim or real. In sim MuJoCo moves everything and nothing is real."
-    return _argument("target", "mock", text, "mock", SIM, "real")
+    return argument("target", "mock", text, "mock", SIM, "real")
 
 
 def _headless_argument(cell: Cell) -> Iterator[Element]:
     """Yield the choice of whether the simulator opens a window."""
     if is_asked(cell):
-        yield _argument(HEADLESS, "false", "Whether the simulator runs without a window.", "false", "true")
+        yield argument(HEADLESS, "false", "Whether the simulator runs without a window.", "false", "true")
 
 
 def _release_argument(cell: Cell, release: Release) -> Element:
     """Return the argument with which a person releases something; alone it releases nothing."""
     where = "on the mock or in sim" if is_asked(cell) else "on the mock"
-    return _argument(release.argument, _NOT_YET, f"{release.about} Not needed {where}.", _NOT_YET, release.word)
+    return argument(release.argument, _NOT_YET, f"{release.about} Not needed {where}.", _NOT_YET, release.word)
 
 
 def _gate_argument(release: Release) -> Element:
     """Return the same argument as a gate demands it: without a default, and with its only accepted word."""
-    return _argument(release.argument, None, release.about, release.word)
+    return argument(release.argument, None, release.about, release.word)
 
 
 def _stage_argument(cell: Cell) -> Iterator[Element]:
@@ -227,20 +227,20 @@ def _stage_argument(cell: Cell) -> Iterator[Element]:
     if choices := tuple(stage_files(cell)):
         first, last = choices[0], choices[-1]
         text = f"Stage of commissioning in percent: {first} on real hardware if not stated, {last} on the mock."
-        on_real = _argument(STAGE, first, text, *choices)
+        on_real = argument(STAGE, first, text, *choices)
         on_real.set("if", ON_REAL)
-        yield from (on_real, _argument(STAGE, last, text, *choices))  # what is set has no default any more
+        yield from (on_real, argument(STAGE, last, text, *choices))  # what is set has no default any more
 
 
 def _host_argument(hosts: tuple[str, ...]) -> Element:
     """Return the choice of the computer on which this is launched."""
     text = "The computer of this launch. Only the mock runs the whole cell on one computer."
-    return _argument("host", _EVERYWHERE, text, _EVERYWHERE, *hosts)
+    return argument("host", _EVERYWHERE, text, _EVERYWHERE, *hosts)
 
 
 def _stated_host_argument(hosts: tuple[str, ...]) -> Element:
     """Return the same argument as the gate before real hardware demands it."""
-    return _argument("host", None, "The computer of this launch: each reaches its own hardware.", *hosts)
+    return argument("host", None, "The computer of this launch: each reaches its own hardware.", *hosts)
 
 
 def _address_arguments(cell: Cell, host: str | None) -> Iterator[Element]:
@@ -248,7 +248,7 @@ def _address_arguments(cell: Cell, host: str | None) -> Iterator[Element]:
     for name, address in addresses(cell, host).items():
         device = name.removesuffix("_address")
         text = f"Address of device {device}, fixed by the URDF. To change it, change the spec and build."
-        yield _argument(name, address, text, address)
+        yield argument(name, address, text, address)
 
 
 def addresses(cell: Cell, host: str | None) -> dict[str, str]:
@@ -261,7 +261,8 @@ def addresses(cell: Cell, host: str | None) -> dict[str, str]:
     }
 
 
-def _argument(name: str, default: str | None, description: str, *choices: str) -> Element:
+def argument(name: str, default: str | None, description: str, *choices: str) -> Element:
+    """Return ``<arg>``; one without a default must be given."""
     stated = {} if default is None else {"default": launch_text(default)}
     attributes = {"name": launch_text(name), **stated, "description": launch_text(description)}
     return element("arg", attributes, [element("choice", {"value": launch_text(choice)}) for choice in choices])

@@ -148,13 +148,13 @@ def robot_state_publisher(cell: Cell, node: Node) -> Element:
 
 def cell_node(cell: Cell, node: Node) -> Element:
     """Return a node that the spec names."""
-    return element("node", identity(cell, node), _parameters(cell, node))
+    return element("node", identity(cell, node), parameters(cell, node))
 
 
 def driver_node(cell: Cell, node: Node) -> Element:
     """Return a node of a device's driver; one for real hardware alone stays away from the mock."""
     condition = {"if": ON_REAL} if node.real_only else {}
-    return element("node", identity(cell, node) | condition, _parameters(cell, node))
+    return element("node", identity(cell, node) | condition, parameters(cell, node))
 
 
 def host_program(program: HostProgram) -> Element:
@@ -167,10 +167,11 @@ def host_program(program: HostProgram) -> Element:
 def moving_node(cell: Cell, node: Node, hosts: tuple[str, ...], prefix: str) -> Element:
     """Return a node that asks for motion, behind a prefix that waits until everything is ready for it."""
     place = {"if": on_host(node.host)} if hosts else {}
-    return element("node", identity(cell, node) | {"launch-prefix": prefix} | place, _parameters(cell, node))
+    return element("node", identity(cell, node) | {"launch-prefix": prefix} | place, parameters(cell, node))
 
 
-def _parameters(cell: Cell, node: Node) -> Iterator[Element]:
+def parameters(cell: Cell, node: Node) -> Iterator[Element]:
+    """Yield the parameters and remaps of a node; what is given last counts."""
     if plans(cell) and (is_planner(node) or is_servo(cell, node)):
         yield _description(cell)
         semantic = f"$(command 'cat {share(cell, semantic_file(cell))}')"
