@@ -1,4 +1,4 @@
-"""Nodes of the spec beside a cell that is played: on the mock's domain and this host, and only those that are asked for."""
+"""Nodes of the spec beside a cell that is played: on its domain and this host, and only those that are asked for."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def test_what_is_started_reaches_no_robot(cell: str) -> None:
     }
     tags = [each.tag for each in launch]
     assert max(at for at, tag in enumerate(tags) if tag == "set_env") < tags.index("node")
-    assert {tag for tag in tags} == {"arg", "set_env", "set_parameter", "node"}
+    assert set(tags) == {"arg", "set_env", "set_parameter", "node"}
 
 
 @pytest.mark.parametrize("cell", [cell for cell in EVERY_CELL if _FILE in built(cell).texts])
