@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from cellc.contract.contract import ContractPoseTarget
 from cellc.contract.transforms import Pose
-from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GripperGoal, TrajectoryGoal
 from cellc.mock.engine.process import Waiting
 from cellc.mock.nodes.motion_planner import GoalPose
@@ -77,13 +76,7 @@ class Conduct:
         entry = context.contract.goals.get(target)
         if entry is None:
             return
-        try:
-            located = yield from self.locate(context, attempt, target)
-        except AttemptError as stale:
-            if stale.outcome is AttemptOutcome.STALE_STATE:
-                text = f"`{self._full}` sent a goal to `{goal.action}`: {stale.fault_code}"
-                self._note(Violation.COMMANDED_ON_STALE_STATE, goal, text)
-            raise
+        located = yield from self.locate(context, attempt, target)
         self._expected = located.tip_in_base
         self._check_reach(entry.group, goal, located.approach, target)
 
