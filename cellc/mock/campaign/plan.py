@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from cellc.contract.attempt import PacketStep
 from cellc.contract.frozen import dataclass
@@ -54,6 +55,10 @@ class CampaignRun:
     def undisturbed(cls, entry: RehearsalEntry) -> CampaignRun:
         """Return the run of a rehearsal as it is, which has to succeed."""
         return cls(entry.name, (), entry, (AttemptOutcome.SUCCEEDED,), None)
+
+    def within(self, within_s: float) -> CampaignRun:
+        """Return the same run with another bound."""
+        return replace(self, entry=self.entry.model_copy(update={"within_s": within_s}), within_s=within_s)
 
     @property
     def identifier(self) -> str:

@@ -156,13 +156,15 @@ def _executor_among(asked: AmongNodes, fan: Fan) -> tuple[ExecutorFactory | None
 
 
 def _seen(cell: MockCell, runs: Sequence[CampaignRun], asked: AmongNodes | None) -> Sequence[CampaignRun]:
-    """Return the runs with a fault that the nodes under test can see; all runs where every node is played."""
+    """Return the runs with a fault that the nodes under test can see, with time for them to react; else all runs."""
     if asked is None:
         return runs
     from cellc.mock.ros.session import concerns
+    from cellc.mock.ros.task import REACTION_S
 
     contract, without = cell.contract, asked.without
-    return [run for run in runs if any(concerns(contract, without, fault) for fault in run.entry.faults)]
+    seen = [run for run in runs if any(concerns(contract, without, fault) for fault in run.entry.faults)]
+    return [run if run.within_s is None else run.within(run.within_s + REACTION_S) for run in seen]
 
 
 def _found(cell: MockCell, plan: CampaignPlan, identifier: str) -> CampaignRun:

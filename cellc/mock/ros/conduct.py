@@ -7,16 +7,18 @@ from collections.abc import Iterator
 
 from cellc.contract.contract import ContractPoseTarget
 from cellc.contract.transforms import Pose
+from cellc.contract.vocabulary import AttemptOutcome
 from cellc.mock.control import GripperGoal, TrajectoryGoal
 from cellc.mock.engine.process import Waiting
-from cellc.mock.nodes.motion_planner import GoalPose
 from cellc.mock.plant import Plant
 from cellc.mock.ros.judgment import Judgment, Violation
 from cellc.mock.ros.requests import Asked
 from cellc.mock.ros.servers import NotPlannedError, ServedGoal, tip_in_base
 from cellc.mock.task.context import Attempt, AttemptError, TaskContext, current_state
-from cellc.mock.task.move import ARRIVAL_TOLERANCE, dynamic_ancestor, locate_goal
+from cellc.mock.task.move import ARRIVAL_TOLERANCE, TF_TIMEOUT_S, dynamic_ancestor, locate_goal
+from cellc.mock.task.starved import starved_transform
 from cellc.mock.task.task import is_waiting
+from cellc.mock.tf.buffer import Transform
 
 DISTANCE_M = 2e-3
 """How far a tip may be from where the contract has a goal: transforms are interpolated between their stamps."""
@@ -38,6 +40,8 @@ class Conduct:
         self._plant, self._full, self._judgment = plant, full, judgment
         self._expected: Pose | None = None
         """Where the tip must be at the end of the present step, in the base of its group."""
+        self._unknown_ns: int | None = None
+        """Since when a transform is missing that a goal rests on."""
 
     def judge(self, goal: ServedGoal, last: ServedGoal | None) -> None:
         """Note what may not be sent at all in the present state of the cell.
@@ -64,7 +68,7 @@ class Conduct:
     def rely(self, context: TaskContext, target: str) -> None:
         """Let a step rest on the observation that its target needs, which must keep arriving."""
         entry = context.contract.goals.get(target)
-        self._expected = None
+        self._expected = self._unknown_ns = None
         context.acting_on = None if entry is None else dynamic_ancestor(context.contract, entry.frame)
 
     def examine(self, context: TaskContext, attempt: Attempt, target: str, goal: ServedGoal) -> Waiting[None]:
@@ -76,24 +80,37 @@ class Conduct:
         entry = context.contract.goals.get(target)
         if entry is None:
             return
-        located = yield from self.locate(context, attempt, target)
-        self._expected = located.tip_in_base
-        self._check_reach(entry.group, goal, located.approach, target)
-
-    def locate(self, context: TaskContext, attempt: Attempt, target: str) -> Waiting[GoalPose]:
-        """Look where a goal of the contract is, as a task does before it sends one.
-
-        Raises:
-            AttemptError: what it rests on is stale, or not known.
-        """
-        frame = dynamic_ancestor(context.contract, context.contract.goals[target].frame)
+        frame = dynamic_ancestor(context.contract, entry.frame)
         inbox = None if frame is None else context.node.observations.get(frame)
         if frame is not None and inbox is not None and inbox.newest is not None:
             context.observed[frame] = inbox.newest.stamp_ns
         state = current_state(context.plant)
         attempt.joint_state_age = state.age_s
-        located = yield from locate_goal(context, attempt, target, state.stamp_ns)
-        return located.goal
+        located = (yield from locate_goal(context, attempt, target, state.stamp_ns)).goal
+        self._expected = located.tip_in_base
+        self._check_reach(entry.group, goal, located.approach, target)
+
+    def require_known(self, context: TaskContext, target: str) -> None:
+        """Look whether a task can know where a goal is that rests on an observation.
+
+        Raises:
+            AttemptError: no transform of what was seen has come for as long as a task waits for one.
+        """
+        entry = context.contract.goals.get(target)
+        frame = None if entry is None else dynamic_ancestor(context.contract, entry.frame)
+        inbox = None if frame is None else context.node.observations.get(frame)
+        if entry is None or inbox is None or inbox.newest is None:
+            return
+        context.plant.robot_state_publisher.catch_up(context.now_ns)
+        base = context.contract.groups[entry.group].base_link
+        found = context.node.buffer.lookup(base, entry.frame, inbox.newest.stamp_ns)
+        if isinstance(found, Transform):
+            self._unknown_ns = None
+            return
+        since_ns = self._unknown_ns = context.now_ns if self._unknown_ns is None else self._unknown_ns
+        if context.now_ns - since_ns >= round(TF_TIMEOUT_S * 1e9):
+            why = starved_transform(context.plant, base, entry.frame)
+            raise AttemptError(AttemptOutcome.TF_FAILURE, f"{found.text}; {why}" if why else found.text)
 
     def away(self, now_ns: int, target: str) -> str:
         """Say how far the arm is from the target of a step; nothing where it is there."""

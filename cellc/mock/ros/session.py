@@ -138,8 +138,8 @@ def concerns(contract: Contract, without: Collection[str], fault: FaultEntry) ->
     interface = contract.interfaces.get(cameras.get(fault.target, fault.target))
     ends = () if interface is None else (*interface.sources, *interface.sinks)
     task = task_node(contract)
-    if task in without and fault.kind not in _NOT_ON_THE_GRAPH:
-        return True
+    if task in without:
+        return fault.kind not in _NOT_ON_THE_GRAPH
     observers = set(without) - {task}
     seen = fault.target in contract.frames or fault.kind is FaultKind.JUMP_CLOCK
     return any(end.node in observers for end in ends) or (bool(observers) and seen)

@@ -46,7 +46,7 @@ from cellc.mock.task.task import EXECUTED, Steps
 
 IDLE_S = 30.0
 """Of the run: how long a node may take to send the goal of a step."""
-_REACTION_S = 0.1
+REACTION_S = 0.1
 """Of the run: how long a node may take to ask for a cancel; the joints must stand still within the bound after that."""
 _QUIET_NS = 1_000_000_000
 """Of the run: how long a node is watched after the end."""
@@ -211,23 +211,24 @@ class TaskUnderTest:
         Raises:
             AttemptError: none comes in time, or the cell stops.
         """
-        servers, _ = self._bound()
+        servers, conduct = self._bound()
         until_ns = context.now_ns + round(IDLE_S * 1e9)
         while self._seen >= len(servers.goals):
             if context.now_ns >= until_ns:
                 text = f"`{self._full}` has sent no goal for {IDLE_S:g} s; `{step.title}` is next"
                 raise AttemptError(AttemptOutcome.TIMEOUT, text)
+            look_ns = until_ns
             if step.kind is StepKind.MOVE:
                 current_state(context.plant)
-            yield from context.pause(until_ns, servers.changed)
+                conduct.require_known(context, step.target)  # where nothing is known, a node sends no goal
+                look_ns = context.now_ns + _LOOK_NS
+            yield from context.pause(look_ns, servers.changed)
         return servers.goals[self._seen]
 
     def _move(self, context: TaskContext, attempt: Attempt, step: StepEntry) -> Waiting[None]:
         """Follow goals until the arm is where the step has it."""
         _, conduct = self._bound()
         conduct.rely(context, step.target)
-        if step.target in context.contract.goals:
-            yield from conduct.locate(context, attempt, step.target)  # where this fails, a node sends no goal
         away = ""
         while True:
             try:
@@ -335,7 +336,7 @@ class TaskUnderTest:
         if goal.failure is not None:
             raise goal.failure
         if goal.status is GoalStatus.CANCELED:
-            yield from context.rest(_REACTION_S)  # what the node saw first, the watchdogs see by then
+            yield from context.rest(REACTION_S)  # what the node saw first, the watchdogs see by then
             timeout_s = _timeout_s(context, goal)
             if goal.sent is not None and context.now_ns >= goal.sent.sent_ns + round(timeout_s * 1e9):
                 text = f"`{self._full}` canceled its goal of `{goal.action}` after {timeout_s:g} s"
@@ -356,7 +357,7 @@ class TaskUnderTest:
         goals = servers.open_goals()
         if not goals:
             return
-        until_ns = since_ns + round((_REACTION_S + cancel_bound_s(context.contract)) * 1e9)
+        until_ns = since_ns + round((REACTION_S + cancel_bound_s(context.contract)) * 1e9)
         held_ns: int | None = None
         while (held_ns is None or any(goal.is_open for goal in goals)) and plant.now_ns < until_ns:
             yield Wait(min(until_ns, plant.now_ns + _LOOK_NS), (plant.control.changed, servers.changed))
