@@ -64,6 +64,7 @@ class Launch:
     processes: list[Process] = field(default_factory=list)
     commands: list[Command] = field(default_factory=list)
     of_all: dict[str, tuple[str, str]] = field(default_factory=dict)
+    environment: dict[str, str] = field(default_factory=dict)
     descriptions: dict[str, str] = field(default_factory=dict)
 
     def run(self, path: str) -> Launch:
@@ -87,6 +88,7 @@ class Launch:
             "node": self._node,
             "executable": self._executable,
             "set_parameter": self._set_parameter,
+            "set_env": self._set_environment,
         }
         if action.tag not in known:
             raise LaunchError(f"unknown action <{action.tag}>")
@@ -202,6 +204,12 @@ class Launch:
         if set(action.attrib) - {"name", "value", "if", "unless"}:
             raise LaunchError(f"<set_parameter> has unknown {sorted(action.attrib)}")
         self.of_all[self._text(action.attrib["name"])] = (self._text(action.attrib["value"]), "")
+
+    def _set_environment(self, action: Element) -> None:
+        """Set a variable for every process that follows: ``SetEnvironmentVariable`` of launch."""
+        if set(action.attrib) - {"name", "value", "if", "unless"}:
+            raise LaunchError(f"<set_env> has unknown {sorted(action.attrib)}")
+        self.environment[self._text(action.attrib["name"])] = self._text(action.attrib["value"])
 
     def _executable(self, action: Element) -> None:
         if unknown := set(action.attrib) - _EXECUTABLE | {child.tag for child in action}:

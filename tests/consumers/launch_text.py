@@ -82,6 +82,9 @@ def _value(name: str, arguments: list[str], world: World) -> str:
     if name == "find-pkg-prefix":
         (package,) = arguments
         return f"/prefix/{package}"
+    if name == "env":  # of a shell that has nothing set
+        _, default = arguments
+        return default
     if name == "command":
         return world.run(arguments[0])
     if name == "eval":

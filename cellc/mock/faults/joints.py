@@ -213,9 +213,15 @@ def _displacement(contract: Contract, joint: str) -> float:
     return min(MOST, SHARE_OF_RANGE * (limits.upper - limits.lower))
 
 
+_SCALED = (Behavior.SCALED_JOINT_TRAJECTORY, Behavior.JOINT_TRAJECTORY)
+
+
 def _scaled(bounds: Bounds, device: str, step: CellStep) -> Ending:
-    """A controller that follows the scaling stops; where the arm is already at its goal, that is tolerated."""
+    """A controller that follows the scaling stops; where the arm is already at its goal, that is tolerated.
+
+    The upstream plugin follows it by a parameter from Kilted on, which is no part of the contract.
+    """
     used = [facts for name, facts in controllers(bounds.contract).items() if name in step.controllers]
-    if not any(facts.device == device and facts.behavior is Behavior.SCALED_JOINT_TRAJECTORY for facts in used):
+    if not any(facts.device == device and facts.behavior in _SCALED for facts in used):
         return BORNE
     return ends_in(AttemptOutcome.TIMEOUT, AttemptOutcome.SUCCEEDED, within_s=bounds.execution_s(step))
