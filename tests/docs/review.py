@@ -70,14 +70,16 @@ says of the same thing is left out; why it counts is not. Lines that are too lon
 whole has no room, values that are alike are one line, then causes that are not dangerous are. Why a change is
 dangerous, whose consumers it breaks and how nodes find each other always stand there. Two lines that exchanged their
 values say so.
-To know what a line causes, cellc builds the cell with that line alone, or with all but that line. Lines
+To know what a line causes, cellc builds the cell with that line alone, or with all but that line; what only several
+lines cause together is listed under one of them. Lines
 that cannot stand alone, such as a device and its controllers, are listed together; so are those of one part of the spec
 where there are many. Folders have no spec: their changes are listed by area, and names that changed are found in the
 contract. In a pull request the action annotates what is new, and what fails (`cellc check --format github --against
 REVISION`), and draws both states of each cell that changed in one page (`cellc view SPEC --against REVISION`).
 
-Of a device with another model the heading has reach, payload, stroke and force before and after, how far its shapes
-get from the mount, and what its links weigh in the description, of a camera range, view and resolution. Joints and
+Of a device with another model the heading has reach, payload, stroke, largest and least force before and after, how
+many shapes it has, how far they get from the mount, and what its links weigh in the description, of a camera range,
+view and resolution. Of a new device it has what there is of these. Joints and
 links that one model alone has are one change. What the spec states for the model before and was left (the payload of
 the arm that carries it, frames on it, its mount, poses, the width of parts) is listed as left as it was.
 
@@ -141,7 +143,8 @@ that is gone: planning no longer avoids where it was. One that grew is graded `r
 size count together; it says how far it moved, which room is free now, and how far it is from what it touched. A box,
 also that of a shared area, says what it loses and gains on each side. One arm at a time is in
 a shared area: a larger one keeps arms apart in more room and is graded `review`, for what grants access must be set to
-the same box; one that loses room is dangerous. Of an area that is released to several arms, a larger one is dangerous.
+the same box, and the review names it; one that loses room is dangerous. Of an area that is released to several arms, a
+larger one is dangerous.
 
 An arm whose base is elsewhere in the root frame is dangerous, whatever moved it: its mount, or what carries it.
 

@@ -15,7 +15,7 @@ from cellc.tools.review.acts import causes_between
 from cellc.tools.review.causes import as_cause
 from cellc.tools.review.compare import reported
 from cellc.tools.review.facts import Facts
-from cellc.tools.review.grading import _decides
+from cellc.tools.review.grading import _decided_by
 from cellc.tools.review.groups import groups_of
 from cellc.tools.review.leaves import Delta, Leaf
 from cellc.tools.review.loads import unexplained_load
@@ -228,8 +228,8 @@ def _with_bound(facts: Facts, clock: str, seconds: float) -> Facts:
 
 def test_a_clock_counts_where_stamps_are_made_or_judged_on_it() -> None:
     facts = package_before("hybrid_sdk").facts  # joint states are made on control_pc, and may be 100 ms old
-    assert _decides("control_pc", facts)
-    assert not _decides("planner_pc", _with_bound(facts, "planner_pc", 0.005))
+    assert _decided_by("control_pc", facts) == {"/joint_states": 0.1}
+    assert not _decided_by("planner_pc", _with_bound(facts, "planner_pc", 0.005))
 
 
 def test_a_value_is_told_in_the_units_of_each_side() -> None:

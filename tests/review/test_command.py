@@ -96,7 +96,8 @@ def test_breaking_fails_only_where_a_consumer_outside_breaks() -> None:
     assert run("diff", "main..longer", SMALL, "--breaking").code == 0
     ran = run("diff", "main..renamed", SMALL, "--breaking")
     assert ran.code == 1
-    assert ran.out.splitlines()[0].endswith("; 1 may break consumers outside the cell")
+    assert ran.out.splitlines()[0].endswith("1 change;")
+    assert ran.out.splitlines()[1] == "  1 may break consumers outside the cell"
 
 
 @pytest.mark.usefixtures("_inside")

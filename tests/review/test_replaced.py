@@ -31,7 +31,7 @@ def test_a_larger_gripper_begins_with_stroke_force_and_length() -> None:
     at = next(number for number, line in enumerate(lines) if line.startswith("dangerous"))
     told = " ".join(line.strip() for line in lines[at:])
     # Robotiq instruction manuals of 2F-85 and 2F-140: stroke 85 and 140 mm, grip force up to 235 and 125 N.
-    assert "stroke 85 mm -> 140 mm (+64.7 %); grip force 235 N -> 125 N (-46.8 %); length from the mount" in told
+    assert "stroke 85 mm -> 140 mm (+64.7 %); grip force 235 N -> 125 N (-46.8 %); least grip force" in told
     assert told.index("stroke") < told.index("left as it was: devices.arm.payload {mass: 1.0 kg")
     for kept in ("frames.tcp.xyz 0 0 162 mm", "frames.object.grasp.width 77 mm", "devices.gripper.mount.xyz 0 0 11 mm"):
         assert kept in told

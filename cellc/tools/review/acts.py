@@ -161,8 +161,10 @@ def texts_of(edit: SpecEdit) -> tuple[str | None, str | None]:
         return None if was is None else shortened(was), None if now is None else shortened(now)
     if max(len(was), len(now)) > _LONGEST:
         same = next((at for at, (one, other) in enumerate(zip(was, now, strict=False)) if one != other), len(was))
-        start = was.rfind(" ", 0, max(same - _BESIDE, 0)) + 1
-        was, now = (f"...{text[start:]}" if start else text for text in (was, now))
+        is_list = was[:1] == now[:1] == "["
+        left_out, between = ("[..., ", ", ") if is_list else ("...", " ")
+        place = was.rfind(between, 0, max(same - _BESIDE, 0))
+        was, now = (text if place < 0 else f"{left_out}{text[place + len(between) :]}" for text in (was, now))
     return shortened(was), shortened(now)
 
 
@@ -232,7 +234,12 @@ def flow_of(child: Child) -> str:
 
 
 def shortened(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
+    """Return a text that a heading has room for: it is cut between entries of a list, else between words."""
+    if len(text) <= _LONGEST:
+        return text
+    start = text[: _LONGEST - len(", ...")]
+    items = start.rpartition(", ")[0]
+    return f"{items}, ..." if len(items) > _BESIDE else f"{start.rpartition(' ')[0] or start}..."
 
 
 def _flow(child: Child) -> str:

@@ -9,23 +9,31 @@ from cellc.contract.diagnostics.unsafe_text import escaped
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import ReviewChange
 from cellc.tools.review.compare import WHOLE
+from cellc.tools.review.counts import areas_of, quantities_of
 from cellc.tools.review.cutting import WIDTH, broken
-from cellc.tools.review.groups import NAME_OF, Group, areas_of, quantities_of, values_of
+from cellc.tools.review.groups import NAME_OF, Group, values_of
 from cellc.tools.review.replaced import PAIRS
 
 _LONG = 40
+_SUBJECTS = 3
+"""Subjects of a change that are all named."""
 _LINES = 3
 """Lines that a change may take that breaks no consumer."""
 
 
-def as_many_as_fit(head: str, items: Sequence[str], joint: str = ", ") -> str:
-    """Return as many items as a line has room for, none of them cut, with how many more there are."""
+def as_many_as_fit(head: str, items: Sequence[str], joint: str = ", ", counts: Sequence[int] = ()) -> str:
+    """Return as many items as a line has room for, the first at least and none of them cut, with how many more.
+
+    Args:
+        counts: for how many each item counts; one where it is empty.
+    """
+    each = counts or [1] * len(items)
     for kept in range(len(items), 0, -1):
-        more = f" and {len(items) - kept} more" if kept < len(items) else ""
+        more = f" and {sum(each[kept:])} more" if kept < len(items) else ""
         line = escaped(head + joint.join(items[:kept]) + more)
-        if len(line) <= WIDTH:
+        if len(line) <= WIDTH or kept == 1:
             return line
-    return f"{head}{len(items)}"
+    return head
 
 
 def fitting(line: str, changes: Sequence[ReviewChange], whole: Mapping[frozenset[str], str]) -> list[str]:
@@ -98,9 +106,12 @@ def _said(change: ReviewChange) -> str:
 
 def line_of(text: str, changes: Sequence[ReviewChange], whole: Mapping[frozenset[str], str]) -> str:
     subjects = [subject for change in changes for subject in change.subjects]
-    more = f" and {len(subjects) - 1} more" if len(subjects) > 1 else ""
     if changes[0].quantity in PAIRS:
         return as_many_as_fit(f"  {changes[0].area}  {count(len(subjects), 'pair')} {changes[0].quantity}: ", subjects)
     is_named = changes[0].quantity.startswith(NAME_OF) or subjects == [WHOLE]
-    named = whole.get(frozenset(subjects), f"{subjects[0]}{more}")
+    # What its reason names is not among those that are counted.
+    subjects.sort(key=lambda subject: f"`{subject}`" not in changes[0].why)
+    kept = len(subjects) if len(subjects) <= _SUBJECTS else 1
+    more = f" and {len(subjects) - kept} more" if len(subjects) > kept else ""
+    named = whole.get(frozenset(subjects), f"{', '.join(subjects[:kept])}{more}")
     return f"  {text}" if is_named else f"  {text}: {named}"

@@ -11,7 +11,7 @@ from cellc.compiler.pipeline import check_document
 from cellc.compiler.source.document import SourceDocument
 from cellc.contract.diagnostics import Severity, YamlPath
 from cellc.contract.review import ReviewCause, ReviewFinding, ReviewValue
-from cellc.contract.vocabulary import Grade
+from cellc.contract.vocabulary import Grade, ReviewArea
 from cellc.tools.review.acts import MEASURED, Cause, alike, described, is_model, shortened, texts_of
 from cellc.tools.review.change import Change
 from cellc.tools.review.compare import UNCLASSIFIED, reported
@@ -25,6 +25,7 @@ _Changes: TypeAlias = Mapping[tuple[str, str], Change]
 """Changes by subject and quantity."""
 
 
+_JOINT = "joint"
 Brought: TypeAlias = frozenset[tuple[str, str]]
 """What findings say that a cause brings."""
 
@@ -75,6 +76,8 @@ def attributed(
         (_cause_of(change, held_by, known, rest), change) for change, held_by, is_repeated in held if not is_repeated
     ]
     found = without_lines(found)
+    if not together:
+        found = _with_last(found, alone, before, after)
     if (
         not together
         and all(map(_has_facts, known))
@@ -95,6 +98,28 @@ def attributed(
         [(None if number is None else kept.index(number), change) for number, change in found],
         tuple(brought[number] for number in kept),
     )
+
+
+def _with_last(
+    found: Sequence[tuple[int | None, Change]], causes: Sequence[Cause], before: State, after: State
+) -> list[tuple[int | None, Change]]:
+    """Return changes with the cause without which they are not there, where no cause makes them by itself."""
+    keys = [_key(change) for number, change in found if number is None and _is_open(change)]
+    needed = dict[tuple[str, str], int]()
+    for number, cause in enumerate(causes if keys else ()):
+        document = with_edits(after.document, undone(cause), before.document)
+        without = package_of_document(document, before.errors | after.errors)
+        if without is not None:
+            left = _by_key(reported(before.facts, without.facts))
+            needed = {**{key: number for key in keys if key not in left}, **needed}
+    return [
+        (needed.get(_key(change)) if number is None and _is_open(change) else number, change)
+        for number, change in found
+    ]
+
+
+def _is_open(change: Change) -> bool:
+    return change.area is not ReviewArea.GATES and not _is_of_lines(change)
 
 
 def _leading_first(cause: Cause, changes: Sequence[Change]) -> Cause:
@@ -194,16 +219,20 @@ def _key(change: Change) -> tuple[str, str]:
     return change.subject, UNCLASSIFIED if _is_of_lines(change) else change.quantity
 
 
-def as_cause(cause: Cause) -> ReviewCause:
-    """Return a cause as a review lists it: its line, or the part of the spec that holds its lines."""
+def as_cause(cause: Cause, document: SourceDocument | None = None) -> ReviewCause:
+    """Return a cause as a review lists it: its line, or the part of the spec that holds its lines.
+
+    Args:
+        document: the spec whose entries of lists have names there: the joint of a first motion, the kind of a fault.
+    """
     first = cause[0]
     if len(cause) == 1:
         before, after = texts_of(first) if None not in (first.before, first.after) else described(first)
-        return ReviewCause(line=_dotted(first.path), before=before, after=after, place=str(first.place))
+        return ReviewCause(line=_dotted(first.path, document), before=before, after=after, place=str(first.place))
     common = _part_of(cause)
     values = tuple(
         ReviewValue(
-            line=_dotted(edit.path[len(common) if edit.path[: len(common)] == common else 0 :]),
+            line=_dotted(edit.path, document, len(common) if edit.path[: len(common)] == common else 0),
             before=was,
             after=now,
             place=str(edit.place),
@@ -212,7 +241,7 @@ def as_cause(cause: Cause) -> ReviewCause:
         for was, now in [texts_of(edit)]
     )
     return ReviewCause(
-        line=_dotted(common) or WHOLE_SPEC,
+        line=_dotted(common, document) or WHOLE_SPEC,
         after=shortened(", ".join(value.line for value in values)),
         place=str(first.place),
         lines=len(cause),
@@ -235,5 +264,18 @@ def _common(cause: Cause) -> YamlPath:
     return first[:length]
 
 
-def _dotted(path: YamlPath) -> str:
-    return ".".join(map(str, path))
+def _dotted(path: YamlPath, document: SourceDocument | None, start: int = 0) -> str:
+    parts = (
+        _entry(path[: at + 1], document) if isinstance(path[at], int) else path[at] for at in range(start, len(path))
+    )
+    return ".".join(map(str, parts))
+
+
+def _entry(path: YamlPath, document: SourceDocument | None) -> str:
+    """Return what an entry of a list is called: by its joint, else by its number from 1 with its first value."""
+    child = None if document is None else document.child(path)
+    inner = {} if child is None else child.node.children
+    if _JOINT in inner:
+        return inner[_JOINT].node.text
+    first = next((f" ({key} {each.node.text})" for key, each in inner.items()), "")
+    return f"{int(path[-1]) + 1}{first}"

@@ -16,9 +16,10 @@ from cellc.tools.review.effects import effects
 from cellc.tools.review.facts import OF_GATES, OF_SPEC, Facts
 from cellc.tools.review.geometry import place_difference
 from cellc.tools.review.grading import ELSEWHERE, grade
-from cellc.tools.review.joint_units import units_of
+from cellc.tools.review.joint_units import of_joints, unit_of_leaf, units_of
 from cellc.tools.review.leaves import Delta, Leaf, Path, as_json, differences, flatten, prefixes, same, words
 from cellc.tools.review.lines import Known, LinesLeft, lines_left
+from cellc.tools.review.loads import assumed_part
 from cellc.tools.review.programs import area_of_parameter
 from cellc.tools.review.reasons import as_held, owner_without_approval
 from cellc.tools.review.repeated import follows, is_covered, is_derived, is_stated, spelled
@@ -241,8 +242,8 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         and same(delta.before, delta.after, ordered=row.grade.ordered)
     ):
         return None
-    units = units_of(row.grade.unit or unit_in(delta.path[-1]), fit.subject, before, after)
-    figures = Figures(delta.before, delta.after, units, row.grade.share)
+    units = units_of(row.grade.unit or unit_of_leaf(delta.path, before, after), fit.subject, before, after)
+    figures = Figures(*of_joints(delta, before, after), units, row.grade.share)
     was, now, size = figures.texts()
     verdict = grade(row.grade.rule, delta, before, after)
     if delta.path[0] == "pair" and None in (delta.before, delta.after):
@@ -260,7 +261,7 @@ def change_of(delta: Delta, before: Facts, after: Facts) -> Change | None:
         or (
             _why(row, fit, after)
             if verdict.grade is Grade.DANGEROUS
-            else owner_without_approval([delta], (before, after))
+            else assumed_part(delta.path, after) or owner_without_approval([delta], (before, after))
         ),
         verdict.approval or ("safety" if is_stop_timing(row, delta.path, before.leaves) else None),
         row.grade.asks,

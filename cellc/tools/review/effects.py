@@ -61,8 +61,8 @@ def _of_measured(each: Measured) -> Change:
     unit, area = ("kg", ReviewArea.PAYLOAD) if each.quantity == MASS else ("m", ReviewArea.MODEL)
     is_whole = all(massive == shaped for massive, shaped in each.counted)
     was, now = (
-        f"{shown(value, unit)}{'' if is_whole else f' ({massive} of {count(shaped, _LINK)})'}"
-        for value, (massive, shaped) in zip((each.before, each.after), each.counted, strict=True)
+        None if value is None else f"{shown(value, unit)}{'' if is_whole else f' ({having} of {count(of, _LINK)})'}"
+        for value, (having, of) in zip((each.before, each.after), each.counted, strict=True)
     )
     delta = difference(each.before, each.after, unit) if is_whole else ""
     return Change(area, each.device, each.quantity, was, now, Grade.REVIEW, delta)

@@ -68,7 +68,9 @@ def explained(before: Package, after: Package) -> Explained:
         (
             *first,
             *(
-                as_cause(cause).model_copy(update={"kept": kept_beside(cause, was.document, now.document)})
+                as_cause(cause, now.document).model_copy(
+                    update={"kept": kept_beside(cause, was.document, now.document)}
+                )
                 for cause in causes
             ),
             *of_folders,

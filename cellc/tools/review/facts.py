@@ -30,6 +30,7 @@ from cellc.robot.description.urdf_reader import read_urdf
 from cellc.robot.description.xml_tree import XmlElement, read_xml
 from cellc.robot.description.yaml_values import load_values
 from cellc.tools.review.cameras import of_cameras, without_images
+from cellc.tools.review.faults import of_rehearsals
 from cellc.tools.review.graded import graded_values
 from cellc.tools.review.leaves import Leaf, Leaves, Path, Prose, as_json, flatten
 from cellc.tools.review.rights import COMMON, POLICY, of_checklist, rights
@@ -112,7 +113,7 @@ def facts_of(files: Mapping[str, str], cell: Cell | None = None, excused: Sequen
         _of_placements(contract, real),
         _of_description("real", real),
         flatten(as_json(mock.hardware), ("mock", "hardware")),
-        flatten(_dumped(_model(files, named.rehearsals, Rehearsals))["rehearsals"], ("rehearsals",)),
+        flatten(of_rehearsals(_model(files, named.rehearsals, Rehearsals), real), ("rehearsals",)),
         _of_bring_up(_model(files, named.bring_up, BringUp), contract),
         () if gates is None else (*of_checklist(files), *_of_gates(gates, contract.cell)),
         _of_middleware(files),
@@ -351,9 +352,8 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
         yield from flatten(_without_place(as_json(first)), path)
     if cell.bringup.caps is not None:
         yield from flatten(as_json(cell.bringup.caps), ("spec", "bringup", "commissioning"))
-    yield from flatten(as_json(cell.recording), ("spec", "recording"))
-    yield from flatten(as_json(cell.network), ("spec", "network"))
-    yield from flatten(as_json(cell.targets), ("spec", "targets"))
+    for section in ("recording", "network", "targets"):
+        yield from flatten(as_json(getattr(cell, section)), ("spec", section))
     yield from flatten(as_json({**cell.mock_plugins, **cell.mock_programs}), ("spec", "mock_statements"))
     for frame in cell.frames:
         yield from graded_values(frame, ("frame", frame.name))
@@ -365,12 +365,13 @@ def _of_spec(cell: Cell) -> Iterator[tuple[Path, Leaf]]:
             yield ("device", device.name, "host"), device.site.connection.host
             yield from flatten(device.site.connection.nic, ("device", device.name, "nic"))
         yield from flatten(as_json(device.robot.program), ("spec", "program", device.name))
+        least = None if device.gripper is None else device.gripper.min_force
+        yield from flatten(least, ("device", device.name, "min_force"))
     for name, host in cell.hosts.items():
         yield from flatten(_without_place(as_json(host)), ("spec", "hosts", name))
     for node in cell.nodes:
-        # The driver of a device runs where the device is connected.
-        told = _without_place(as_json(node if node.device is None else replace(node, host="")))
-        yield from flatten(told, ("spec", "nodes", node.full_name))
+        own = node if node.device is None else replace(node, host="")  # a driver runs where its device is connected
+        yield from flatten(_without_place(as_json(own)), ("spec", "nodes", node.full_name))
 
 
 def _of_stages(files: Mapping[str, str], contract: Contract) -> Iterator[tuple[Path, Leaf]]:

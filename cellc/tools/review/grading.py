@@ -20,6 +20,7 @@ from cellc.tools.review.measured import unmeasured
 from cellc.tools.review.rooms import is_part_of_scene, keeps_apart, obstacle_covers
 from cellc.tools.review.rules import approval_of
 from cellc.tools.review.tokens import tokens
+from cellc.tools.review.units import shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +69,7 @@ def _by_rule(rule: Rule, delta: Delta, before: Facts, after: Facts) -> Verdict:
         return _of_shapes(delta, before, after)
     if rule is Rule.APART:
         # A larger one keeps arms apart in more room, and stops none that is in it from leaving.
-        return Verdict(Grade.REVIEW, _APART) if keeps_apart(delta.path[1], before, after) else Verdict(Grade.DANGEROUS)
+        return _of_area(delta, before, after)
     if rule is Rule.COMPARED:
         return Verdict(_compared(delta, after))
     if rule is Rule.MEASURED:
@@ -286,26 +287,34 @@ def _of_model(delta: Delta, before: Facts, after: Facts) -> Verdict:
 
 def _of_clock(delta: Delta, before: Facts, after: Facts) -> Verdict:
     """A stamp that nothing is decided by may be further off."""
-    return Verdict(_looser(delta.before, delta.after) if _decides(delta.path[2], after) else Grade.REVIEW)
+    limited = _decided_by(delta.path[2], after)
+    if not limited or _looser(delta.before, delta.after) is not Grade.DANGEROUS:
+        return Verdict(Grade.REVIEW)
+    ages = [f"`{name}` to {shown(age, 's')}" for name, age in sorted(limited.items(), key=lambda item: item[1])]
+    more = f" and {len(ages) - _NAMED} more" if len(ages) > _NAMED else ""
+    told = f"its stamps may be further off, and ages are limited: of {', '.join(ages[:_NAMED])}{more}"
+    return Verdict(Grade.DANGEROUS, told)
 
 
+_NAMED = 2
+"""Topics that a reason names."""
 _OF_AGE = 0.1
 """Share of an age limit that the clock of who judges it may be off before it counts."""
 
 
-def _decides(clock: str, facts: Facts) -> bool:
-    """Tell whether stamps of limited age are made on a clock, or are judged on it while it may be far off."""
+def _decided_by(clock: str, facts: Facts) -> Mapping[str, float]:
+    """Return the age limits, in s, of topics whose stamps a clock makes, or judges while it may be far off."""
     of, clocks = facts.contract.clock_of, facts.contract.clocks
     bound = clocks[clock].max_offset_s if clock in clocks else None
-    for interface in facts.contract.interfaces.values():
+    limited = dict[str, float]()
+    for name, interface in facts.contract.interfaces.items():
         if interface.max_age_s is None:
             continue
-        if clock in (interface.time_source, *(of.get(end.node) for end in interface.sources)):
-            return True
+        is_made = clock in (interface.time_source, *(of.get(end.node) for end in interface.sources))
         is_judged = clock in {of.get(end.node) for end in interface.sinks}
-        if is_judged and (bound is None or bound > _OF_AGE * interface.max_age_s):
-            return True
-    return False
+        if is_made or (is_judged and (bound is None or bound > _OF_AGE * interface.max_age_s)):
+            limited[name] = interface.max_age_s
+    return limited
 
 
 _OF_BOTH_SIDES: Mapping[Rule, Callable[[Delta, Facts, Facts], Verdict]] = {
@@ -315,7 +324,18 @@ _OF_BOTH_SIDES: Mapping[Rule, Callable[[Delta, Facts, Facts], Verdict]] = {
     Rule.CLOCK: _of_clock,
 }
 
-_APART = "arms meet in no more room than before; what grants access must be set to the same area"
+
+def _of_area(delta: Delta, before: Facts, after: Facts) -> Verdict:
+    """A larger area keeps arms apart in more room, and stops none that is in it from leaving."""
+    area = delta.path[1]
+    granted_by = after.leaves.get(("area", area, "granted_by"))
+    granting = f"`{granted_by}`, which grants access, must be set to the same box" if granted_by else ""
+    if keeps_apart(area, before, after):
+        return Verdict(Grade.REVIEW, "; ".join(filter(None, ("arms meet in no more room than before", granting))))
+    is_box = delta.path[2] in ("transform_to_parent", "size") and granting
+    return Verdict(Grade.DANGEROUS, f"arms may meet where they were kept apart; {granting}" if is_box else "")
+
+
 ELSEWHERE = "the arm reaches where people at the cell do not expect it"
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from cellc.contract.diagnostics import Severity
@@ -16,12 +15,15 @@ from cellc.tools.review.grading import UNMEASURED
 from cellc.tools.review.headings import Deltas, Quote, farthest, is_act, moves_of, plain
 from cellc.tools.review.order import MANIFOLD, is_manifold, order_of
 from cellc.tools.review.ranks import Rank, rank_of
-from cellc.tools.review.replaced import LENGTH, MASS, PAIRS
+from cellc.tools.review.replaced import LENGTH, MASS, PAIRS, SHAPES
 from cellc.tools.review.titles import WHOLE_SPEC, leading_first, shortest_of, title_of, where_of
 
 _ASKED: Sequence[ApprovalArea] = ("safety", "vendor", "controller", "time_tf", "network", "graph", "data")
 _SEEN = tuple(f"{what} of {of}" for of in ("depth", "color") for what in ("range", "field of view", "resolution"))
-_VALUED = ("stroke", "grip force", "reach", "largest payload", *_SEEN, "rate of images", LENGTH, MASS)
+_VALUED = (
+    *("stroke", "grip force", "least grip force", "reach", "largest payload"),
+    *(*_SEEN, "rate of images", LENGTH, SHAPES, MASS),
+)
 """Quantities of a model: a heading has their values, before and after."""
 _PLACED = (
     "base in its parent",
@@ -172,10 +174,16 @@ class Group:
     def listed(self) -> tuple[ReviewChange, ...]:
         """The changes that neither the heading nor its figures say."""
         if self._is_act:
-            said = (*((_MODEL, *_VALUED) if self.is_model else ()), *_OF_MEASUREMENT, *_PLACED)
+            said = (*((_MODEL, *_VALUED) if self.is_model else self._valued), *_OF_MEASUREMENT, *_PLACED)
             return tuple(change for change in self.changes if not change.quantity.startswith(said))
-        told = (*((_MODEL, *_VALUED) if self.is_model else ()), *((_TIP,) if self.figures else ()))
+        told = (*((_MODEL, *_VALUED) if self.is_model else self._valued), *((_TIP,) if self.figures else ()))
         return tuple(change for change in self.changes if change.quantity not in told) or self.changes
+
+    @property
+    def _valued(self) -> Sequence[str]:
+        """Quantities of a device with another model, or of one that is new or gone, that its heading has."""
+        is_device = self.is_model or any(change.quantity in _EXCHANGED for change in self.changes)
+        return _VALUED if is_device and self.cause is not None else ()
 
     @property
     def _is_act(self) -> bool:
@@ -186,7 +194,7 @@ class Group:
         """How far the most telling of its quantities changed, where it has several changes."""
         if len(self.changes) < 2:
             return ()
-        valued = _VALUED if self.is_model else ()
+        valued = self._valued
         sized = [
             change
             for change in self.changes
@@ -217,6 +225,7 @@ _FOLLOWING = (
     "inertia",
     MASS,
     LENGTH,
+    SHAPES,
     *PAIRS,
 )
 """What only follows from another change, whose owner is asked."""
@@ -309,7 +318,8 @@ def _figure(change: ReviewChange, tips: Mapping[str, Sequence[str]]) -> str:
         more = f" and {len(names) - _SAID} more" if len(names) > _SAID else ""
         return f"tip in {', '.join(names[:_SAID])}{more} {change.delta}"
     if change.quantity in _VALUED:
-        return f"{change.quantity} {values_of(change)}"
+        is_one = None in (change.before, change.after)
+        return f"{change.quantity} {change.after or change.before if is_one else values_of(change)}"
     return f"{change.subjects[0]} {change.delta.partition('; ')[0]}"
 
 
@@ -371,29 +381,10 @@ def _rank(group: Group, *, is_far: bool, is_moved: bool) -> int:
     return rank if rank in (Rank.DEVICE, Rank.NOTE) or not is_manifold(group.changes[0]) else max(rank - MANIFOLD, 0)
 
 
+_EXCHANGED = ("device added", "device removed")
 _FAR_MM, _FAR_DEG = 1.0, 1.0
 """What moves by less is read with tolerances."""
 
 
 def _in_backticks(value: str) -> str:
     return value if "`" in value else f"`{value}`"
-
-
-def areas_of(changes: Sequence[ReviewChange]) -> str:
-    """Return how many changes each area has, the most first."""
-    counted = Counter(change.area.value for change in changes)
-    return ", ".join(f"{area} {number}" for area, number in counted.most_common())
-
-
-def quantities_of(changes: Sequence[ReviewChange]) -> str:
-    """Return how many changes each quantity has, the most first."""
-    counted = Counter(change.quantity for change in changes)
-    return ", ".join(f"{quantity}{f' {number}' if number > 1 else ''}" for quantity, number in counted.most_common())
-
-
-def grades_of(changes: Sequence[ReviewChange]) -> Iterator[str]:
-    """Yield how many changes have each grade, the worst first."""
-    for grade in reversed(Grade):
-        number = sum(change.grade is grade for change in changes)
-        if number:
-            yield f"{number} {grade}"

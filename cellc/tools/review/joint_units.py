@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Collection, Sequence
 
 from cellc.robot.description.model import Joint
 from cellc.tools.review.facts import Facts
+from cellc.tools.review.leaves import Delta, Leaf, Path, Prose
+from cellc.tools.review.units import unit_in
 
 _OF_JOINTS = {"effort": ("N", "N m"), "stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad")}
 """Units of what differs between joints that slide and joints that turn."""
@@ -22,6 +26,35 @@ def units_of(unit: str, names: Sequence[str], before: Facts, after: Facts) -> tu
         return unit, unit
     joints = [_joints(names, facts) for facts in (before, after)]
     return _unit(unit, joints[0] or joints[1]), _unit(unit, joints[1] or joints[0])
+
+
+def unit_of_leaf(path: Path, before: Facts, after: Facts) -> str:
+    """Return the unit of a value that its name ends in, or that a value beside it gives, as for a spread."""
+    beside = (*path[:-1], "unit")
+    known = [side.leaves[beside] for side in (after, before) if path[-1] == "spread" and beside in side.leaves]
+    return str(known[0]) if known else unit_in(path[-1])
+
+
+def of_joints(delta: Delta, before: Facts, after: Facts) -> tuple[Leaf | None, Leaf | None]:
+    """Return the values of a change; positions of a group with joints of both kinds as a text with both units."""
+    if delta.path[:2] != ("contract", "poses"):
+        return delta.before, delta.after
+    was, now = (_positions(leaf, delta.path[3], side) for leaf, side in ((delta.before, before), (delta.after, after)))
+    return was, now
+
+
+def _positions(leaf: Leaf | None, group: str, facts: Facts) -> Leaf | None:
+    types = {joint.name: joint.type for joint in facts.description.joints}
+    names = facts.contract.groups[group].joints if group in facts.contract.groups else ()
+    slides = [types.get(name) == "prismatic" for name in names]
+    if not isinstance(leaf, tuple) or len(leaf) != len(slides) or len({*slides}) < len((True, False)):
+        return leaf
+    told = list[str]()
+    for is_length, run in itertools.groupby(zip(leaf, slides, strict=True), key=lambda each: each[1]):
+        factor, unit = (1e3, "mm") if is_length else (math.degrees(1.0), "deg")
+        figures = [float(value) * factor for value, _ in run if isinstance(value, (int, float))]
+        told += [*(f"{round(figure, 6) + 0.0:.7g}" for figure in figures), unit]
+    return Prose(" ".join(told))
 
 
 def _unit(unit: str, joints: Collection[Joint]) -> str:

@@ -9,7 +9,7 @@ from cellc.robot.description.posture import posture
 from cellc.tools.review.carried import is_reaching
 from cellc.tools.review.facts import Facts
 from cellc.tools.review.geometry import moved_places
-from cellc.tools.review.leaves import Delta, Leaf, Prose
+from cellc.tools.review.leaves import Delta, Leaf, Path, Prose
 from cellc.tools.review.replaced import mass_of
 from cellc.tools.review.units import length, quantity_of, shown
 
@@ -49,6 +49,21 @@ def unexplained_load(delta: Delta, before: Facts, after: Facts) -> str | None:
 
 
 _SAME = "the arm carries the same devices"
+
+
+def assumed_part(path: Path, facts: Facts) -> str:
+    """Return where the mass comes from that a control law holds, where it is what a payload has beyond the tools."""
+    if path[:2] != ("contract", "devices") or path[3:] != ("law", "part", "mass_kg") or facts.cell is None:
+        return ""
+    device = next((each for each in facts.cell.devices if each.name == path[2]), None)
+    held = facts.leaves.get(path)
+    if device is None or device.robot.payload is None or not isinstance(held, float):
+        return ""
+    payload, tools = device.robot.payload.mass_kg, facts.cell.carried_mass_kg(device)
+    if abs(payload - tools - held) > _NOTICED:
+        return ""
+    told = f"what the payload of {shown(payload, 'kg')} has beyond tools of {shown(round(tools, 3), 'kg')}"
+    return f"no part states another: it is {told}"
 
 
 def _carried(device: str, facts: Facts) -> frozenset[tuple[str, str]]:

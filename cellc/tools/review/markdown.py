@@ -16,7 +16,8 @@ from cellc.contract.diagnostics.unsafe_text import harmless_line
 from cellc.contract.diagnostics.wording import count
 from cellc.contract.review import Review, ReviewChange, ReviewFinding
 from cellc.contract.vocabulary import Grade
-from cellc.tools.review.groups import Group, broken_by, grades_of, groups_of
+from cellc.tools.review.counts import grades_of
+from cellc.tools.review.groups import Group, broken_by, groups_of
 from cellc.tools.review.text import gate_line, outcomes, subjects_of, summed_up
 
 LONGEST = 65_000

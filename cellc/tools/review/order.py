@@ -15,8 +15,8 @@ _WEIGHTS = (
     (
         1,
         re.compile(
-            r"^approver |\breach|^base in|lower position|upper position|collision shapes (?!added)|^parent$|"
-            "pose in its parent"
+            r"^approver |^interface added|\breach|^base in|lower position|upper position|collision shapes (?!added)|"
+            "^parent$|pose in its parent"
         ),
     ),
     (2, re.compile(r"payload|\bload\b|grip force")),

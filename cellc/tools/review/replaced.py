@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -21,7 +22,7 @@ from cellc.tools.review.facts import Facts
 
 _FEW = 3
 _APART = re.compile(r"[\s/.,]+")
-MASS, LENGTH = "mass in the description", "length from the mount"
+MASS, LENGTH, SHAPES = "mass in the description", "length from the mount", "shapes"
 PAIRS = ("can now meet", "can no longer meet")
 """What is said of two links of which a collision is checked that was not, and in the other direction."""
 CLAIM, PARTS, INERTIA = "controller that claims it", "links and joints", "inertia of its links"
@@ -87,35 +88,51 @@ def _body(device: str, facts: Facts) -> tuple[frozenset[str], frozenset[str]]:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """What the links of a device with another model weigh in kg, or how far they reach in m.
+    """What the links of a device weigh in kg, how far they reach in m, or how many shapes of which kind they have.
 
     Attributes:
+        before: None of a device that is new.
+        after: None of a device that is gone.
         counted: of a mass, how many of its links have one on each side, and of how many with a shape.
     """
 
     device: str
     quantity: str
-    before: float
-    after: float
+    before: float | str | None
+    after: float | str | None
     counted: tuple[tuple[int, int], tuple[int, int]] = ((0, 0), (0, 0))
 
 
 def measured_of(before: Facts, after: Facts) -> Iterator[Measured]:
-    """Yield what the links of two models weigh, and of what is no arm how far they reach."""
-    for each in replaced(before, after):
-        sides = [(facts, _body(each.device, facts)[0]) for facts in (before, after)]
-        masses = [_mass(facts.description, links) for facts, links in sides]
-        lengths = [_length(facts, each.device, links) for facts, links in sides]
-        if all(masses) and abs(masses[0] - masses[1]) > _NOTICED:
-            counted = [_counted(facts.description, links) for facts, links in sides]
-            yield Measured(each.device, MASS, round(masses[0], 3), round(masses[1], 3), (counted[0], counted[1]))
-        is_tool = not is_reaching(before.contract, each.device)
-        if is_tool and all(lengths) and abs(lengths[0] - lengths[1]) > _NOTICED:
-            yield Measured(each.device, LENGTH, round(lengths[0], 4), round(lengths[1], 4))
+    """Yield what the links of devices weigh that have another model or that come or go; of what is no arm its size."""
+    devices = [each.device for each in replaced(before, after)]
+    for device in (*devices, *sorted(before.contract.devices.keys() ^ after.contract.devices.keys())):
+        there = [side for side in (before, after) if device in side.contract.devices]
+        links = [_body(device, side)[0] if side in there else frozenset[str]() for side in (before, after)]
+        sides = [*zip((before, after), links, strict=True)]
+        counted = [_counted(side.description, of) for side, of in sides]
+        was, now = (round(_mass(side.description, of), 3) or None for side, of in sides)
+        if was != now and (len(there) == 1 or None not in (was, now)):
+            yield Measured(device, MASS, was, now, (counted[0], counted[1]))
+        if any(is_reaching(side.contract, device) for side in there):
+            continue
+        was, now = (round(_length(side, device, of), 4) or None if of else None for side, of in sides)
+        if was != now and (len(there) == 1 or None not in (was, now)):
+            yield Measured(device, LENGTH, was, now)
+        shapes = [_shapes(side.description, of) for side, of in sides]
+        if shapes[0] != shapes[1]:
+            yield Measured(device, SHAPES, shapes[0], shapes[1])
 
 
-_NOTICED = 1e-4
-"""kg and m."""
+def _shapes(body: Description, links: Collection[str]) -> str | None:
+    """Return how many collision shapes of each kind links have; None of none."""
+    shapes = [shape for link in body.links if link.name in links for shape in link.collisions]
+    kinds = Counter(type(shape.geometry).__name__.lower() for shape in shapes)
+    told = (f"{number} {kind}{_PLURAL[kind] * (number > 1)}" for kind, number in sorted(kinds.items()))
+    return " and ".join(told) or None
+
+
+_PLURAL = {"box": "es", "mesh": "es", "cylinder": "s", "sphere": "s"}
 
 
 def mass_of(device: str, facts: Facts) -> float:

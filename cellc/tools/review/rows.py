@@ -93,6 +93,7 @@ _ALL: Sequence[Row] = (
         Graded(_A.CONTROL, "damping of the joint", Rule.DANGEROUS, "damping", why=_YIELDS),
     ),
     Row(f"{_LAW} joints {{joint}} ...", Graded(_A.CONTROL, "gain of the joint:", Rule.DANGEROUS, why=_YIELDS)),
+    Row(f"{_LAW} part mass_kg", Graded(_A.CONTROL, "mass that its control law holds")),
     Row(f"{_LAW} unaccounted", Graded(_A.PAYLOAD, "load that gravity compensation leaves out")),
     Row(f"{_LAW} ...", Graded(_A.CONTROL, "control law of the joints:")),
     Row(
@@ -246,6 +247,7 @@ _ALL: Sequence[Row] = (
     Row("middleware {host} {what}", Graded(_A.NETWORK, "variable")),
     Row("right {enclave} ...", Graded(_A.NETWORK, "right to", ordered=False)),
     Row("spec network ...", Graded(_A.NETWORK, "network")),
+    Row("device {device} min_force", Graded(_A.DEVICES, "least grip force", unit="N")),
     Row("device {device} nic", Graded(_A.NETWORK, "network card that it is connected to", asks=_VENDOR)),
     Row("device {device} host", Graded(_A.NETWORK, "computer that it is connected to", asks=_VENDOR)),
     Row("spec hosts {host} ...", Graded(_A.NETWORK, "host")),

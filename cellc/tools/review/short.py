@@ -22,6 +22,7 @@ from cellc.tools.review.text import STYLES, outcomes, summed_up
 MOST_LINES = 25
 _FEW = 4
 _NOTES = 2
+_SIDES = 2
 _UNBOUNDED = 10_000
 
 _Lines: TypeAlias = list[Line]
@@ -39,6 +40,8 @@ class _Folds(NamedTuple):
     """What several subjects are together, such as all joints of an arm."""
     reasons: bool
     """Whether each line of values has its reason; else the dangers of a cause have theirs together."""
+    every: bool = False
+    """Whether what is of a lower grade than its heading is listed, too; else it is counted."""
 
 
 def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
@@ -52,6 +55,7 @@ def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
         frozenset(joints): f"all joints of {device}" for device, joints in review.after.joints.items() if joints[1:]
     }
     for folds in (
+        _Folds(_FEW, titles=True, values=True, whole=whole, reasons=True, every=True),
         _Folds(_FEW, titles=True, values=True, whole=whole, reasons=True),
         _Folds(_FEW, titles=True, values=False, whole=whole, reasons=True),
         _Folds(_FEW, titles=True, values=False, whole=whole, reasons=False),
@@ -69,15 +73,21 @@ def render_short(review: Review, most: int = MOST_LINES) -> Iterator[Line]:
     yield from lines
 
 
+def _first(text: str) -> Sequence[str]:
+    """Return the first line, in two where it is too wide; the name of a side is never broken."""
+    counts, semicolon, more = text.partition("; ")
+    return [f"{counts};", f"  {more}"] if semicolon and len(text) > WIDTH else [text]
+
+
 def _headings(lines: _Lines) -> int:
     """Return how many causes that are dangerous have a heading."""
     return sum(_plain(line).startswith(f"{Grade.DANGEROUS.value}  ") for line in lines)
 
 
 def _rendered(review: Review, groups: Sequence[Group], most: int, folds: _Folds) -> _Lines:
-    head: _Lines = [summed_up(review), *_sides(review)]
-    if not folds.most_findings and len(one := escaped("; ".join(map(_plain, head[1:])))) <= WIDTH:
-        head = [head[0], one]
+    head: _Lines = [*_first(summed_up(review)), *_sides(review)]
+    if not folds.most_findings and len(one := escaped("; ".join(map(_plain, _sides(review))))) <= WIDTH:
+        head = [*head[:-_SIDES], one]
     head += [f"note: {note}" for note in review.notes[:_NOTES]]
     new, foot = [*_findings(review, folds.most_findings)], [*_foot(review)]
     broken_names = broken_by(review.changes)
@@ -112,9 +122,10 @@ def _findings(review: Review, most: int) -> Iterator[Line]:
     found = [each for each in review.new_findings if each.severity == Severity.ERROR]
     if not found:
         return
-    codes = [] if most else [f"{each.severity}[{each.code}]" for each in found]
+    codes = Counter(f"{each.severity}[{each.code}]" for each in found)
     head = f"new findings: {len(found)}"
-    yield (Styled(as_many_as_fit(f"{head}, ", [*dict.fromkeys(codes)]) if codes else head, Style.BOLD),)
+    told = head if most else as_many_as_fit(f"{head}, ", [*codes], counts=[*codes.values()])
+    yield (Styled(told, Style.BOLD),)
     yield from _first_findings(found, most) if most else ()
 
 
@@ -132,8 +143,9 @@ def _foot(review: Review) -> Iterator[Line]:
     yield from _first_findings(left, _NOTES)
     if review.gone_findings:
         codes = Counter(f"{each.severity}[{each.code}]" for each in review.gone_findings)
-        told = ", ".join(f"{code}{f' {number} times' if number > 1 else ''}" for code, number in codes.items())
-        yield as_many_as_fit(f"resolved findings: {len(review.gone_findings)}, ", told.split(", "))
+        told = [f"{code}{f' {number} times' if number > 1 else ''}" for code, number in codes.items()]
+        head = f"resolved findings: {len(review.gone_findings)}, "
+        yield as_many_as_fit(head, told, counts=[*codes.values()])
     differing = [each for each in review.rehearsals if each.before != each.after or each.passed_after is False]
     yield from (line for each in differing[:_FEW] for line in broken(f"rehearsal {outcomes(each)}", "  "))
     if len(differing) > _FEW:
@@ -253,8 +265,8 @@ def _inner(group: Group, most: int, folds: _Folds) -> Iterator[Line]:
     kept = broken(f"  {group.kept}", "    ")
     whole = must + len(figures) + len(kept) + len(asked) < most
     if kept:
-        figures += kept if whole else [as_many_as_fit("  ", group.kept.split("; "), "; ")]
-    worst = alike([change for change in changes if change.grade is group.grade or change.breaking])
+        figures += kept if whole else broken(as_many_as_fit("  ", group.kept.split("; "), "; "), "    ")
+    worst = _worst(changes, group, folds)
     others = len(changes) - sum(map(len, worst.values()))
     room = min(_FEW, most - must - len(figures) - len(asked) - (others > 0))
     listed = [*worst] if len(worst) <= room else [*worst][: max(room - (others == 0), 0)]
@@ -271,6 +283,13 @@ def _inner(group: Group, most: int, folds: _Folds) -> Iterator[Line]:
             break
     whole_lines = [*lead, *lines[:room], *reason, *_unsaid(group, [*lines, *reason])]
     yield from (*_with_asks(whole_lines, group, is_listed=is_listed), *asked)[: max(most, 0)]
+
+
+def _worst(changes: Sequence[ReviewChange], group: Group, folds: _Folds) -> dict[str, list[ReviewChange]]:
+    """Return the changes of the grade of a heading, and where there is room the others behind them, by their lines."""
+    worst = alike([change for change in changes if change.grade is group.grade or change.breaking])
+    lower = alike([change for change in changes if change.grade is not group.grade and not change.breaking])
+    return {**worst, **lower} if folds.every and worst.keys().isdisjoint(lower) else worst
 
 
 def _unsaid(group: Group, lines: _Lines) -> Sequence[str]:
