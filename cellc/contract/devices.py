@@ -31,7 +31,7 @@ class ContractGripper(ContractModel):
     )
     open: Coordinate = Field(description="Position when open.")
     closed: Coordinate = Field(description="Position when closed on nothing.")
-    max_effort: Annotated[Magnitude, Graded(ReviewArea.LIMITS, "grip force", Rule.LOOSER, "N", why=HARDER)] = Field(
+    max_effort: Annotated[Magnitude, Graded(ReviewArea.LIMITS, "grip force", Rule.FIGURE, "N", why=HARDER)] = Field(
         description="Largest effort, N or Nm."
     )
     max_velocity: Annotated[
@@ -185,7 +185,7 @@ class ContractAdapter(ContractModel):
     command_timeout_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "watchdog", Rule.LOOSER, why=LONGER)] = (
         Field(description="Watchdog: silence after which it stops.", gt=0.0)
     )
-    stop_time_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "time to stop", Rule.LOOSER, why=LONGER)] = (
+    stop_time_s: Annotated[PositiveSeconds, Graded(ReviewArea.CONTROL, "time to stop", Rule.FIGURE, why=LONGER)] = (
         Field(description="Longest time from a hold to standstill.", gt=0.0)
     )
     goal_time_s: Annotated[Seconds, Graded(ReviewArea.CONTROL, "time past the end", Rule.LOOSER, why=UNSEEN)] = Field(

@@ -109,6 +109,14 @@ _A_TENTH = 1.1
 
 def _looser(before: Leaf | None, after: Leaf | None) -> Grade:
     """Zero is no bound at all: ros2_control checks no tolerance and no time that is zero."""
+    is_bound, was_bound = after is not None and after != 0, before is not None and before != 0
+    if is_bound and not (was_bound and _greater(after, before)):
+        return Grade.SAFE
+    return _figure(before, after)
+
+
+def _figure(before: Leaf | None, after: Leaf | None) -> Grade:
+    """A lower one is no bound that holds by itself: the part may slip, the device may take longer all the same."""
     was_bound = before is not None and before != 0
     allowed = before * _SLIGHTLY if isinstance(before, (int, float)) else before
     loosened = after is None or after == 0 or _greater(after, allowed)
@@ -162,6 +170,7 @@ _GRADES = {
     Rule.MORE: _more,
     Rule.LESS: _less,
     Rule.LOOSER: _looser,
+    Rule.FIGURE: _figure,
     Rule.HEAVIER: _heavier,
     Rule.FEWER: _back,
     Rule.STRICTER: _stricter,
