@@ -28,6 +28,7 @@ class Rule(Enum):
     STRICTER = "safe where it is stated and allows less, else review"
     BACK = "dangerous where it is lower, else review"
     NAMED = "dangerous where it was stated and became UNKNOWN or vanished, else review"
+    RESTATED = "dangerous where it was stated before, else review"
     MATRIX = "dangerous where it became incompatible, safe where it became OK, else review"
     PLACED = "dangerous for the base of an arm, of an obstacle, and without a new calibration; else review"
     COVERED = "dangerous where it no longer takes up all the room that it took, else review"

@@ -134,7 +134,7 @@ def test_of_a_released_area_a_larger_one_is_dangerous(box: str, grade: Grade) ->
 def test_another_alternative_is_one_cause() -> None:
     found = review_of("ur5e_pick", ("{open: {person: integration, date: 2026-12-15}}", "{none: checked on site}"))
     assert _titles(found) == [
-        "dangerous surroundings.fittings: {open: {person: integration, date: 2026-12-15}} -> {none: checked on site}"
+        "review surroundings.fittings: {open: {person: integration, date: 2026-12-15}} -> {none: checked on site}"
     ]
 
 

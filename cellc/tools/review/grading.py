@@ -123,6 +123,10 @@ def _figure(before: Leaf | None, after: Leaf | None) -> Grade:
     return Grade.DANGEROUS if was_bound and loosened else Grade.REVIEW
 
 
+def _restated(before: Leaf | None, after: Leaf | None) -> Grade:
+    return Grade.REVIEW if before is None else Grade.DANGEROUS
+
+
 def _heavier(before: Leaf | None, after: Leaf | None) -> Grade:
     allowed = _A_TENTH * before if isinstance(before, (int, float)) else before
     return Grade.DANGEROUS if before is not None and _greater(after, allowed) else Grade.REVIEW
@@ -176,6 +180,7 @@ _GRADES = {
     Rule.STRICTER: _stricter,
     Rule.BACK: _back,
     Rule.NAMED: _named,
+    Rule.RESTATED: _restated,
     Rule.MATRIX: _matrix,
     Rule.CLAIM: _claim,
     Rule.LOST: _lost,

@@ -136,7 +136,7 @@ _ALL: Sequence[Row] = (
     Row("check tool_voltage {device} {what}", Graded(_A.SAFETY, "tool connector", Rule.DANGEROUS, why=_BURNS)),
     Row("spec program {device} mode", Graded(_A.SAFETY, "mode for the program", Rule.DANGEROUS, why=_STARTS)),
     Row("spec program {device} played_by", Graded(_A.SAFETY, "who starts the program", Rule.DANGEROUS, why=_STARTS)),
-    Row("spec surroundings {part} none", Graded(_A.SAFETY, "reason why there is nothing", Rule.DANGEROUS)),
+    Row("spec surroundings {part} none", Graded(_A.SAFETY, "reason why there is nothing", Rule.RESTATED)),
     Row("spec surroundings {part} open {what}", Graded(_A.SAFETY, "open question on the surroundings")),
     Row("spec surroundings {part} ...", Graded(_A.SAFETY, "what is stated around the arms", Rule.LOST, ordered=False)),
     # What a camera sees.
