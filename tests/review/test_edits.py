@@ -53,7 +53,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "review safety | cell | recovery observer | operator -> guard",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "
             "xyz 491.9 133.3 1113.9 mm, rpy 180 0 180 deg | moves 1 mm",
-            "review interfaces | /move_action | timeout | 90 s -> 45 s | -50 %",
+            "safe interfaces | /move_action | timeout | 90 s -> 45 s | -50 %",
             "review rehearsals | stale_camera | rehearsal removed | stale_state -> None",
             "review owners | limits | owner | controls -> robot",
             "review figures | recovery_time_s | target figure | 120 s -> 180 s | +50 %",
@@ -131,7 +131,7 @@ GROUPS: dict[str, tuple[tuple[Edit, ...], list[str]]] = {
             "dangerous control | arm_trajectory | time past the end | 1 s -> 2 s | +100 %",
             "review model | table | collision shapes | box 900 1200 40 mm -> box 900 1200 60 mm"
             " | gains 10 mm on each side in z",
-            f"review control | {OF_TRAJECTORY} | goal tolerance | 0.01 rad -> 0.005 rad | -50 %",
+            f"safe control | {OF_TRAJECTORY} | goal tolerance | 0.01 rad -> 0.005 rad | -50 %",
             "review motion | pick | approach | 0 0 -100 mm -> 0 0 -80 mm",
             "review motion | home manipulator | joint positions | 0 -90 90 -90 -90 0 deg -> 90 -90 90 -90 -90 0 deg",
             "review motion | manipulator in home | tip | xyz 491.9 133.3 1114.9 mm, rpy 180 0 180 deg -> "

@@ -189,11 +189,12 @@ def test_what_is_cut_says_how_much_is_left() -> None:
 
 
 def test_who_is_asked_is_never_cut_and_the_head_counts_as_every_other_form_does() -> None:
-    found = review_of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), ("cancel_within: 200", "cancel_within: 205"))
+    slower = ("cancel_within: 200", "cancel_within: 204"), ("cancel: 200 ms", "cancel: 204 ms")
+    found = review_of("ur5e_pick", ("exposure: 8 ms", "exposure: 12 ms"), *slower)
     lines = _lines(found)
-    assert lines[0].partition(": ")[2] == "2 causes (2 review), 4 changes"
+    assert lines[0].partition(": ")[2] == "2 causes (2 review), 5 changes"
     assert len([line for line in lines if line.startswith("review  ")]) == 2
-    assert len(found.changes) == 4
+    assert len(found.changes) == 5
     owners = "data: metrology and calibration"
     long = found.model_copy(
         update={
