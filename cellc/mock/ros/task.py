@@ -306,6 +306,8 @@ class TaskUnderTest:
                         raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as requested")
                     look_ns = min(look_for_motion(context, goal.sent), self._result_due_ns(context, goal, goal.sent))
                 yield from context.pause(look_ns, servers.changed, requests.changed)
+            if kind in self._told:  # it ended while the node was asked: nothing follows all the same
+                raise AttemptError(AttemptOutcome.CANCELED, f"the {kind} was canceled as requested")
         finally:
             if goal.sent is not None:
                 note_result(context, attempt, goal.sent)
