@@ -151,7 +151,7 @@ An arm whose base is elsewhere in the root frame is dangerous, whatever moved it
 A step of the bring-up is what it does: one of another name is the same step. One that only compares versions, as a
 further computer takes it, is graded `review`.
 
-A named pose or a goal that is edited is graded `review`, however far the tip moves: motion to it is planned again around
+A named pose or a goal that is edited is graded `review`, however far the tip moves: motion to it is planned around
 what the cell knows. A bound that allows less, of a tolerance, a timeout or an age, is safe.
 
 How far tips move in each named pose, and goals in the root frame, is computed by
