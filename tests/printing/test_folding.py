@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from cellc.contract.diagnostics.wording import aligned
@@ -50,9 +50,10 @@ def test_a_style_goes_on_with_its_text() -> None:
     assert lines == ["\x1b[1;31merror\x1b[0m\x1b[1m: one\x1b[0m", "  \x1b[1mtwo three\x1b[0m"]
 
 
-@given(st.lists(st.text(alphabet="ab`漢é -.1", max_size=12), max_size=12), st.integers(40, 120))
+@given(st.lists(st.text(alphabet="ab:`漢é -.1", max_size=12), max_size=12), st.integers(40, 120))
 def test_no_line_is_wider_unless_it_is_one_word_and_nothing_is_lost(words: list[str], wide: int) -> None:
     text = " ".join(words)
+    assume("::" not in text)  # a word of two colons stays where it is, above
     lines = _folded(text, wide=wide)
     assert "".join("".join(lines).split()) == "".join("".join(_folded(text, wide=0)).split())
     for line in lines:
